@@ -82,12 +82,10 @@ static void format_seconds(double t, char *buf, size_t size) {
 /* A bound is rounded up. */
 static void format_error(const accuracy_row *row, char *buf, size_t size) {
     const double e = (double)row->error;
-    if (row->below) {
-        const double place = pow(10, floor(log10(e)));
-        snprintf(buf, size, "<%.0e", ceil(e / place * (1 - 1e-9)) * place);
-    } else {
+    if (row->below)
+        snprintf(buf, size, "<%.0e", round_up(e));
+    else
         snprintf(buf, size, "%.1e", e);
-    }
 }
 
 /* The first of the springs that err by 1e-6 at most, or the best. */

@@ -66,10 +66,8 @@ const char *figure_word(size_t i) {
 }
 
 const figure *figure_find(const char *name, size_t len) {
-    for (size_t i = 0; i < FIGURES; i++)
-        if (strlen(figures[i].name) == len && !memcmp(figures[i].name, name, len))
-            return &figures[i];
-    return NULL;
+    size_t i;
+    return word_among(figure_name, name, len, &i) ? &figures[i] : NULL;
 }
 
 const grammar *figure_form(size_t i) {

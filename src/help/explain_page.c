@@ -99,12 +99,6 @@ static bool is_extrapolated(const quantity *q, bool call) {
     return false;
 }
 
-/* Rounded up to one digit. */
-static double round_up(double v) {
-    const double place = pow(10, floor(log10(v)));
-    return ceil(v / place * (1 - 1e-9)) * place;
-}
-
 /* The value of e where a run of the load stands. */
 static bool value_on(const page *p, const expr *e, const runner *run, value *v) {
     const instant now = {.run = run};

@@ -444,11 +444,10 @@ const char *help_where(const char *word) {
 /* Is it a word of what the row takes, of a clause or of a table? */
 static bool has_word(const grammar *f, const char *word) {
     const clause *known = grammar_clause(f, word);
-    const char *name;
+    size_t row;
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        for (size_t i = 0; a->holes && a->hole[0].row->words && (name = a->hole[0].row->words(i)); i++)
-            if (!strcmp(name, word))
-                return true;
+        if (a->holes && a->hole[0].row->words && word_among(a->hole[0].row->words, word, strlen(word), &row))
+            return true;
     return known && !known->argument;
 }
 

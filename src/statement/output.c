@@ -86,6 +86,11 @@ void print_number(FILE *to, int width, int digits, double v) {
     fwrite(text, 1, n, to);
 }
 
+double round_up(double v) {
+    const double place = pow(10, floor(log10(v)));
+    return ceil(v / place * (1 - 1e-9)) * place;
+}
+
 void print_safe(FILE *to, const char *text, size_t len) {
     char shown[CHARACTER_SHOWN];
     for (size_t i = 0, plain = 0; i < len; plain = 0) {

@@ -9,6 +9,14 @@
 
 /* ---- what has been said ------------------------------------------------------------------------ */
 
+/* Bytes up to a blank: names with hyphens are several tokens to the lexer. */
+static size_t word_at(const lexer *lx) {
+    size_t end = lx->at;
+    while (end < lx->end && !strchr(" \t\n\r", lx->text[end]))
+        end++;
+    return end - lx->at;
+}
+
 static const hole_row *first_hole(const clause *a) {
     return a->holes ? a->hole[0].row : NULL;
 }
@@ -99,14 +107,6 @@ bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
     return lex_filename(&own, name, FILE_NAME);
 }
 
-static bool is_choice(const hole_row *row, const char *word, size_t len, size_t *choice) {
-    const char *name;
-    for (*choice = 0; (name = row->words(*choice)); ++*choice)
-        if (!strncmp(name, word, len) && !name[len])
-            return true;
-    return false;
-}
-
 /* ---- errors ------------------------------------------------------------------------------------ */
 
 static const char *who(const grammar *f) {
@@ -127,14 +127,20 @@ static bool not_taken(lexer *lx, const grammar *f, const char *name, token_kind 
                      how == T_DEFINE ? ":=" : "+=", usage);
 }
 
-/* "R1 and R2": the arguments of a way. */
+/* "for EXPR = EXPR" */
+static void clause_text(const clause *a, char buf[GRAMMAR_USAGE]) {
+    char line[GRAMMAR_USAGE];
+    snprintf(line, sizeof line, "%.*s", (int)a->len, a->text);
+    takes_text(line, buf, GRAMMAR_USAGE);
+}
+
+/* "R1 and R2", or "for EXPR = EXPR to FILE": what a way takes. */
 static void way_words(const grammar *f, const clause *of, char *buf, size_t size) {
-    char line[GRAMMAR_USAGE], text[GRAMMAR_USAGE];
+    char text[GRAMMAR_USAGE];
     *buf = 0;
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
         if (a->group == of->group && a->way == of->way) {
-            snprintf(line, sizeof line, "%.*s", (int)a->len, a->text);
-            takes_text(line, text, sizeof text);
+            clause_text(a, text);
             snprintf(buf + strlen(buf), size - strlen(buf), "%s%s",
                      !*buf         ? ""
                      : a->argument ? " and "
@@ -252,12 +258,20 @@ static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
                                                  "the seconds must be a positive number up to %u", of->most));
 }
 
+/* A word of a table, in which no word has a comma or an `=`. */
+static size_t choice_at(const lexer *lx) {
+    size_t len = 0;
+    while (lx->at + len < lx->end && !strchr(" \t\n\r,=", lx->text[lx->at + len]))
+        len++;
+    return len;
+}
+
 static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
     enum { LISTED = 8 };
     char word[LEX_NAME], list[CALC_ERROR_TEXT - 64] = "";
     const size_t len = choice_at(lx);
     h->hole[0] = (span){lx->at, len};
-    if (is_choice(row, lx->text + lx->at, len, &h->choice)) {
+    if (word_among(row->words, lx->text + lx->at, len, &h->choice)) {
         lex_seek(lx, lx->at + len);
         return true;
     }
@@ -357,13 +371,13 @@ static void skip_part(lexer *lx, const grammar *f, const clause *a, unsigned i) 
     enum { NOTHING, PLACE, NAMED } at = NOTHING; /* where `at` wants a name, and behind that name */
     for (lx->error = strange; lx->kind != T_END || strange->raised; lex_next(lx)) {
         const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
-        const bool stands = joins || word || kind == HOLE_LOAD || (kind == HOLE_SPAN && lex_is(lx, "to")) ||
-                            (number && is_unit(lx, f)) ||
-                            (lx->last == head && !(clause_near(lx, f) && lex_peek(lx) != T_END));
         const clause *next = name ? clause_at(lx, f) : NULL;
-        if (depth == 0 &&
-            (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
-             (equals_ends && at != NAMED && is_equals(lx)) || (name && operand && (!stands || next))))
+        const bool figure = lx->last == head && !(clause_near(lx, f) && lex_peek(lx) != T_END);
+        const bool ends = name && operand &&
+                          (next || !(joins || word || figure || kind == HOLE_LOAD ||
+                                     (number && is_unit(lx, f)) || (kind == HOLE_SPAN && lex_is(lx, "to"))));
+        if (depth == 0 && (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
+                           (equals_ends && at != NAMED && is_equals(lx)) || ends))
             break;
         error_clear(strange); /* whoever parses the part reports what is no token */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
@@ -419,6 +433,19 @@ static bool skip_name(lexer *lx, const grammar *f, const hole_row *row) {
         return not_taken(lx, f, row->noun, lex_peek(lx));
     lex_next(lx);
     lex_next(lx);
+    return true;
+}
+
+static bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, unsigned *out) {
+    value v;
+    size_t at = lx->at;
+    if (lx->kind == T_END)
+        return lex_fail(lx, "expected %s: a whole number from 1 to %u", what, limit);
+    if (!expr_value(c, lx, &v))
+        return false;
+    if (!dim_equal(v.d, DIM_NONE) || !(v.v >= 1 && v.v <= limit) || v.v != (long double)(unsigned)v.v)
+        return calc_fail(lx->error, at, lx->last - at, "%s must be a whole number from 1 to %u", what, limit);
+    *out = (unsigned)v.v;
     return true;
 }
 
@@ -631,7 +658,7 @@ static bool has_way(lexer *lx, const said *s) {
 
 /* Clauses that may not be left out. */
 static bool is_whole(lexer *lx, said *s) {
-    char text[GRAMMAR_USAGE], line[GRAMMAR_USAGE];
+    char text[GRAMMAR_USAGE];
     for (const clause *a = s->by->clause; a < s->by->clause + s->by->count; a++) {
         if (a->argument || a->optional || a->group || !*a->name || said_of(s, a->name, 0))
             continue;
@@ -639,8 +666,7 @@ static bool is_whole(lexer *lx, said *s) {
             return lex_fail(lx, "expected a value here");
         if (said_hides(lx, s, a->name))
             return false;
-        snprintf(line, sizeof line, "%.*s", (int)a->len, a->text);
-        takes_text(line, text, sizeof text);
+        clause_text(a, text);
         return lex_fail(lx, "expected %s", text);
     }
     return has_way(lx, s);

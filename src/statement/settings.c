@@ -152,7 +152,8 @@ static const setting rows[] = {
                        .show = show_model},
     [SETTING_PLOT] = {.name = "plot",
                       .takes = "SIZE | auto | terminal TERMINAL",
-                      .summary = "size of plots in the terminal, in characters, and how they are drawn there",
+                      .summary = "size of plots in the terminal, such as 80x24, and how they are drawn "
+                                 "there: auto, dumb, block or sixel",
                       .example = "    fret> set plot 64x18\n",
                       .apply = set_plot,
                       .show = show_plot,

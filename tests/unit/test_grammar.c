@@ -72,6 +72,8 @@ static void clauses_with_holes(void) {
     CHECK(parsed.clause[2].again && !parsed.clause[1].again);
     CHECK(parses("EXPR RANGE [to FILE.png|svg]"));
     CHECK(grammar_clause(&parsed, "for")->again && grammar_clause(&parsed, "to")->optional);
+    CHECK(parses("WORD ...") && parsed.clause[0].again && !parsed.clause[0].list);
+    CHECK(parses("EXPR RANGE [to FILE.png|svg]"));
     CHECK(grammar_first(&parsed, HOLE_EXPR) && !grammar_first(&parsed, HOLE_FILE));
 }
 
