@@ -4,6 +4,11 @@
 
 #include <string.h>
 
+const char *load_name(size_t i) {
+    static const char *const names[] = {"program", "cycle", "step"};
+    return i < sizeof names / sizeof *names ? names[i] : NULL;
+}
+
 const char *range_line(size_t i) {
     return i ? NULL : "[for NAME = LO .. HI]* [along LOAD] [steps N:100000000]* [log]* [with NAME = VALUES]";
 }

@@ -179,35 +179,18 @@ static const command *load_along(const place *p) {
 
 /* ---- what may follow --------------------------------------------------------------------------- */
 
-static void add_loads(const place *p) {
-    add_word(p, "program", "");
-    add_word(p, "cycle", "");
-    add_word(p, "step", "");
-}
-
 /* What may stand in the hole; false: nothing that is known. */
 static bool add_hole(const place *p, const hole *h, const char *behind_name) {
-    switch (h->row->kind) {
-    case HOLE_EXPR:
-    case HOLE_SPAN:
-    case HOLE_VALUE:
-        add_values(p);
-        return true;
-    case HOLE_NAME:
-    case HOLE_INPUT:
+    const hole_kind kind = h->row->kind;
+    if (h->row->words)
+        add_all(p, h->row->words);
+    else if (kind == HOLE_NAME || kind == HOLE_INPUT)
         add_knobs(p, behind_name);
-        return true;
-    case HOLE_LOAD:
-        add_loads(p);
-        return true;
-    case HOLE_CHOICE:
-    case HOLE_WORD:
-        if (h->row->words)
-            add_all(p, h->row->words);
-        return true;
-    default:
+    else if (kind == HOLE_EXPR || kind == HOLE_SPAN || kind == HOLE_VALUE)
+        add_values(p);
+    else
         return false;
-    }
+    return true;
 }
 
 /* The dimension of the expression before `in`. */

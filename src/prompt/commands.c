@@ -34,7 +34,7 @@ const hole_row holes[] = {
     {.name = "SECONDS", .kind = HOLE_SECONDS},
     {.name = "TEXT", .kind = HOLE_TEXT},
     {.name = "FILE", .kind = HOLE_FILE},
-    {.name = "LOAD", .kind = HOLE_LOAD},
+    {.name = "LOAD", .kind = HOLE_LOAD, .words = load_name},
     {.name = "MATERIAL", .kind = HOLE_CHOICE, .noun = "material", .words = preset_name},
     {.name = "BODY", .kind = HOLE_CHOICE, .noun = "material", .words = second_name},
     {.name = "AXES", .kind = HOLE_CHOICE, .words = axes_name},

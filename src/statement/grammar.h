@@ -28,7 +28,7 @@ typedef enum hole_kind {
     HOLE_FILE,    /* all up to a blank, or "..." */
     HOLE_CHOICE,  /* one of some words */
     HOLE_WORD,    /* any word: the command judges it */
-    HOLE_LOAD,    /* a statement of the load */
+    HOLE_LOAD,    /* a statement of the load, which begins with one of some words */
     HOLE_CLAUSES  /* none, but clauses: a table of them */
 } hole_kind;
 

@@ -407,7 +407,8 @@ static bool skip_names(lexer *lx, const said *s, const clause *a) {
 }
 
 static bool skip_load(lexer *lx, const said *s, const clause *a) {
-    if (!lex_is(lx, "program") && !lex_is(lx, "cycle") && !lex_is(lx, "step"))
+    size_t load;
+    if (!word_among(a->hole[0].row->words, lx->text + lx->at, lx->len, &load))
         return lex_fail(lx, "along what? program, cycle, step ... or cycle ...");
     skip_part(lx, s->by, a, 0);
     return true;
