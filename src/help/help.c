@@ -8,6 +8,7 @@
 #include "commands/presets.h"
 #include "help/topics.h"
 #include "statement/command.h"
+#include "statement/setting_table.h"
 #include "statement/text.h"
 #include "text/lines.h"
 

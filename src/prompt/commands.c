@@ -13,6 +13,7 @@
 #include "live/live.h"
 #include "prompt/show.h"
 #include "statement/scripts.h"
+#include "statement/setting_table.h"
 
 /* ---- holes ------------------------------------------------------------------------------------- */
 

@@ -6,6 +6,7 @@
 #include "prompt/show.h"
 #include "statement/command.h"
 #include "statement/record.h"
+#include "statement/setting_table.h"
 #include "statement/target.h"
 
 /* ---- save -------------------------------------------------------------------------------------- */

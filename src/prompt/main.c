@@ -13,6 +13,7 @@
 #include "statement/command.h"
 #include "statement/output.h"
 #include "statement/record.h"
+#include "statement/setting_table.h"
 #include "text/file.h"
 
 #ifndef FRET_VERSION

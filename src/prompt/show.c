@@ -9,6 +9,7 @@
 #include "help/topics.h"
 #include "statement/command.h"
 #include "statement/output.h"
+#include "statement/setting_table.h"
 #include "statement/text.h"
 #include "text/lines.h"
 #include "text/unit_text.h"

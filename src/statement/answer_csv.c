@@ -6,6 +6,7 @@
 
 #include "number/array.h"
 #include "statement/answer_form.h"
+#include "text/lex.h"
 
 /* ---- rows -------------------------------------------------------------------------------------- */
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "text/characters.h"
+#include "text/lex.h"
 
 /* ---- numbers ----------------------------------------------------------------------------------- */
 

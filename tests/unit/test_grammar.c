@@ -3,6 +3,7 @@
 
 #define unit calc_unit /* the other one is at work here */
 #include "statement/command.h"
+#include "statement/setting_table.h"
 #undef unit
 
 static grammar parsed;

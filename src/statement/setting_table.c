@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of settings, and showing them. Touches the settings and the scene's choice of a
  * model. */
-#include "statement/settings.h"
+#include "statement/setting_table.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include "statement/command.h"
 
 /* ---- those that are no int of the settings ----------------------------------------------------- */
 
