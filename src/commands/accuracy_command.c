@@ -82,12 +82,10 @@ static void format_seconds(double t, char *buf, size_t size) {
 /* A bound is rounded up. */
 static void format_error(const accuracy_row *row, char *buf, size_t size) {
     const double e = (double)row->error;
-    if (row->below) {
-        const double place = pow(10, floor(log10(e)));
-        snprintf(buf, size, "<%.0e", ceil(e / place * (1 - 1e-9)) * place);
-    } else {
+    if (row->below)
+        snprintf(buf, size, "<%.0e", round_up(e));
+    else
         snprintf(buf, size, "%.1e", e);
-    }
 }
 
 /* The first of the springs that err by 1e-6 at most, or the best. */
@@ -135,12 +133,12 @@ static void say_row(answer *out, const accuracy_study *study, const accuracy_row
     format_ratio(ratio, times, sizeof times);
     const answer_cell cells[HEADS] = {
         [HEAD_MODEL] = {.kind = CELL_WORDS, .words = families[row->family].name},
-        [HEAD_PARAMETER] = {CELL_NUMBER, .v = (double)row->size, .digits = 17, .shown = parameter},
-        [HEAD_VALUE] = {CELL_NUMBER, .v = (double)row->value, .digits = 17, .shown = number},
-        [HEAD_ERROR] = {CELL_NUMBER, .v = (double)row->error, .digits = 3, .shown = error},
-        [HEAD_BOUND] = {CELL_FLAG, .v = row->below},
-        [HEAD_SECONDS] = {CELL_NUMBER, .v = row->seconds, .digits = 3, .shown = t},
-        [HEAD_RATIO] = {CELL_NUMBER, .v = ratio, .digits = 3, .shown = times}};
+        [HEAD_PARAMETER] = {CELL_NUMBER, .v = {.v = row->size}, .digits = 17, .shown = parameter},
+        [HEAD_VALUE] = {CELL_NUMBER, .v = {.v = row->value}, .digits = 17, .shown = number},
+        [HEAD_ERROR] = {CELL_NUMBER, .v = {.v = row->error}, .digits = 3, .shown = error},
+        [HEAD_BOUND] = {CELL_FLAG, .v = {.v = row->below}},
+        [HEAD_SECONDS] = {CELL_NUMBER, .v = {.v = row->seconds}, .digits = 3, .shown = t},
+        [HEAD_RATIO] = {CELL_NUMBER, .v = {.v = ratio}, .digits = 3, .shown = times}};
     answer_cells(out, heads, cells, HEADS);
 }
 

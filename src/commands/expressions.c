@@ -82,31 +82,6 @@ bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *c
     return read_expressions(sh, &own, columns, limit, count) && at_end(&own);
 }
 
-bool range_is_lost(shell *sh, const lexer *lx, const span *part) {
-    column columns[EXPRESSIONS];
-    calc_error found;
-    size_t count;
-    lexer own = hole_lexer(lx, part);
-    size_t before = own.at;
-    own.error = &found;
-    for (error_clear(&found); own.kind != T_END || found.raised; lex_next(&own)) {
-        error_clear(&found);
-        if (lex_is(&own, "for") || lex_is(&own, "along"))
-            break;
-        before = own.at;
-    }
-    if (own.kind == T_END || own.at == before)
-        return false;
-    lex_seek(&own, part->at);
-    if (read_expressions(sh, &own, columns, EXPRESSIONS, &count))
-        at_end(&own);
-    columns_free(columns, count);
-    if (!found.raised || found.at < before) /* a name before it may be that of the range */
-        return false;
-    *lx->error = found;
-    return true;
-}
-
 bool column_fits(const expr *e, column *c, value v, calc_error *error) {
     if (c->chosen && !dim_equal(c->d, v.d)) {
         char is[128];

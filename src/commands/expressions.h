@@ -11,9 +11,6 @@ bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_
 /* The same of a part of the statement, and nothing else may stand there. */
 bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *columns, size_t limit,
                          size_t *count);
-/* `a in for FN = ..`: where a range goes on such a part, because of what stands before it, that is an error.
- */
-bool range_is_lost(shell *sh, const lexer *lx, const span *part);
 /* One of them, at place i of the list, and nothing else. */
 bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c);
 /* Can the value be shown so? Its dimension goes into the column, which may ask for another one. */

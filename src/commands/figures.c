@@ -66,15 +66,14 @@ const char *figure_word(size_t i) {
 }
 
 const figure *figure_find(const char *name, size_t len) {
-    for (size_t i = 0; i < FIGURES; i++)
-        if (strlen(figures[i].name) == len && !memcmp(figures[i].name, name, len))
-            return &figures[i];
-    return NULL;
+    size_t i;
+    return word_among(figure_name, name, len, &i) ? &figures[i] : NULL;
 }
 
-const grammar *figure_form(const figure *f) {
+const grammar *figure_form(size_t i) {
     static grammar forms[FIGURES];
-    return grammar_made(&forms[f - figures], f->name, NULL, f->takes);
+    return grammar_made(&forms[i], "plot", figures[i].name,
+                        figures[i].takes ? figures[i].takes : "RANGE LOOK [to FILE]");
 }
 
 /* Error against time, one curve a model. */

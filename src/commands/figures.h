@@ -15,14 +15,14 @@ typedef struct figure {
     /* of the expressions: c curve, t thin line, b edge of a band (two of them), s curve that slips where it
      * is at its bounds, which follow */
     const char *roles;
-    const char *takes; /* where build makes it */
+    const char *takes; /* behind its name; NULL: a range and looks */
     bool (*build)(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
 } figure;
 
 const figure *figure_row(size_t i); /* NULL after the last */
 const char *figure_name(size_t i);
-const grammar *figure_form(const figure *f); /* of one that build makes */
-const char *figure_word(size_t i);           /* what a figure may begin with: these, and map */
+const grammar *figure_form(size_t i);
+const char *figure_word(size_t i); /* what a figure may begin with: these, and map */
 const figure *figure_find(const char *name, size_t len);
 
 /* figures that are no sweep */

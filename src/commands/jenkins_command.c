@@ -51,9 +51,9 @@ static bool write_json(const settings *set, const model *m, FILE *to) {
         answer_item(&a);
         answer_number(&a, "k", m->element[i].k);
         answer_number(&a, "slip", m->element[i].s);
-        answer_item_up(&a);
+        answer_up(&a);
     }
-    answer_items_up(&a);
+    answer_up(&a);
     answer_done(&a);
     return answer_end(&a, true);
 }
@@ -84,11 +84,15 @@ static const struct {
     writer *write;
 } forms[] = {{".csv", write_csv}, {".json", write_json}, {".h", write_header}};
 
-static writer *form_of(const char *name, calc_error *error, size_t at, size_t len) {
+static writer *form_of(const lexer *lx, const span *part) {
+    char name[FILE_NAME];
+    if (!hole_file(lx, part, name))
+        return NULL;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
         if (file_ends(name, forms[i].ending))
             return forms[i].write;
-    calc_fail(error, at, len, "cannot tell the form of a model from '%s': use .csv, .json or .h", name);
+    calc_raise(lx->error, part->at, part->len,
+               "cannot tell the form of a model from '%s': use .csv, .json or .h", name);
     return NULL;
 }
 
@@ -96,28 +100,18 @@ static writer *form_of(const char *name, calc_error *error, size_t at, size_t le
 
 typedef struct request {
     unsigned count;
-    char name[FILE_NAME];
-    size_t at, len; /* of it */
+    span name; /* of the file */
     writer *write;
-    bool limited;
-    double FA;
+    const heard *FA; /* NULL: no limit */
 } request;
 
-static bool read_request(shell *sh, lexer *lx, const command *self, request *r) {
-    said all;
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    const heard *to = said_of(&all, "to", 0), *FA = said_of(&all, "FA", 0);
-    r->count = said_of(&all, "jenkins", 0)->count;
-    r->at = to->hole[0].at;
-    r->len = to->hole[0].len;
-    if (!hole_file(lx, &to->hole[0], r->name))
-        return false;
-    r->write = form_of(r->name, lx->error, r->at, r->len);
-    r->limited = FA;
-    r->FA = FA ? (double)FA->v.v : 0;
-    return r->write && (!FA || r->count > 1 ||
-                        calc_fail(lx->error, FA->hole[0].at, FA->hole[0].len,
+static bool read_request(lexer *lx, said *all, request *r) {
+    r->count = said_of(all, "jenkins", 0)->count;
+    r->name = said_of(all, "to", 0)->hole[0];
+    r->write = form_of(lx, &r->name);
+    r->FA = said_of(all, "FA", 0);
+    return r->write && (!r->FA || r->count > 1 ||
+                        calc_fail(lx->error, r->FA->hole[0].at, r->FA->hole[0].len,
                                   "up to FA one of the elements only sticks: take 2 or more"));
 }
 
@@ -126,8 +120,8 @@ static bool make_model(trial *t, const request *r, model *m, calc_error *error) 
     fret_loading first;
     if (!scene_contact(&t->scene, &m->contact, error))
         return false;
-    if (r->limited) {
-        fret_status st = fret_loading_by_force(&m->contact, r->FA, &first);
+    if (r->FA) {
+        fret_status st = fret_loading_by_force(&m->contact, (double)r->FA->v.v, &first);
         st.quantity = "FA";
         if (!calc_status(error, &st))
             return false;
@@ -142,15 +136,9 @@ static bool make_model(trial *t, const request *r, model *m, calc_error *error) 
 }
 
 static bool write_model(shell *sh, lexer *lx, const request *r, const model *m) {
-    file_out file;
-    file_report report;
-    if (!file_out_open(&file, r->name, &shell_stop, lx->error))
-        return calc_place(lx->error, r->at, r->len);
-    const bool ok = r->write(&sh->set, m, file.to) || calc_no_memory(lx->error);
-    if (!file_out_close(&file, ok, &report, lx->error) || !ok)
-        return calc_place(lx->error, r->at, r->len);
-    target_report(sh, r->name, &report);
-    return true;
+    target to;
+    return target_file(lx, &r->name, &to) &&
+           target_close(sh, lx, &to, r->write(&sh->set, m, to.to) || calc_no_memory(lx->error));
 }
 
 /* Into the file, and how good it is to the reader; what can fail without the file comes first. */
@@ -177,16 +165,16 @@ static bool give_model(shell *sh, lexer *lx, const request *r, const model *m) {
 }
 
 bool do_export(shell *sh, lexer *lx, const command *self) {
-    request *r = calloc(1, sizeof *r);
+    request r;
+    said all;
     model m = {.count = 0};
     trial *t = NULL;
-    const bool ok = (r || calc_no_memory(lx->error)) && read_request(sh, lx, self, r) &&
-                    (t = trial_open(&sh->calc, lx->error)) && make_model(t, r, &m, lx->error) &&
-                    give_model(sh, lx, r, &m);
+    const bool ok = said_read(sh, lx, command_form(self), &all) && read_request(lx, &all, &r) &&
+                    (t = trial_open(&sh->calc, lx->error)) && make_model(t, &r, &m, lx->error) &&
+                    give_model(sh, lx, &r, &m);
     calc_word(&sh->calc, lx->error);
     if (t)
         trial_close(t);
     free(m.element);
-    free(r);
     return ok;
 }

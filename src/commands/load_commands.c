@@ -155,7 +155,7 @@ bool do_step(shell *sh, lexer *lx, const command *self) {
     load_step step;
     cycle_extra extra;
     const heard *last;
-    if (!read_targets(sh, lx, self, &s, &step, &extra, &last) || !said_end(lx, s.by))
+    if (!read_targets(sh, lx, self, &s, &step, &extra, &last) || !said_end(lx, &s))
         return false;
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error))
         return heard_place(lx->error, last);
@@ -188,7 +188,7 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
         return false;
     scene_mark before;
     scene_save(&sh->calc.scene, &before, false);
-    bool ok = said_end(lx, s.by) &&
+    bool ok = said_end(lx, &s) &&
               (scene_load(&sh->calc.scene, &step, &extra, lx->error) || heard_place(lx->error, last));
     const bool loaded = ok;
     for (const heard *h = s.list; ok && h < s.list + s.count; h++)

@@ -466,7 +466,7 @@ bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
     out->at = lx->at;
     if (f && f->build) {
         lex_next(lx);
-        row = figure_form(f);
+        row = figure_form((size_t)(f - figure_row(0)));
     }
     const bool ok = said_read_some(sh, lx, row, &out->said);
     out->figure = ok && f && (f->build || is_named(sh, f, &out->said)) ? f : NULL;

@@ -98,7 +98,7 @@ static bool read_panels(shell *sh, lexer *lx, const grammar *row, panels *out) {
             return false;
         out->count++;
     } while (lx->kind == T_BAR && !last_said(out, "to") && !last_said(out, "frames"));
-    return said_end(lx, out->list[out->count - 1].said.by);
+    return said_end(lx, &out->list[out->count - 1].said);
 }
 
 static bool draw_panels(shell *sh, lexer *lx, panels *p, plot_figure *f, motion *m) {
@@ -106,14 +106,6 @@ static bool draw_panels(shell *sh, lexer *lx, panels *p, plot_figure *f, motion 
         if (!panel_draw(sh, lx, &p->list[i], f, m))
             return false;
     return true;
-}
-
-/* A range that has gone on what is drawn or on the abscissa. */
-static bool lost_range(shell *sh, const lexer *lx, const panel *p) {
-    for (const heard *h = p->said.list; h < p->said.list + p->said.count; h++)
-        if (h->of->holes && h->of->hole[0].row->kind == HOLE_EXPR && range_is_lost(sh, lx, &h->hole[0]))
-            return true;
-    return false;
 }
 
 /* Neither a figure nor a range: a figure may have been misspelt. wants: what else may stand there. */
@@ -152,7 +144,7 @@ static bool read_figures(shell *sh, lexer *lx, const command *self, const char *
     if (!read_panels(sh, lx, command_form(self), out))
         return false;
     if (!panel_is_whole(&out->list[0]))
-        return !lost_range(sh, lx, &out->list[0]) && fail_figure(&sh->calc, &begin, self, wants);
+        return !range_hides(lx, &out->list[0].said) && fail_figure(&sh->calc, &begin, self, wants);
     const heard *to = last_said(out, "to");
     return !to || (hole_file(lx, &to->hole[0], file) &&
                    (plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to)));

@@ -4,6 +4,11 @@
 
 #include <string.h>
 
+const char *load_name(size_t i) {
+    static const char *const names[] = {"program", "cycle", "step"};
+    return i < sizeof names / sizeof *names ? names[i] : NULL;
+}
+
 const char *range_line(size_t i) {
     return i ? NULL : "[for NAME = LO .. HI]* [along LOAD] [steps N:100000000]* [log]* [with NAME = VALUES]";
 }
@@ -89,12 +94,7 @@ bool range_read_along(shell *sh, const lexer *lx, const span *part, range *out) 
     return ok;
 }
 
-/* Nothing more, though a misspelt word of a clause seems to belong to the range. A short one is a unit. */
-static bool range_end(lexer *lx, const grammar *f) {
-    return lx->kind == T_NAME && (lx->len > 3 || !stray_unit(lx)) ? said_end(lx, f) : at_end(lx);
-}
-
-static bool read_with(shell *sh, const lexer *lx, const grammar *f, const heard *h, sweep *s) {
+static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
     lexer name = hole_lexer(lx, &h->hole[0]), own = hole_lexer(lx, &h->hole[1]);
     if (!knob_read(&sh->calc, &name, &s->with))
         return false;
@@ -116,7 +116,7 @@ static bool read_with(shell *sh, const lexer *lx, const grammar *f, const heard 
         s->value_len[s->curves] = own.last - s->value_at[s->curves];
         s->curves++;
     } while (own.kind == T_COMMA);
-    return range_end(&own, f);
+    return at_end(&own);
 }
 
 bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps) {
@@ -140,7 +140,7 @@ bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *o
                 return calc_fail(lx->error, h->at, h->len,
                                  "log goes with for NAME = LO .. HI, or as log x or log y");
             s->log = true;
-        } else if (!strcmp(word, "with") && !read_with(sh, lx, all->by, h, s)) {
+        } else if (!strcmp(word, "with") && !read_with(sh, lx, h, s)) {
             return false;
         }
     }
@@ -165,7 +165,7 @@ bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
     start_range(sh, lx, &by->hole[1], out);
     lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
     if (!knob_read(&sh->calc, &name, &s->var) ||
-        !range_read_interval(&sh->calc, &own, &s->var, NULL, &ends) || !range_end(&own, all->by))
+        !range_read_interval(&sh->calc, &own, &s->var, NULL, &ends) || !at_end(&own))
         return false;
     s->var.d = ends.d;
     out->positive = ends.lo > 0 && ends.hi > 0;

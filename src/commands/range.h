@@ -9,6 +9,13 @@
 #include "statement/output.h"
 #include "study/sweep.h"
 
+/* `a*for FN = ..`: an error, where the range has gone on what stands before it. */
+static inline bool range_hides(const lexer *lx, const said *all) {
+    return said_hides(lx, all, "for") || said_hides(lx, all, "along");
+}
+
+/* What a load along which it goes begins with; NULL after the last. */
+const char *load_name(size_t i);
 /* What may be said of a range, in one line; NULL after it. */
 const char *range_line(size_t i);
 

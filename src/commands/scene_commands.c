@@ -400,39 +400,13 @@ static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
     return true;
 }
 
-/* The name of a geometry under the cursor. */
-static const geometry *read_shape(lexer *lx) {
-    const size_t begin = lx->at, len = choice_at(lx);
-    const geometry *g = geometry_find(lx->text + begin, len);
-    char word[LEX_NAME];
-    if (g) {
-        lex_seek(lx, begin + len);
-        return g;
-    }
-    snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + begin);
-    if (!len) {
-        lex_fail(lx, "which geometry? try: help geometry");
-        return NULL;
-    }
-    const char *lead = lead_from(word), *near = lead ? lead : suggest(word, geometry_name);
-    calc_fail(lx->error, begin, len,
-              lead   ? "unknown geometry '%s': %s"
-              : near ? "unknown geometry '%s': did you mean %s?"
-                     : "unknown geometry '%s'; try: help geometry",
-              word, near);
-    return NULL;
-}
-
 bool do_geometry(shell *sh, lexer *lx, const command *self) {
-    const geometry *g = read_shape(lx);
-    edit e = {.geometry = g};
     fret_gap sum;
     said s;
-    (void)self;
-    if (!g)
+    if (!said_read(sh, lx, command_form(self), &s))
         return false;
-    if (!said_read(sh, lx, shape_form(g), &s))
-        return false;
+    const geometry *g = geometry_row(s.row);
+    edit e = {.geometry = g};
     if (g->by == PARAMETERS_FILE)
         return read_gap_file(sh, lx, &s, &e);
     e.sum = g->by == PARAMETERS_TERMS ? &sum : NULL;

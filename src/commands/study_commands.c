@@ -82,7 +82,10 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
     answer_event(&event, "solve");
     answer_string(&event, "method", "Brent");
     answer_number(&event, "evaluations", a->evaluations);
-    answer_list(&event, "bracket", (const double[]){a->lo, a->hi}, 2);
+    answer_items(&event, "bracket");
+    answer_number(&event, NULL, a->lo);
+    answer_number(&event, NULL, a->hi);
+    answer_up(&event);
     if (a->touches)
         answer_flag(&event, "touches", true);
     if (a->jumps)

@@ -222,7 +222,7 @@ bool do_table(shell *sh, lexer *lx, const command *self) {
         return false;
     const span *first = &all.list[0].hole[0];
     bool ok = said_of(&all, "for", 0) || said_of(&all, "along", 0);
-    ok = ok || (!range_is_lost(sh, lx, first) &&
+    ok = ok || (!range_hides(lx, &all) &&
                 calc_fail(lx->error, first->at, first->len,
                           "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N"));
     ok = ok && read_expressions_in(sh, lx, first, columns, COLUMNS - 2, &count);

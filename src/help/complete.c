@@ -18,7 +18,7 @@ enum { TOKENS = 256 };
 
 /* The statement before the word at the cursor. */
 typedef struct place {
-    const calc *c;
+    calc *c;
     const char *line;
     size_t start, cursor; /* of the word */
     struct {
@@ -127,21 +127,14 @@ static size_t figure_begins(const place *p) {
     return 0;
 }
 
-static bool is_given(const place *p, const char *word) {
-    for (size_t i = figure_begins(p) + 1; i < p->count; i++)
-        if (token_is(p, i, word))
-            return true;
-    return false;
-}
-
 static bool assigns(token_kind kind) {
     return kind == T_ASSIGN || kind == T_INCREMENT || kind == T_DEFINE;
 }
 
-/* As an argument, not within a value. */
-static bool is_assigned(const place *p, const char *word) {
-    for (size_t i = 1; i + 1 < p->count; i++)
-        if (token_is(p, i, word) && assigns(p->token[i + 1].kind))
+/* Does the figure, or the statement, have the word; argument: with a value of its own? */
+static bool is_said(const place *p, const char *word, bool argument) {
+    for (size_t i = figure_begins(p) + 1; i < p->count; i++)
+        if (token_is(p, i, word) && (!argument || (i + 1 < p->count && assigns(p->token[i + 1].kind))))
             return true;
     return false;
 }
@@ -165,20 +158,15 @@ static void read_tokens(place *p, size_t begin, size_t start) {
     p->command = p->count && !assignment ? command_find(p->line + p->token[0].at, p->token[0].len) : NULL;
 }
 
-/* What the command takes, of a geometry behind its name; NULL: there is none. */
+/* What the command takes, behind a word that has a row of its own what that takes; NULL: there is none. */
 static const grammar *form_of(const place *p) {
     const grammar *f = p->command ? command_form(p->command) : NULL;
-    const hole_row *first = f ? grammar_first(f, HOLE_WORD) : NULL;
-    if (!first || first->words != geometry_name || p->count < 2)
+    const hole_row *first = f ? grammar_first(f, HOLE_CHOICE) : NULL;
+    if (!first || !first->form || p->count < 2)
         return f;
     const char *name = p->line + p->token[1].at;
-    const geometry *g = geometry_find(name, strcspn(name, " \t\n;"));
-    return g ? shape_form(g) : f;
-}
-
-static bool is_setting(const place *p) {
-    const hole_row *first = p->command ? grammar_first(command_form(p->command), HOLE_WORD) : NULL;
-    return first && first->words == setting_name;
+    size_t row;
+    return word_among(first->words, name, strcspn(name, " \t\n;"), &row) ? first->form(row) : f;
 }
 
 /* `along cycle ...`: its arguments may follow. */
@@ -191,63 +179,35 @@ static const command *load_along(const place *p) {
 
 /* ---- what may follow --------------------------------------------------------------------------- */
 
-static void add_loads(const place *p) {
-    add_word(p, "program", "");
-    add_word(p, "cycle", "");
-    add_word(p, "step", "");
-}
-
 /* What may stand in the hole; false: nothing that is known. */
 static bool add_hole(const place *p, const hole *h, const char *behind_name) {
-    switch (h->row->kind) {
-    case HOLE_EXPR:
-    case HOLE_SPAN:
-    case HOLE_VALUE:
-        add_values(p);
-        return true;
-    case HOLE_NAME:
-    case HOLE_INPUT:
+    const hole_kind kind = h->row->kind;
+    if (h->row->words)
+        add_all(p, h->row->words);
+    else if (kind == HOLE_NAME || kind == HOLE_INPUT)
         add_knobs(p, behind_name);
-        return true;
-    case HOLE_LOAD:
-        add_loads(p);
-        return true;
-    case HOLE_CHOICE:
-    case HOLE_WORD:
-        if (h->row->words)
-            add_all(p, h->row->words);
-        return true;
-    default:
+    else if (kind == HOLE_EXPR || kind == HOLE_SPAN || kind == HOLE_VALUE)
+        add_values(p);
+    else
         return false;
-    }
+    return true;
 }
 
-/* The dimension of what stands before `in`, where a quantity or a name alone does. */
+/* The dimension of the expression before `in`. */
 static bool dim_before(const place *p, dim *d) {
-    size_t first = p->count - 1, i;
+    size_t first = p->count - 1;
     int depth = 0;
+    lexer lx;
+    expr e = {0};
     while (first > 0 && !(depth == 0 && p->token[first - 1].kind == T_COMMA) && !(first == 1 && p->command)) {
         first--;
         depth += p->token[first].kind == T_CLOSE ? 1 : p->token[first].kind == T_OPEN ? -1 : 0;
     }
-    if (p->token[first].kind != T_NAME)
-        return false;
-    depth = 0;
-    for (i = first + 1; i + 1 < p->count; i++) {
-        depth += p->token[i].kind == T_OPEN ? 1 : p->token[i].kind == T_CLOSE ? -1 : 0;
-        if (depth == 0 && i + 2 < p->count)
-            return false;
-    }
-    const char *name = p->line + p->token[first].at;
-    const quantity *q = quantity_find(name, p->token[first].len);
-    size_t own;
-    if (q)
-        *d = quantity_dim(q, &p->c->scene);
-    else if (names_find(&p->c->names, name, p->token[first].len, &own) && !p->c->names.row[own].definition)
-        *d = p->c->names.row[own].v.d;
-    else
-        return false;
-    return true;
+    const char *text = p->line + p->token[first].at;
+    lex_start(&lx, text, p->token[p->count - 1].at - p->token[first].at, error_quiet());
+    const bool ok = expr_parse(p->c, &lx, &e) && lx.kind == T_END && expr_dim(p->c, &e, d);
+    expr_free(&e);
+    return ok;
 }
 
 /* ---- arguments --------------------------------------------------------------------------------- */
@@ -255,7 +215,7 @@ static bool dim_before(const place *p, dim *d) {
 /* Has another way been gone? */
 static bool is_barred(const place *p, const grammar *f, const clause *of) {
     for (const clause *a = f->clause; of->group && a < f->clause + f->count; a++)
-        if (a->group == of->group && a->way != of->way && is_assigned(p, a->name))
+        if (a->group == of->group && a->way != of->way && is_said(p, a->name, true))
             return true;
     return false;
 }
@@ -267,27 +227,10 @@ static void add_items(const place *p, const grammar *f, bool first) {
         if (!*a->name && first) {
             add_hole(p, &a->hole[0], "");
             awaited = awaited || !a->optional;
-        } else if (a->argument && !is_assigned(p, a->name) && !is_barred(p, f, a)) {
+        } else if (a->argument && !is_said(p, a->name, true) && !is_barred(p, f, a)) {
             add_word(p, a->name, "=");
-        } else if (*a->name && !a->argument && !awaited && !is_given(p, a->name)) {
+        } else if (*a->name && !a->argument && !awaited && !is_said(p, a->name, false)) {
             add_word(p, a->name, "");
-        }
-    }
-}
-
-/* The words among what a setting takes: `auto|closed|springs N`. */
-static void add_setting_words(const place *p) {
-    const setting *row;
-    for (size_t i = 0; (row = setting_row(i)); i++) {
-        if (!token_is(p, 1, row->name))
-            continue;
-        for (const char *s = row->usage; *s; s += strspn(s, "| ")) {
-            const size_t n = strcspn(s, "| ");
-            char word[LEX_NAME];
-            snprintf(word, sizeof word, "%.*s", (int)n, s);
-            if (strspn(word, "abcdefghijklmnopqrstuvwxyz") == n)
-                add_word(p, word, "");
-            s += n;
         }
     }
 }
@@ -302,20 +245,15 @@ static bool has_expression(const grammar *f) {
 /* After something that may end a value: what goes on. */
 static void add_continuation(const place *p) {
     const grammar *f = form_of(p);
-    if (is_setting(p)) {
-        if (p->count == 2)
-            add_setting_words(p);
-        return;
-    }
     if (f)
         add_items(p, f, false);
     if (load_along(p))
         add_items(p, command_form(load_along(p)), false);
     if (f && !has_expression(f))
         return;
-    if (!is_given(p, "in"))
+    if (!is_said(p, "in", false))
         add_word(p, "in", "");
-    if (!is_given(p, "at"))
+    if (!is_said(p, "at", false))
         add_word(p, "at", "");
 }
 
@@ -440,7 +378,7 @@ static size_t word_start(const char *line, size_t begin, size_t cursor, const ch
     return cursor;
 }
 
-void complete(const calc *c, const char *line, size_t cursor, candidates *out) {
+void complete(calc *c, const char *line, size_t cursor, candidates *out) {
     place p = {.c = c, .line = line, .cursor = cursor, .out = out};
     size_t begin, quote, start = cursor;
     *out = (candidates){.start = cursor};

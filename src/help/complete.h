@@ -14,7 +14,7 @@ typedef struct candidates {
 
 /* The candidates for the word of `line` that ends at the cursor, which they replace. One that ends in `=` or
  * `(` wants no blank behind it. Out of memory there are fewer. Free with candidates_free. */
-void complete(const calc *c, const char *line, size_t cursor, candidates *out);
+void complete(calc *c, const char *line, size_t cursor, candidates *out);
 void candidates_free(candidates *c);
 
 #endif

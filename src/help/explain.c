@@ -1,470 +1,75 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command `explain`: what the quantities of an expression are made of, what their values are good to, and
- * on request how far the last digit of each input moves it. Changes nothing. */
-#include <float.h>
-#include <math.h>
+/* The command `explain`: the quantities that an expression is made of, a page each. Changes nothing. */
 #include <stdlib.h>
 #include <string.h>
 
+#include "help/explain_page.h"
 #include "help/topics.h"
 #include "language/trial.h"
 #include "number/array.h"
-#include "statement/answer.h"
 #include "statement/command.h"
 #include "statement/text.h"
-#include "study/influence.h"
-#include "text/file.h"
-#include "text/lines.h"
-#include "text/typeset.h"
 
-/* One quantity of the expression, as it stands there. */
-typedef struct part {
-    const quantity *q;
+/* ---- the parts of an expression ---------------------------------------------------------------- */
+
+typedef struct parts {
+    part *of;
+    size_t count, room;
+} parts;
+
+/* The i-th quantity of e, as it stands there; a call to its end. */
+static bool part_at(const expr *e, size_t i, part *out) {
     bool call;
-    const char *text; /* "dW(20 N)" */
-    size_t len;
-    size_t argument, argument_len; /* in text, of a call */
-} part;
-
-/* Who explains where to. */
-typedef struct page {
-    shell *sh;
-    answer *out;
-    bool conditioning; /* it is wanted */
-    calc_error *error; /* raised: the page is not to be shown */
-} page;
-
-/* What may be missing, unless it is because memory is out or the user has stopped it. */
-static bool had(const page *p, bool ok, const calc_error *why) {
-    if (!ok && why->stop)
-        *p->error = *why;
-    return ok;
-}
-
-/* ---- lines ------------------------------------------------------------------------------------- */
-
-/* An expression and its value, in the scene as it stands. */
-static void put_expression_value(const page *p, const char *name, size_t len, value v) {
-    char text[160], unit_text[COLUMN_UNIT], *whole = column_name(name, len);
-    format_value(&p->sh->set, v, text, sizeof text);
-    answer_words(p->out, "    %.*s = %s\n", (int)len, name, text);
-    dim_unit(v.d, unit_text, sizeof unit_text);
-    if (!whole) {
-        calc_raise_memory(p->error);
-        return;
-    }
-    answer_string(p->out, "expression", whole);
-    answer_number(p->out, "value", (double)v.v);
-    answer_string(p->out, "unit", unit_text);
-    free(whole);
-}
-
-/* Broken at spaces, further lines indented more. */
-static void put_wrapped(const page *p, const char *line) {
-    file_text wrapped;
-    bool ok = file_text_open(&wrapped);
-    if (ok)
-        help_wrapped(wrapped.to, line, 0, 8);
-    ok = ok && file_text_close(&wrapped);
-    if (!ok) {
-        calc_raise_memory(p->error);
-        return;
-    }
-    answer_words(p->out, "%s", wrapped.text);
-    free(wrapped.text);
-}
-
-static void put_title(const page *p, const quantity *q) {
-    answer_words(p->out, "%s: %s\n", q->name, q->title);
-    answer_string(p->out, "name", q->name);
-    answer_string(p->out, "title", q->title);
-}
-
-static void put_formula(const page *p, const quantity *q, bool call) {
-    const formula *f = quantity_formula(q, p->sh->calc.now, call);
-    char set[512], line[600];
-    put_title(p, q);
-    if (typeset_unicode())
-        typeset(f->text, set, sizeof set);
-    snprintf(line, sizeof line, "    %s%s%s", typeset_unicode() ? set : f->text, f->equation ? "  " : "",
-             f->equation ? f->equation : "");
-    put_wrapped(p, line);
-    answer_string(p->out, "formula", f->text);
-    if (f->equation)
-        answer_string(p->out, "equation", f->equation);
-}
-
-/* Where a step mixes force and displacement, its path is a choice. */
-static void put_paths(const page *p) {
-    static const struct {
-        load_by normal, tangential;
-        const char *step, *plane;
-    } paths[] = {{BY_FORCE, BY_DISPLACEMENT, "step FN= dx=", "(delta_z, delta_x)"},
-                 {BY_DISPLACEMENT, BY_FORCE, "step dz= Fx=", "(F_N, F_x)"}};
-    const scene *s = p->sh->calc.now;
-    char plane[64];
-    bool any = false;
-    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
-        for (size_t j = 1; j < s->end.steps; j++) {
-            const load_step *step = &s->program->steps[j];
-            if (step->kind != LOAD_STEP || step->normal != paths[i].normal ||
-                step->tangential != paths[i].tangential)
-                continue;
-            typeset(paths[i].plane, plane, sizeof plane);
-            answer_words(p->out, "    path: %s goes straight in %s\n", paths[i].step,
-                         typeset_unicode() ? plane : paths[i].plane);
-            if (!any)
-                answer_group(p->out, "straight paths");
-            any = true;
-            answer_string(p->out, paths[i].step, paths[i].plane);
-            break;
-        }
-    if (any)
-        answer_up(p->out);
-}
-
-/* ---- the model --------------------------------------------------------------------------------- */
-
-static bool is_among(const quantity *q, const char *const *names, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (!strcmp(q->name, names[i]))
-            return true;
-    return false;
-}
-
-/* Of the results, those that are taken to the limit of chords. */
-static bool is_extrapolated(const quantity *q, bool call) {
-    static const char *const names[] = {"Fx", "dx", "W", "U", "dW"};
-    return !call && is_among(q, names, sizeof names / sizeof *names);
-}
-
-/* Rounded up to one digit. */
-static double round_up(double v) {
-    const double place = pow(10, floor(log10(v)));
-    return ceil(v / place * (1 - 1e-9)) * place;
-}
-
-/* The value after each of the runs. */
-static bool by_runs(const page *p, const expr *e, const runner run[LEVELS], long double at[LEVELS]) {
-    scene *s = p->sh->calc.now;
-    bool ok = true;
-    for (unsigned i = 0; i < LEVELS && ok; i++) {
-        const instant now = {.run = &run[i]};
-        calc_error *why = error_quiet();
-        value v = {0, DIM_NONE};
-        s->now = &now;
-        scene_moved(s);
-        ok = had(p, expr_eval(&p->sh->calc, e, &v, why), why);
-        at[i] = v.v;
-    }
-    s->now = NULL;
-    scene_moved(s);
-    return ok;
-}
-
-/* The value after each number of chords, where that tells all that it is good to. */
-static bool by_chords(const page *p, model_id model, const expr *e, long double at[LEVELS]) {
-    scene *s = p->sh->calc.now;
-    return e && model == MODEL_MEMORY && s->answers.levels == LEVELS && by_runs(p, e, s->answers.run, at);
-}
-
-enum { MODEL_TEXT = 240 };
-
-static void name_model(const page *p, model_id model, char text[MODEL_TEXT]) {
-    if (model == MODEL_SPRINGS)
-        snprintf(text, MODEL_TEXT, "%u %s", p->sh->calc.now->springs, models[model].title);
-    else
-        snprintf(text, MODEL_TEXT, "%s", models[model].title);
-}
-
-/* How a swinging load has been run is added to `text`. e: what is explained; NULL: it has no value. What that
- * is good to; 0: nobody knows. */
-static double describe_sine(const page *p, const quantity *q, bool call, model_id model, const expr *e,
-                            char text[MODEL_TEXT]) {
-    const answers *a = &p->sh->calc.now->answers;
-    const int finest = RUN_CHORDS << (LEVELS - 1);
-    const bool limit = is_extrapolated(q, call);
-    const double least = 1e-15;
-    long double at[LEVELS];
-    const size_t n = strlen(text), room = MODEL_TEXT - n;
-    if (model == MODEL_MEMORY && a->levels == 1) { /* all that it answers: no function of another load */
-        snprintf(text + n, room, ", the sine itself, event by event (exact)");
-        return least;
-    }
-    if (!by_chords(p, model, e, at)) {
-        snprintf(text + n, room, ", by %d chords a period of the sine%s", finest,
-                 limit ? " and fewer, extrapolated" : "");
-        return 0;
-    }
-    const long double last = fabsl(at[LEVELS - 1]), change = fabsl(at[LEVELS - 1] - at[LEVELS - 2]);
-    const double unsure = (double)(limit      ? run_unsure(at)
-                                   : last > 0 ? 2 * change / last
-                                              : 0),
-                 good = round_up(fmax(unsure, least));
-    if (limit)
-        snprintf(text + n, room,
-                 ", converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)", good,
-                 finest);
-    else
-        snprintf(text + n, room, ", by %d chords a period of the sine, good to %.0e", finest, good);
-    return good;
-}
-
-/* Of a scene that has been run. */
-static bool swings(scene *s) {
-    const load_reach *reach = &(load_reach){.swings = false};
-    scene_reach(s, &reach, error_quiet());
-    return reach->swings;
-}
-
-static void put_law(const page *p) {
-    const scene *s = p->sh->calc.now;
-    const struct fret_table *rows = s->answers.normal ? fret_normal_gap(s->answers.normal)->table : NULL;
-    char text[MODEL_TEXT];
-    const int n =
-        snprintf(text, sizeof text, "%s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
-    if (rows && fret_table_within(rows) > 0)
-        snprintf(text + n, sizeof text - (size_t)n, ", of %zu pieces within %.0e of the gap",
-                 fret_table_count(rows) - 1, fret_table_within(rows));
-    answer_fact(p->out, "law of the gap", text);
-}
-
-static void put_repeated(const page *p, unsigned periods) {
-    char text[MODEL_TEXT];
-    snprintf(text, sizeof text, "%u more period%s the last one that was run", periods,
-             periods == 1 ? " repeats" : "s repeat");
-    answer_fact(p->out, "cycle", text);
-}
-
-/* Of a load that swings *sine tells what that is good to; 0: nobody knows. */
-static model_id put_model(const page *p, const quantity *q, bool call, const expr *e, double *sine) {
-    scene *s = p->sh->calc.now;
-    const model_id model = quantity_model(q, s, call);
-    const bool stepped = models[model].steps;
-    char text[MODEL_TEXT];
-    *sine = 0;
-    name_model(p, model, text);
-    const size_t n = strlen(text);
-    if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
-        *sine = describe_sine(p, q, call, model, e, text);
-    else if (model == MODEL_PIECES)
-        snprintf(text, sizeof text, "%s, with %s over the gap", models[MODEL_CLOSED].title,
-                 models[MODEL_PIECES].title);
-    else if (model == MODEL_MEMORY)
-        snprintf(text + n, sizeof text - n, " (exact)");
-    answer_fact(p->out, "model", text);
-    if ((model == MODEL_MEMORY || model == MODEL_PIECES) && s->used & USED(MODEL_PIECES))
-        put_law(p);
-    if (stepped && (q->reads & INPUT_BIT(IN_MU))) {
-        if (model == MODEL_MEMORY && s->answers.levels && s->answers.run[0].repeated)
-            put_repeated(p, s->answers.run[0].repeated);
-        put_paths(p);
-    }
-    return model;
-}
-
-/* ---- the error --------------------------------------------------------------------------------- */
-
-/* A value at a place under a load: near the rim a small one is a difference of larger ones. */
-static bool is_local(const quantity *q, bool call) {
-    return call && q->load && (*q->argument == 'x' || *q->argument == 'r');
-}
-
-/* The value of e where the memory diagram stands, which the scene has run beside its springs. */
-static bool exact_value(const page *p, const expr *e, value *v) {
-    const answers *a = &p->sh->calc.now->answers;
-    sight coarse[LEVELS - 1];
-    runner run = a->run[a->levels - 1];
-    const instant now = {.run = &run};
-    calc_error *why = error_quiet();
-    for (unsigned i = 0; i + 1 < a->levels; i++)
-        run_sight(&a->run[i], &coarse[i]);
-    run.coarse = a->levels > 1 ? coarse : NULL;
-    trial *t = trial_open(&p->sh->calc, why);
-    if (t)
-        t->scene.now = &now;
-    const bool ok = t && expr_eval(&p->sh->calc, e, v, why);
-    if (t) {
-        t->scene.used = 0; /* it has not answered */
-        trial_close(t);
-    }
-    return had(p, ok, why);
-}
-
-/* For programs: a part of what. */
-static void say_error(const page *p, double error, const char *of) {
-    answer_number(p->out, "error", error);
-    answer_string(p->out, "error of", of);
-}
-
-/* Of springs, which are an approximation. */
-static void put_difference(const page *p, const expr *e, value v) {
-    char text[160];
-    value exact;
-    if (!exact_value(p, e, &exact))
-        return;
-    const long double off = fabsl(v.v - exact.v);
-    format_value(&p->sh->set, (value){off, v.d}, text, sizeof text);
-    if (off > 0 && exact.v != 0) {
-        answer_words(p->out, "    error: %.1Le of the value, beside the exact one\n", off / fabsl(exact.v));
-        say_error(p, (double)(off / fabsl(exact.v)), "value");
-    } else {
-        answer_words(p->out, "    error: %s, beside the exact value\n", text);
-        answer_number(p->out, "absolute error", (double)off);
-    }
-}
-
-/* What the value is good to, as README says under `How exact`. */
-static void put_error(const page *p, const quantity *q, bool call, model_id model, double sine) {
-    const scene *s = p->sh->calc.now;
-    const bool power = !s->in.geometry || s->in.geometry->power, local = is_local(q, call);
-    const char *of = local ? "largest value" : models[model].steps ? "largest value so far" : "value";
-    double good = sine > 0 && local ? 1e-12 : sine > 0 || q->by || !power ? 1e-13 : DBL_EPSILON;
-    good = fmax(good, sine);
-    if (s->used & USED(MODEL_PIECES))
-        good = fmax(good, s->pieces_error);
-    answer_words(p->out, "    error: below %.0e of the %s\n", round_up(good), of);
-    say_error(p, round_up(good), of);
-}
-
-/* ---- inputs and conditioning ------------------------------------------------------------------- */
-
-static bool has_effect(const influence_study *study, input in) {
-    for (size_t i = 0; i < study->count; i++)
-        if (study->cause[i].kind == CAUSE_INPUT && study->cause[i].in == in)
-            return study->cause[i].influence != INFLUENCE_NONE;
+    size_t at, end;
+    int depth = 1;
+    const quantity *q = expr_quantity(e, i, &call, &at);
+    if (!q)
+        return false;
+    *out = (part){.q = q, .call = call, .text = call ? e->text + at : q->name, .len = strlen(q->name)};
+    if (!call)
+        return true;
+    out->argument = strcspn(out->text, "(") + 1;
+    for (end = out->argument; depth > 0; end++)
+        depth += (out->text[end] == '(') - (out->text[end] == ')');
+    out->argument_len = end - 1 - out->argument;
+    out->len = end;
     return true;
 }
 
-/* The inputs that the result was made of. */
-static void put_numbers(const page *p, const quantity *q, const influence_study *study) {
-    const unsigned of_load = INPUT_BIT(IN_FN) | INPUT_CYCLE;
-    scene *s = p->sh->calc.now;
-    for (input in = 0; in < INPUTS; in++) {
-        const quantity *row = quantity_of_input(in);
-        value v = {0, quantity_dim(row, s)};
-        calc_error *why = error_quiet();
-        const bool set = s->in.set[in] || (s->in.bindings & INPUT_BIT(in));
-        if (set && row != q && (q->reads & ~of_load & INPUT_BIT(in)) &&
-            !(in == IN_C0 && s->in.v[IN_K] == 0) && has_effect(study, in) &&
-            had(p, scene_get(s, in, &v.v, why), why))
-            answer_quantity(p->out, row->name, v);
-    }
+static bool same_formula(const part *a, const part *b) {
+    return a->q == b->q && a->call == b->call;
 }
 
-/* Does it matter what pushes sideways? */
-static bool is_pushed(const influence_study *study) {
-    const unsigned amplitudes = INPUT_BIT(IN_FA) | INPUT_BIT(IN_DXA);
-    for (size_t i = 0; i < study->count; i++) {
-        const cause *c = &study->cause[i];
-        const bool pushes =
-            c->kind == CAUSE_INPUT ? amplitudes & INPUT_BIT(c->in) : c->kind == CAUSE_STEP && c->tangential;
-        if (pushes && c->influence != INFLUENCE_NONE)
+/* Is there one before with this formula? text: and the same argument. */
+static bool is_before(const parts *all, size_t count, const part *of, bool text) {
+    for (size_t i = 0; i < count; i++)
+        if (same_formula(&all->of[i], of) &&
+            (!text || (all->of[i].len == of->len && !strncmp(all->of[i].text, of->text, of->len))))
             return true;
-    }
     return false;
 }
 
-/* Is its formula one of the amplitude? */
-static bool is_of_cycle(const quantity *q) {
-    return q->argument && quantity_find(q->argument, strlen(q->argument));
-}
-
-static void put_cycle(const page *p, const influence_study *study) {
-    for (size_t i = 0; i < study->count; i++) {
-        const cause *c = &study->cause[i];
-        if (c->kind == CAUSE_INPUT && (INPUT_BIT(c->in) & INPUT_CYCLE) && c->influence != INFLUENCE_NONE)
-            answer_quantity(p->out, c->name, c->v);
-    }
-}
-
-/* Where the load matters. */
-static void put_load(const page *p, const quantity *q, const influence_study *study) {
-    scene *s = p->sh->calc.now;
-    const fret_press *press;
-    const fret_state *state;
-    calc_error *why = error_quiet();
-    bool matters = study->count == 0;
-    for (size_t i = 0; i < study->count; i++)
-        matters = matters || (cause_is_load(&study->cause[i]) && study->cause[i].influence != INFLUENCE_NONE);
-    if (!matters || !q->load || quantity_is_input(q) || !had(p, scene_press(s, &press, why), why))
-        return;
-    answer_quantity(p->out, "FN now", (value){press->F, DIM_FORCE});
-    if (is_of_cycle(q))
-        put_cycle(p, study);
-    else if (is_pushed(study) && strcmp(q->name, "Fx") && had(p, scene_state(s, &state, why), why))
-        answer_quantity(p->out, "Fx now", (value){state->Fx, DIM_FORCE});
-}
-
-static const char *const not_shown[] = {"no effect", "condition number below 0.01",
-                                        "not smooth here, or hidden by rounding", "left out after 3 seconds",
-                                        "0 has no last digit"};
-
-static const char *argument_of(const cause *c) {
-    return c->kind == CAUSE_ARGUMENT ? "argument " : "";
-}
-
-static void put_cause(const page *p, const cause *c) {
-    char head[220], text[160];
-    format_value(&p->sh->set, c->v, text, sizeof text);
-    snprintf(head, sizeof head, "%s%s %s %s", argument_of(c), c->name, c->increment ? "+=" : "=", text);
-    answer_words(p->out, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, c->digit, c->change,
-                 c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
-}
-
-/* For programs: all causes, in their order. */
-static void list_causes(const page *p, const influence_study *study) {
-    answer_items(p->out, "conditioning");
-    for (size_t i = 0; i < study->count; i++) {
-        const cause *c = &study->cause[i];
-        char name[220];
-        snprintf(name, sizeof name, "%s%s", argument_of(c), c->name);
-        answer_item(p->out);
-        answer_string(p->out, "of", name);
-        answer_number(p->out, "value", (double)c->v.v);
-        if (c->influence == INFLUENCE_SHOWN) {
-            answer_number(p->out, "last digit", (double)c->digit);
-            answer_number(p->out, "moves", (double)c->change);
-            answer_number(p->out, "condition number", (double)(c->change / c->digit));
-            answer_flag(p->out, "at the end of its range", c->refused);
-        } else {
-            answer_string(p->out, "not shown", not_shown[c->influence]);
-        }
-        answer_item_up(p->out);
-    }
-    answer_items_up(p->out);
-}
-
-static void put_conditioning(const page *p, const char *name, const influence_study *study) {
-    char moves[100];
-    snprintf(moves, sizeof moves, "moves %s by", name);
-    bool headed = false;
-    list_causes(p, study);
-    for (size_t i = 0; i < study->count; i++) {
-        if (study->cause[i].influence != INFLUENCE_SHOWN)
+/* Those of e, which stands in a definition or not, and of the definitions that it names, each once. What has
+ * been asked for is none of them where its formula belongs to a call within: it is told at the end. */
+static bool add_parts(const page *p, const expr *e, const definition *in, const expr *asked, parts *all) {
+    part one;
+    const definition *d;
+    for (size_t i = 0; part_at(e, i, &one); i++) {
+        one.in = in;
+        one.whole = e == asked && one.len == e->len;
+        if (is_before(all, all->count, &one, !one.whole))
             continue;
-        if (!headed)
-            answer_words(p->out, "    %-20s  last digit  %14s  condition number\n", "conditioning", moves);
-        headed = true;
-        put_cause(p, &study->cause[i]);
+        part *grown = fret_array_for(all->of, &all->room, all->count + 1, sizeof *grown);
+        if (!grown)
+            return calc_no_memory(p->error);
+        all->of = grown;
+        all->of[all->count++] = one;
     }
-    for (influence kind = INFLUENCE_SHOWN; kind-- > INFLUENCE_NONE;) {
-        bool any = false;
-        for (size_t i = 0; i < study->count; i++) {
-            const cause *c = &study->cause[i];
-            if (c->influence != kind)
-                continue;
-            if (!any)
-                answer_words(p->out, "    %s: ", not_shown[kind]);
-            answer_words(p->out, "%s%s%s", any ? ", " : "", argument_of(c), c->name);
-            any = true;
-        }
-        if (any)
-            answer_words(p->out, "\n");
-    }
+    for (size_t i = 0; (d = expr_definition(&p->sh->calc, e, i)); i++)
+        if (!add_parts(p, &d->body, d, asked, all))
+            return false;
+    return true;
 }
-
-/* ---- one quantity ------------------------------------------------------------------------------ */
 
 /* The part of a statement as an expression of its own, and its value. */
 static bool text_value(const page *p, const char *text, size_t len, expr *e, value *v) {
@@ -472,7 +77,7 @@ static bool text_value(const page *p, const char *text, size_t len, expr *e, val
     calc_error *why = error_quiet();
     lexer lx;
     lex_start(&lx, text, len, why);
-    return had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, why), why);
+    return explain_had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, why), why);
 }
 
 /* An input, and F_N as it was given: no formula made the number. */
@@ -481,31 +86,7 @@ static bool is_given(const page *p, const quantity *q) {
     const load_reach *reach;
     calc_error *why = error_quiet();
     return q->of == OF_INPUT || (quantity_is_input(q) && s->in.set[quantity_input(q)] &&
-                                 had(p, scene_reach(s, &reach, why), why) && !reach->normal_varies);
-}
-
-static void explain_input(const page *p, const quantity *q) {
-    calc *c = &p->sh->calc;
-    value v = {0, quantity_dim(q, c->now)};
-    calc_error *why = error_quiet();
-    answer_page(p->out, "explain");
-    put_formula(p, q, false);
-    const bool got = had(p, quantity_get(q, c->now, &v.v, why), why);
-    v.d = quantity_dim(q, c->now); /* which may follow from what is live */
-    if (got)
-        put_expression_value(p, q->name, strlen(q->name), v);
-    answer_done(p->out);
-}
-
-/* A function without an argument: no value. */
-static void explain_function(const page *p, const quantity *q) {
-    const influence_study nothing = {.count = 0};
-    answer_page(p->out, "explain");
-    put_formula(p, q, true);
-    answer_group(p->out, "numbers");
-    put_numbers(p, q, &nothing);
-    answer_up(p->out);
-    answer_done(p->out);
+                                 explain_had(p, scene_reach(s, &reach, why), why) && !reach->normal_varies);
 }
 
 /* Does it stand for many values: within a function, of what that is given? */
@@ -518,175 +99,83 @@ static bool is_free(const part *of, const definition *in) {
     return found;
 }
 
-/* in: the definition that it stands in, or NULL. whole: nothing else is explained, so the conditioning
- * belongs here. */
-static bool explain_part(const page *p, const part *of, const definition *in, bool whole, calc_error *error) {
-    calc *c = &p->sh->calc;
-    const quantity *q = of->q;
+/* The part by itself, where it has a value there. */
+static bool part_value(const page *p, const part *of, expr *e, value *v) {
+    return !(of->in && is_free(of, of->in)) && text_value(p, of->text, of->len, e, v);
+}
+
+/* ---- pages ------------------------------------------------------------------------------------- */
+
+static bool explain_part(const page *p, const part *of) {
     expr e = {0}, unused = {0};
     influence_study study = {.count = 0};
-    value v, argument = {0};
-    bool ok = true, has = !(in && is_free(of, in)) && text_value(p, of->text, of->len, &e, &v);
+    value v = {0}, argument = {0};
+    const bool has = part_value(p, of, &e, &v);
     if (has && of->call)
         text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
-    if (has)
-        ok = influences(c, &e, v.v, of->call ? q : NULL, argument, &study, error);
-    if (ok) {
-        double sine;
-        answer_page(p->out, "explain");
-        put_formula(p, q, of->call);
-        answer_group(p->out, "numbers");
-        put_numbers(p, q, &study);
-        if (has)
-            put_load(p, q, &study);
-        answer_up(p->out);
-        const model_id model = put_model(p, q, of->call, has ? &e : NULL, &sine);
-        if (has)
-            put_expression_value(p, of->text, of->len, v);
-        if (has && model == MODEL_SPRINGS)
-            put_difference(p, &e, v);
-        else if (has)
-            put_error(p, q, of->call, model, sine);
-    }
-    if (ok && whole && p->conditioning)
-        put_conditioning(p, q->name, &study);
+    const bool ok =
+        !has || influences(&p->sh->calc, &e, v.v, of->call ? of->q : NULL, argument, &study, p->error);
     if (ok)
-        answer_done(p->out);
+        explain_quantity(p, of, has ? &e : NULL, v, &study, of->whole && p->conditioning);
     expr_free(&e);
     expr_free(&unused);
     return ok;
 }
 
-/* ---- the expression ---------------------------------------------------------------------------- */
-
-/* The call of the quantity at this place. */
-static part call_at(const expr *e, const quantity *q, size_t at) {
-    lexer lx;
-    lex_start(&lx, e->text, e->at + e->len, error_quiet());
-    lex_seek(&lx, at);
-    lex_next(&lx);
-    const size_t open = lx.at;
-    for (int depth = 1; depth > 0;) {
-        lex_next(&lx);
-        depth += (lx.kind == T_OPEN) - (lx.kind == T_CLOSE);
-    }
-    return (part){.q = q,
-                  .call = true,
-                  .text = e->text + at,
-                  .len = lx.at + 1 - at,
-                  .argument = open + 1 - at,
-                  .argument_len = lx.at - open - 1};
-}
-
-static bool part_at(const expr *e, size_t i, part *out) {
-    bool call;
-    size_t at;
-    const quantity *q = expr_quantity(e, i, &call, &at);
-    if (!q)
-        return false;
-    *out = call ? call_at(e, q, at) : (part){.q = q, .text = q->name, .len = strlen(q->name)};
-    return true;
-}
-
-static bool explain_whole(const page *p, const expr *e, value v, calc_error *error) {
-    influence_study study;
-    if (p->conditioning && !influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, error))
-        return false;
-    answer_page(p->out, "explain");
-    put_expression_value(p, e->text + e->at, e->len, v);
-    if (p->conditioning)
-        put_conditioning(p, "it", &study);
-    answer_done(p->out);
-    return true;
-}
-
-/* What has been explained. */
-typedef struct seen {
-    part *of;
-    size_t count, room;
-} seen;
-
-static bool is_told(const seen *before, const part *of) {
-    bool told = false;
-    for (size_t i = 0; i < before->count && !told; i++)
-        told = before->of[i].q == of->q && before->of[i].call == of->call;
-    return told;
-}
-
-/* Enters it where it is not. */
-static bool is_seen(const page *p, seen *before, const part *of) {
-    for (size_t i = 0; i < before->count; i++)
-        if (before->of[i].q == of->q && before->of[i].len == of->len &&
-            !strncmp(before->of[i].text, of->text, of->len))
-            return true;
-    part *grown = fret_array_for(before->of, &before->room, before->count + 1, sizeof *grown);
-    if (!grown)
-        return !calc_no_memory(p->error);
-    before->of = grown;
-    before->of[before->count++] = *of;
-    return false;
-}
-
 /* The value of a call whose formula has been told. */
-static void explain_call(const page *p, const part *of, const definition *in, bool title) {
+static void explain_call(const page *p, const part *of, bool title) {
     expr e = {0};
     value v;
-    if (!(in && is_free(of, in)) && text_value(p, of->text, of->len, &e, &v)) {
+    if (part_value(p, of, &e, &v)) {
         answer_page(p->out, "explain");
         if (title)
-            put_title(p, of->q);
-        put_expression_value(p, of->text, of->len, v);
+            explain_title(p, of->q);
+        explain_value(p, of->text, of->len, v);
         answer_done(p->out);
     }
     expr_free(&e);
 }
 
-static bool is_whole(const expr *e, const part *of) {
-    return of->len == e->len;
+/* Calls follow the first of their kind. */
+static bool explain_parts(const page *p, parts *all) {
+    for (size_t i = 0; i < all->count; i++) {
+        const part *one = &all->of[i];
+        if (one->told)
+            continue;
+        if (is_before(all, i, one, false))
+            explain_call(p, one, true);
+        else if (!one->call && is_given(p, one->q))
+            explain_input(p, one->q);
+        else if (!explain_part(p, one))
+            return false;
+        for (size_t j = i + 1; one->call && j < all->count; j++)
+            if (same_formula(&all->of[j], one) && all->of[j].in == one->in && !all->of[j].told) {
+                explain_call(p, &all->of[j], false);
+                all->of[j].told = true;
+            }
+    }
+    return true;
 }
 
-/* Each quantity, also those of the definitions that are named. in: the definition whose body it is, or NULL.
- * asked: what the conditioning belongs to. */
-static bool explain_parts(const page *p, const expr *e, const definition *in, const expr *asked, seen *before,
-                          calc_error *error) {
-    part one, other;
-    const definition *d;
-    for (size_t i = 0; part_at(e, i, &one); i++) {
-        const bool told = is_told(before, &one);
-        if (is_seen(p, before, &one))
-            continue;
-        if (told && e == asked)
-            continue; /* the whole, which is told at the end: all others came with the first of their kind */
-        if (told)
-            explain_call(p, &one, in, true);
-        else if (!one.call && is_given(p, one.q))
-            explain_input(p, one.q);
-        else if (!explain_part(p, &one, in, e == asked && is_whole(e, &one), error))
-            return false;
-        for (size_t j = i + 1; one.call && part_at(e, j, &other); j++)
-            if (other.call && other.q == one.q && !(e == asked && is_whole(e, &other)) &&
-                !is_seen(p, before, &other))
-                explain_call(p, &other, in, false);
-    }
-    for (size_t i = 0; (d = expr_definition(&p->sh->calc, e, i)); i++)
-        if (!explain_parts(p, &d->body, d, asked, before, error))
-            return false;
+static bool explain_whole(const page *p, const expr *e, value v) {
+    influence_study study;
+    if (p->conditioning && !influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, p->error))
+        return false;
+    answer_page(p->out, "explain");
+    explain_value(p, e->text + e->at, e->len, v);
+    if (p->conditioning)
+        explain_conditioning(p, "it", &study);
+    answer_done(p->out);
     return true;
 }
 
 /* Its parts, and at the end what was asked for, where it is more than one of them. */
-static bool explain_expression(const page *p, const expr *e, const expr *asked, value v, calc_error *error) {
-    seen before = {.count = 0};
-    part one;
-    bool told = false;
-    seen all = {.count = 0};
-    for (size_t i = 0; e == asked && !told && part_at(e, i, &one); i++) {
-        told = is_whole(e, &one) && !is_told(&all, &one); /* else its formula belongs to a call within */
-        is_seen(p, &all, &one);
-    }
-    const bool ok =
-        explain_parts(p, e, NULL, asked, &before, error) && (told || explain_whole(p, asked, v, error));
-    free(before.of);
+static bool explain_expression(const page *p, const expr *e, const expr *asked, value v) {
+    parts all = {.count = 0};
+    bool ok = add_parts(p, e, NULL, asked, &all) && explain_parts(p, &all), told = false;
+    for (size_t i = 0; i < all.count; i++)
+        told = told || all.of[i].whole;
+    ok = ok && (told || explain_whole(p, asked, v));
     free(all.of);
     return ok;
 }
@@ -777,7 +266,7 @@ static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *
     else if (bare)
         explain_function(&p, bare);
     else
-        ok = explain_expression(&p, e, asked, v, lx->error);
+        ok = explain_expression(&p, e, asked, v);
     ok = ok && !lx->error->raised;
     return (text_end(&text, ok) || calc_no_memory(lx->error)) && ok;
 }

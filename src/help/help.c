@@ -8,6 +8,7 @@
 #include "commands/presets.h"
 #include "help/topics.h"
 #include "statement/command.h"
+#include "statement/setting_table.h"
 #include "statement/text.h"
 #include "text/lines.h"
 
@@ -116,22 +117,28 @@ static entry command_entry(size_t i) {
     return (entry){.name = c->name, .summary = c->summary, .keywords = c->keywords, .text = c->help};
 }
 
-/* Ends with the example: the command's own text, else what its table prints. */
-static void command_help(FILE *to, size_t i) {
-    const command *c = command_row(i);
+/* What a row takes, with the clauses that it has in common with others, and what it is. */
+static void usage_help(FILE *to, const grammar *f, const char *summary) {
     const hole_row *row;
     char usage[GRAMMAR_USAGE], text[GRAMMAR_USAGE + 16];
-    command_usage(c, usage);
+    grammar_usage(f, usage);
     help_wrapped(to, usage, 0, 6);
     for (size_t h = 0; (row = hole_at(h)); h++) {
-        if (row->kind != HOLE_CLAUSES || !strstr(c->takes, row->name))
+        if (row->kind != HOLE_CLAUSES || !strstr(f->takes, row->name))
             continue;
         grammar_clauses(row, usage);
         snprintf(text, sizeof text, "%s: %s", row->name, usage);
         fputs("      ", to);
         help_wrapped(to, text, 6, 8);
     }
-    fprintf(to, "  %s\n", c->summary);
+    fputs("  ", to);
+    help_wrapped(to, summary, 2, 2);
+}
+
+/* Ends with the example: the command's own text, else what its table prints. */
+static void command_help(FILE *to, size_t i) {
+    const command *c = command_row(i);
+    usage_help(to, command_form(c), c->summary);
     if (c->print) {
         putc('\n', to);
         c->print(to);
@@ -142,14 +149,12 @@ static void command_help(FILE *to, size_t i) {
 
 static entry setting_entry(size_t i) {
     const setting *row = setting_row(i);
-    return (entry){.command = "set ", .name = row->name, .summary = row->summary, .keywords = row->usage};
+    return (entry){.command = "set ", .name = row->name, .summary = row->summary, .keywords = row->takes};
 }
 
 static void setting_help(FILE *to, size_t i) {
-    const setting *row = setting_row(i);
-    fprintf(to, "set %s %s\n  ", row->name, row->usage);
-    help_wrapped(to, row->summary, 2, 2);
-    fprintf(to, "\n%s", row->example);
+    usage_help(to, setting_form(i), setting_row(i)->summary);
+    fprintf(to, "\n%s", setting_row(i)->example);
 }
 
 static const char *model_name(size_t i) {
@@ -182,9 +187,7 @@ static entry geometry_entry(size_t i) {
 
 static void geometry_help(FILE *to, size_t i) {
     const geometry *g = geometry_row(i);
-    char usage[GRAMMAR_USAGE];
-    grammar_usage(shape_form(g), usage);
-    fprintf(to, "%s\n  %s\n", usage, g->meaning);
+    usage_help(to, geometry_form(i), g->meaning);
     for (input in = IN_N; in < INPUTS; in++)
         if (g->allowed & INPUT_BIT(in))
             fprintf(to, "    %-10s  %s\n", quantity_of_input(in)->name, quantity_of_input(in)->title);
@@ -212,8 +215,8 @@ static entry figure_entry(size_t i) {
 static void figure_help(FILE *to, size_t i) {
     const figure *f = figure_row(i);
     char text[HELP_TEXT];
-    fprintf(to, "plot %s [looks] [to FILE]\n  %s\n  ", f->name, f->title);
-    help_wrapped(to, f->summary, 2, 2);
+    grammar_usage(figure_form(i), text);
+    fprintf(to, "%s\n  %s\n  %s\n", text, f->title, f->summary);
     if (f->statement) {
         snprintf(text, sizeof text, "as: plot %s", f->statement);
         fputs("  ", to);
@@ -303,8 +306,10 @@ const char *help_name(size_t i) {
 
 void help_settings(FILE *to) {
     const setting *row;
+    char usage[GRAMMAR_USAGE];
     for (size_t i = 0; (row = setting_row(i)); i++) {
-        fprintf(to, "    set %s %s\n        ", row->name, row->usage);
+        grammar_usage(setting_form(i), usage);
+        fprintf(to, "    %s\n        ", usage);
         help_wrapped(to, row->summary, 8, 8);
     }
 }
@@ -356,18 +361,6 @@ static void overview(FILE *to) {
           "    material steel; geometry sphere R=10 mm; friction 0.4\n"
           "    press FN=100 N; cycle FA=20 N; dW\n",
           to);
-}
-
-/* A word need not be made of tokens: flat-rounded, %. */
-static void raw_word(lexer *lx, char word[LEX_NAME]) {
-    size_t n = 0;
-    while (lx->at + n < lx->end && !strchr(" \t\r\n", lx->text[lx->at + n]))
-        n++;
-    lx->error->raised = false;
-    lx->len = n;
-    snprintf(word, LEX_NAME, "%.*s", LEX_SHOWN(n), lx->text + lx->at);
-    if (n >= LEX_NAME)
-        *word = 0; /* no name is as long */
 }
 
 /* All that have this name; how many. */
@@ -449,29 +442,37 @@ const char *help_where(const char *word) {
 
 /* ---- the commands ------------------------------------------------------------------------------- */
 
+/* Is it a word of what the row takes, of a clause or of a table? */
+static bool has_word(const grammar *f, const char *word) {
+    const clause *known = grammar_clause(f, word);
+    size_t row;
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (a->holes && a->hole[0].row->words && word_among(a->hole[0].row->words, word, strlen(word), &row))
+            return true;
+    return known && !known->argument;
+}
+
 /* The help that tells of a word within statements, or NULL. */
 static const char *told_in(const char *word) {
-    static const char *const words[][2] = {
-        {"at", "expressions"}, {"in", "expressions"}, {"ans", "expressions"},
-        {"along", "plot"},     {"map", "plot"},       {"to", "files"},
-        {"smooth", "files"},   {"rigid", "second"},   {"same", "second"}};
-    const command *c;
+    static const char *const words[][2] = {{"at", "expressions"},
+                                           {"in", "expressions"},
+                                           {"ans", "expressions"},
+                                           {"to", "files"},
+                                           {"smooth", "files"}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (!strcmp(word, words[i][0]))
             return words[i][1];
-    for (size_t i = 0; *word && (c = command_row(i)); i++) {
-        const clause *a = grammar_clause(command_form(c), word);
-        if (a && !a->argument)
-            return c->name;
-    }
+    for (size_t i = 0; *word && command_row(i); i++)
+        if (has_word(command_form(command_row(i)), word))
+            return command_name(i);
     return NULL;
 }
 
 static bool no_help(lexer *lx, const char *word) {
-    if (told_in(word))
-        return lex_fail(lx, "no help on '%s' alone; try: help %s", word, told_in(word));
-    const char *near = *word ? suggest(word, help_name) : NULL;
+    const char *told = told_in(word), *near = *word ? suggest(word, help_name) : NULL;
     const bool about = help_where(word) != NULL;
+    if (told)
+        return lex_fail(lx, "no help on '%s' alone; try: help %s", word, told);
     if (near)
         return lex_fail(lx, "no help on '%s': did you mean %s?%s%s", word, near,
                         about ? " Try also: apropos " : "", about ? word : "");
@@ -479,30 +480,37 @@ static bool no_help(lexer *lx, const char *word) {
                     about ? word : "");
 }
 
+/* The word that help is wanted on, of those that have been said: behind a command it is the second, as in
+ * `geometry cone`, and p(r) is one of a list, FN=100 N of a statement. */
+static bool read_word(lexer *lx, const said *all, char word[LEX_NAME]) {
+    unsigned i = 0;
+    hole_word(lx, &all->list[0], word);
+    if (all->count > 1 && command_find(word, strlen(word)))
+        hole_word(lx, &all->list[++i], word);
+    lx->at = all->list[i].at;
+    lx->len = all->list[i].hole[0].len;
+    if (!help_on(NULL, word) && strpbrk(word, "(=")) {
+        word[strcspn(word, "(=")] = 0;
+        lx->len = lx->end - lx->at;
+        i = all->count - 1;
+    }
+    if (!help_on(NULL, word))
+        return no_help(lx, word);
+    if (i + 1 == all->count)
+        return true;
+    lex_seek(lx, all->list[i + 1].at);
+    return at_end(lx);
+}
+
 bool do_help(shell *sh, lexer *lx, const command *self) {
     char word[LEX_NAME] = "";
     text_out t;
-    (void)self;
-    if (lx->kind != T_END) {
-        raw_word(lx, word);
-        if (command_find(word, strlen(word)) &&
-            lex_peek(lx) != T_END) { /* geometry cone, set model, material steel */
-            lex_next(lx);
-            raw_word(lx, word);
-        }
-        if (!help_on(NULL, word) && strpbrk(word, "(=")) { /* p(r) of a list, FN=100 N of a statement */
-            word[strcspn(word, "(=")] = 0;
-            lx->len = lx->end - lx->at;
-        }
-        if (!help_on(NULL, word))
-            return no_help(lx, word);
-        lex_next(lx);
-        if (!at_end(lx))
-            return false;
-    }
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all) || (all.count && !read_word(lx, &all, word)))
+        return false;
     if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
-    if (*word)
+    if (all.count)
         help_on(t.to, word);
     else
         overview(t.to);
@@ -510,26 +518,24 @@ bool do_help(shell *sh, lexer *lx, const command *self) {
 }
 
 bool do_apropos(shell *sh, lexer *lx, const command *self) {
-    enum { SOUGHT = 8 };
-    char words[SOUGHT + 1][LEX_NAME] = {""};
-    size_t count = 0, len = 0;
+    char words[HEARD + 1][LEX_NAME] = {""};
     bool known = true; /* no word is longer than any name */
     text_out t;
-    (void)self;
+    said all;
     if (lx->kind == T_END)
         return lex_fail(lx, "apropos what? such as: apropos radius");
-    const char *text = lx->text + lx->at;
-    for (; lx->kind != T_END && count < SOUGHT; count++) {
-        raw_word(lx, words[count]);
-        known = known && *words[count];
-        len = (size_t)(lx->text + lx->at + lx->len - text);
-        lex_next(lx);
-    }
-    if (!at_end(lx))
+    if (!said_read(sh, lx, command_form(self), &all))
         return false;
+    for (unsigned i = 0; i < all.count; i++) {
+        hole_word(lx, &all.list[i], words[i]);
+        known = known && *words[i];
+    }
+    const span *last = &all.list[all.count - 1].hole[0];
+    const size_t at = all.list[0].at, len = last->at + last->len - at;
     if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     if (!known || (!list_about(t.to, words, false) && !list_about(t.to, words, true)))
-        fprintf(t.to, "nothing on '%.*s'%s\n", LEX_SHOWN(len), text, count > 1 ? "; try one word" : "");
+        fprintf(t.to, "nothing on '%.*s'%s\n", LEX_SHOWN(len), lx->text + at,
+                all.count > 1 ? "; try one word" : "");
     return text_end(&t, true) || calc_no_memory(lx->error);
 }

@@ -47,43 +47,16 @@ static void quantities(FILE *to) {
 
 /* ---- the paper --------------------------------------------------------------------------------- */
 
-/* Its equations in order, with what no formula of a quantity says. */
-static const struct {
-    const char *number, *text;
-} equations[] = {
-    {"(1)", NULL},
-    {"(2)", "no quantity is computed by it"},
-    {"(3)", "g(x) from f(r), an Abel transform; fields by its inverse"},
-    {"(4)", NULL},
-    {"(5)", NULL},
-    {"(6)", NULL},
-    {"(7)", NULL},
-    {"(8)", NULL},
-    {"(9)", NULL},
-    {"(10)", NULL},
-    {"(11)", NULL},
-    {"(12)", NULL},
-    {"(13)", NULL},
-    {"(14)", NULL},
-    {"(15)", NULL},
-    {"(16)", NULL},
-    {"(17)", NULL},
-    {"(18)", NULL},
-    {"(19)", "which springs stick in a step: step, cycle, follow"},
-    {"(20)", NULL},
-    {"(21)", "the area of the hysteresis loop: plot loop, and W over a cycle"},
-    {"(22)", NULL},
-    {"(23)", NULL},
-    {"(24)", "no quantity is computed by it"},
-    {"(25)", "the energy dissipated per cycle; agrees with (21), (22), (26) and (27)"},
-    {"(26)", NULL},
-    {"(27)", NULL},
-    {"(28)", "(27) for a sphere and k = 0, by Mindlin and Deresiewicz: dW there"},
-    {"(A1)", NULL},
-    {"(A2)", NULL},
-    {"(A3)", NULL},
-};
-enum { EQUATIONS = sizeof equations / sizeof *equations };
+/* Its equations are (1) to (28), then (A1) to (A3): of some, what no formula of a quantity says. */
+enum { EQUATIONS = 28, APPENDIX = 3 };
+static const char *const equations[EQUATIONS + 1] = {
+    [2] = "no quantity is computed by it",
+    [3] = "g(x) from f(r), an Abel transform; fields by its inverse",
+    [19] = "which springs stick in a step: step, cycle, follow",
+    [21] = "the area of the hysteresis loop: plot loop, and W over a cycle",
+    [24] = "no quantity is computed by it",
+    [25] = "the energy dissipated per cycle; agrees with (21), (22), (26) and (27)",
+    [28] = "(27) for a sphere and k = 0, by Mindlin and Deresiewicz: dW there"};
 
 static bool quotes(const quantity *q, const char *number) {
     for (size_t j = 0; j < FORMULAS && q->formulas[j].text; j++)
@@ -131,8 +104,11 @@ static void paper(FILE *to) {
           "`explain NAME` puts the numbers of the scene in; `demo fig04` to `demo fig13`\n"
           "and `demo s1` to `demo s3` draw the figures and videos.\n\n",
           to);
-    for (size_t i = 0; i < EQUATIONS; i++)
-        equation(to, equations[i].number, equations[i].text);
+    for (int i = 1; i <= EQUATIONS + APPENDIX; i++) {
+        char number[16];
+        snprintf(number, sizeof number, i > EQUATIONS ? "(A%d)" : "(%d)", i > EQUATIONS ? i - EQUATIONS : i);
+        equation(to, number, i > EQUATIONS ? NULL : equations[i]);
+    }
     fputs("\nSlips of the paper, as this program reads it:\n"
           "  (13)       is for two equal elastic bodies; here it holds for any two\n"
           "  (19)       beyond first loading the test needs the trial displacement of\n"

@@ -16,7 +16,6 @@ trial *trial_open(calc *c, calc_error *error) {
     }
     t->c = c;
     t->outer = c->now;
-    t->names = c->names.count;
     scene_clone(&t->scene, c->now);
     t->scene.sound = t->sound = c->now == &c->scene || c->now->sound;
     t->scene.used = 0;

@@ -12,7 +12,6 @@ typedef struct trial {
     scene scene;
     scene *outer;  /* whom it stands for */
     bool sound;    /* whose program runs to its end */
-    size_t names;  /* those from here on are free names of the trial */
     own_name *old; /* values of the user's names that it hides, in the order of `hidden` */
     size_t *hidden;
     size_t hidden_count;

@@ -13,6 +13,7 @@
 #include "live/live.h"
 #include "prompt/show.h"
 #include "statement/scripts.h"
+#include "statement/setting_table.h"
 
 /* ---- holes ------------------------------------------------------------------------------------- */
 
@@ -34,15 +35,17 @@ const hole_row holes[] = {
     {.name = "SECONDS", .kind = HOLE_SECONDS},
     {.name = "TEXT", .kind = HOLE_TEXT},
     {.name = "FILE", .kind = HOLE_FILE},
-    {.name = "LOAD", .kind = HOLE_LOAD},
+    {.name = "LOAD", .kind = HOLE_LOAD, .words = load_name},
     {.name = "MATERIAL", .kind = HOLE_CHOICE, .noun = "material", .words = preset_name},
     {.name = "BODY", .kind = HOLE_CHOICE, .noun = "material", .words = second_name},
     {.name = "AXES", .kind = HOLE_CHOICE, .words = axes_name},
     {.name = "OFF", .kind = HOLE_CHOICE, .words = off_name},
     {.name = "WORD", .kind = HOLE_WORD},
-    {.name = "SHAPE", .kind = HOLE_WORD, .words = geometry_name},
+    {.name = "SHAPE", .kind = HOLE_CHOICE, .noun = "geometry", .words = geometry_name, .form = geometry_form},
     {.name = "PART", .kind = HOLE_CHOICE, .noun = "part", .words = show_name},
-    {.name = "SETTING", .kind = HOLE_WORD, .words = setting_name},
+    {.name = "SETTING", .kind = HOLE_CHOICE, .noun = "setting", .words = setting_name, .form = setting_form},
+    {.name = "SIZE", .kind = HOLE_WORD},
+    {.name = "TERMINAL", .kind = HOLE_CHOICE, .noun = "terminal", .words = terminal_name},
     {.name = "LESSON", .kind = HOLE_WORD, .words = script_name},
     {.name = "TOPIC", .kind = HOLE_WORD, .words = help_name},
     {.name = "FIGURE", .kind = HOLE_WORD, .words = figure_word},
@@ -59,16 +62,12 @@ static void presets_list(FILE *to) {
         fprintf(to, "    %-17s E0=%.10g GPa nu=%.10g\n", p->name, p->E0 / 1e9, p->nu);
 }
 
-static void geometry_line(FILE *to, const geometry *g) {
-    char usage[GRAMMAR_USAGE];
-    grammar_usage(shape_form(g), usage);
-    fprintf(to, "    %s\n        %s\n", usage, g->meaning);
-}
-
 static void geometry_list(FILE *to) {
-    const geometry *g;
-    for (size_t i = 0; (g = geometry_row(i)); i++)
-        geometry_line(to, g);
+    char usage[GRAMMAR_USAGE];
+    for (size_t i = 0; geometry_row(i); i++) {
+        grammar_usage(geometry_form(i), usage);
+        fprintf(to, "    %s\n        %s\n", usage, geometry_row(i)->meaning);
+    }
     fputs("\n    fret> geometry cone angle=45 deg\n    fret> slope\n    slope = 1\n", to);
 }
 
@@ -471,7 +470,7 @@ const command commands[] = {
      .group = "the session",
      .keywords = "options",
      .print = help_settings,
-     .takes = "SETTING ...",
+     .takes = "[SETTING ...]",
      .summary = "settings",
      .help = "One setting a statement. `set timing on` shows the time of each statement and\n"
              "the models that answered. `set model` picks one: auto takes the closed form\n"
@@ -574,7 +573,7 @@ const command commands[] = {
     {.name = "help",
      .run = do_help,
      .group = "the session",
-     .takes = "[TOPIC]",
+     .takes = "[TOPIC]*",
      .summary = "this help, or that on a command, a quantity or a topic",
      .help = "    fret> help kappa\n"
              "    kappa: shape factor\n"

@@ -6,31 +6,28 @@
 #include "prompt/show.h"
 #include "statement/command.h"
 #include "statement/record.h"
+#include "statement/setting_table.h"
 #include "statement/target.h"
 
 /* ---- save -------------------------------------------------------------------------------------- */
 
 bool do_save(shell *sh, lexer *lx, const command *self) {
-    char name[FILE_NAME];
-    file_out file;
-    file_report report;
+    target t;
     said s;
-    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
+    if (!said_read(sh, lx, command_form(self), &s))
         return false;
     const bool history = *s.list[0].of->name;
-    const size_t at = s.list[0].hole[0].at, len = s.list[0].hole[0].len;
+    const span *name = &s.list[0].hole[0];
     if (history && sh->replaying)
         return true;
     if (history && !sh->typed.to)
-        return calc_fail(lx->error, at, len, "nothing has been typed here: a script is its own history");
-    if (!file_out_open(&file, name, &shell_stop, lx->error))
-        return calc_place(lx->error, at, len);
-    if (!(history ? typed_write(sh, file.to) : scene_write(&sh->calc, &sh->set, file.to, true)))
-        calc_no_memory(lx->error);
-    if (!file_out_close(&file, !lx->error->raised, &report, lx->error) || lx->error->raised)
-        return calc_place(lx->error, at, len);
-    target_report(sh, name, &report);
-    return true;
+        return calc_fail(lx->error, name->at, name->len,
+                         "nothing has been typed here: a script is its own history");
+    if (!target_file(lx, name, &t))
+        return false;
+    return target_close(sh, lx, &t,
+                        (history ? typed_write(sh, t.to) : scene_write(&sh->calc, &sh->set, t.to, true)) ||
+                            calc_no_memory(lx->error));
 }
 
 /* ---- record and replay ------------------------------------------------------------------------- */

@@ -13,6 +13,7 @@
 #include "statement/command.h"
 #include "statement/output.h"
 #include "statement/record.h"
+#include "statement/setting_table.h"
 #include "text/file.h"
 
 #ifndef FRET_VERSION
@@ -101,12 +102,7 @@ static int take_tolerance(wishes *w, const char *text) {
 }
 
 static int take_format(settings *set, const char *text) {
-    for (int i = 0; format_names[i]; i++)
-        if (!strcmp(format_names[i], text)) {
-            set->format = i;
-            return EXIT_OK;
-        }
-    return bad_usage("--format is text, csv or json, not", text);
+    return setting_format(set, text) ? EXIT_OK : bad_usage("--format is text, csv or json, not", text);
 }
 
 static int take_color(wishes *w, const char *text) {

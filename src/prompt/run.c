@@ -13,6 +13,7 @@
 #include "statement/cursor.h"
 #include "statement/progress.h"
 #include "statement/record.h"
+#include "statement/setting_table.h"
 #include "text/characters.h"
 #include "text/lines.h"
 

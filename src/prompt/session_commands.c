@@ -4,6 +4,7 @@
 
 #include "prompt/show.h"
 #include "statement/command.h"
+#include "statement/setting_table.h"
 
 bool do_source(shell *sh, lexer *lx, const command *self) {
     enum { NESTING = 16 };
@@ -23,9 +24,10 @@ bool do_source(shell *sh, lexer *lx, const command *self) {
 }
 
 bool do_set(shell *sh, lexer *lx, const command *self) {
-    (void)self;
-    return lx->kind == T_END ? show_text(sh, show_settings, lx->error)
-                             : setting_read(&sh->calc, &sh->set, lx);
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    return all.by->shape ? setting_apply(sh, lx, &all) : show_text(sh, show_settings, lx->error);
 }
 
 bool do_quit(shell *sh, lexer *lx, const command *self) {

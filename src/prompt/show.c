@@ -9,6 +9,7 @@
 #include "help/topics.h"
 #include "statement/command.h"
 #include "statement/output.h"
+#include "statement/setting_table.h"
 #include "statement/text.h"
 #include "text/lines.h"
 #include "text/unit_text.h"
@@ -324,12 +325,8 @@ static void settle(calc *c) {
 bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
     writer w = {c, to, false};
     settle(c);
-    if (whole && !c->scene.automatic) {
-        const setting *row;
-        for (size_t i = 0; (row = setting_row(i)); i++)
-            if (!strcmp(row->name, "model"))
-                setting_show(row, c, set, to);
-    }
+    if (whole && !c->scene.automatic)
+        setting_show(SETTING_MODEL, c, set, to);
     write_material(&w);
     write_second(&w);
     write_geometry(&w);
@@ -351,9 +348,8 @@ static bool show_scene(shell *sh, FILE *to) {
 }
 
 bool show_settings(shell *sh, FILE *to) {
-    const setting *row;
-    for (size_t i = 0; (row = setting_row(i)); i++)
-        setting_show(row, &sh->calc, &sh->set, to);
+    for (size_t i = 0; setting_row(i); i++)
+        setting_show(i, &sh->calc, &sh->set, to);
     return true;
 }
 

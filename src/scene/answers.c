@@ -196,10 +196,8 @@ void scene_used_closed(scene *s) {
 
 static const load_reach *closed_reach(scene *s) {
     const load_reach *reach;
-    calc_error ignored;
-    error_clear(&ignored);
     const bool allowed = (s->automatic || s->model == MODEL_CLOSED) && !s->now && s->end.steps > 0;
-    return allowed && scene_reach(s, &reach, &ignored) && !reach->normal_varies ? reach : NULL;
+    return allowed && scene_reach(s, &reach, error_quiet()) && !reach->normal_varies ? reach : NULL;
 }
 
 bool scene_closed_state(scene *s) {

@@ -188,13 +188,6 @@ const char *geometry_name(size_t i) {
     return i < GEOMETRIES ? geometries[i].name : NULL;
 }
 
-const geometry *geometry_find(const char *name, size_t len) {
-    for (size_t i = 0; i < GEOMETRIES; i++)
-        if (strlen(geometries[i].name) == len && !memcmp(geometries[i].name, name, len))
-            return &geometries[i];
-    return NULL;
-}
-
 static void table_end(counted *self) {
     shared_table *t = (shared_table *)self;
     fret_table_free(t->table);

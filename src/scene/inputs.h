@@ -53,7 +53,6 @@ typedef struct geometry {
     const char *example;  /* of `help`: a transcript, indented by four */
 } geometry;
 
-const geometry *geometry_find(const char *name, size_t len);
 const geometry *geometry_row(size_t i); /* NULL after the last */
 const char *geometry_name(size_t i);    /* for suggest() */
 

@@ -2,7 +2,9 @@
 /* What a command answers, handed to the form that is set. */
 #include "statement/answer.h"
 
-#include "statement/answer_form.h"
+#include <stdarg.h>
+
+#include "text/lines.h"
 
 static const answer_form *const forms[] = {
     [FORMAT_TEXT] = &answer_as_text, [FORMAT_CSV] = &answer_as_csv, [FORMAT_JSON] = &answer_as_json};
@@ -80,44 +82,50 @@ void answer_done(answer *a) {
         a->form->close(a);
 }
 
+static void member(answer *a, const char *name, const answer_cell *c) {
+    if (a->form->member)
+        a->form->member(a, name, c);
+}
+
 void answer_number(answer *a, const char *name, double v) {
-    if (a->form->number)
-        a->form->number(a, name, v);
+    member(a, name, &(answer_cell){CELL_NUMBER, .v = {.v = v}, .digits = 17});
 }
 
 void answer_string(answer *a, const char *name, const char *text) {
-    if (a->form->string)
-        a->form->string(a, name, text);
+    member(a, name, &(answer_cell){CELL_WORDS, .words = text});
 }
 
 void answer_flag(answer *a, const char *name, bool v) {
-    if (a->form->flag)
-        a->form->flag(a, name, v);
-}
-
-void answer_list(answer *a, const char *name, const double *v, size_t count) {
-    if (a->form->list)
-        a->form->list(a, name, v, count);
+    member(a, name, &(answer_cell){CELL_FLAG, .v = {.v = v}});
 }
 
 void answer_quantity(answer *a, const char *name, value v) {
-    if (a->form->quantity)
-        a->form->quantity(a, name, v);
+    member(a, name, &(answer_cell){CELL_QUANTITY, .v = v, .digits = 17});
 }
 
 void answer_fact(answer *a, const char *name, const char *text) {
-    if (a->form->fact)
-        a->form->fact(a, name, text);
+    member(a, name, &(answer_cell){CELL_FACT, .words = text});
 }
 
 void answer_share(answer *a, const char *name, double part) {
-    if (a->form->share)
-        a->form->share(a, name, part);
+    member(a, name, &(answer_cell){CELL_SHARE, .v = {.v = part}, .digits = 17});
+}
+
+static void open_part(answer *a, const char *name, char bracket) {
+    if (a->form->begin)
+        a->form->begin(a, name, bracket);
 }
 
 void answer_group(answer *a, const char *name) {
-    if (a->form->group)
-        a->form->group(a, name);
+    open_part(a, name, '{');
+}
+
+void answer_items(answer *a, const char *name) {
+    open_part(a, name, '[');
+}
+
+void answer_item(answer *a) {
+    open_part(a, NULL, '{');
 }
 
 void answer_up(answer *a) {
@@ -125,32 +133,17 @@ void answer_up(answer *a) {
         a->form->up(a);
 }
 
-void answer_items(answer *a, const char *name) {
-    if (a->form->items)
-        a->form->items(a, name);
-}
-
-void answer_item(answer *a) {
-    if (a->form->item)
-        a->form->item(a);
-}
-
-void answer_item_up(answer *a) {
-    if (a->form->item_up)
-        a->form->item_up(a);
-}
-
-void answer_items_up(answer *a) {
-    if (a->form->items_up)
-        a->form->items_up(a);
-}
-
 void answer_words(answer *a, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    if (a->form->words)
-        a->form->words(a, format, args);
+    if (a->layout >= a->form->words)
+        vfprintf(a->to, format, args);
     va_end(args);
+}
+
+void answer_line(answer *a, const char *text, size_t indent) {
+    if (a->layout >= a->form->words)
+        help_wrapped(a->to, text, 0, indent);
 }
 
 /* ---- tables ------------------------------------------------------------------------------------ */

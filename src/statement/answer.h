@@ -45,7 +45,6 @@ void answer_done(answer *a);
 void answer_number(answer *a, const char *name, double v);
 void answer_string(answer *a, const char *name, const char *text);
 void answer_flag(answer *a, const char *name, bool v);
-void answer_list(answer *a, const char *name, const double *v, size_t count);
 void answer_quantity(answer *a, const char *name, value v);
 /* `name: text` of a page; else as a string. */
 void answer_fact(answer *a, const char *name, const char *text);
@@ -54,17 +53,17 @@ void answer_share(answer *a, const char *name, double part);
 /* Facts that belong together, up to answer_up. */
 void answer_group(answer *a, const char *name);
 void answer_up(answer *a);
-/* Several such, without a name each: answer_items, then answer_item and answer_item_up for each of them, then
- * answer_items_up. */
+/* Several such, without a name each, or numbers of no name: answer_items, then answer_item for each of the
+ * former; answer_up ends any of them. */
 void answer_items(answer *a, const char *name);
 void answer_item(answer *a);
-void answer_item_up(answer *a);
-void answer_items_up(answer *a);
 /* The same facts, for readers: of text alone, and where CSV is as text. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 void answer_words(answer *a, const char *format, ...);
+/* A line of them, broken at blanks; what follows of it begins at `indent`. */
+void answer_line(answer *a, const char *text, size_t indent);
 
 /* ---- tables: a value that is not finite is a gap ---- */
 

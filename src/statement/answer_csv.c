@@ -6,6 +6,7 @@
 
 #include "number/array.h"
 #include "statement/answer_form.h"
+#include "text/lex.h"
 
 /* ---- rows -------------------------------------------------------------------------------------- */
 
@@ -59,7 +60,7 @@ static void put_mixed(answer *a, const answer_head *heads, const answer_cell *ce
         if (c->kind == CELL_WORDS)
             fprintf(a->to, "%s%s%s", quote, c->words, quote);
         else
-            print_number(a->to, 0, c->kind == CELL_FLAG ? 1 : c->digits, c->v);
+            print_number(a->to, 0, c->kind == CELL_FLAG ? 1 : c->digits, (double)c->v.v);
     }
     putc('\n', a->to);
 }
@@ -97,12 +98,16 @@ static void put_csv_estimate(answer *a, const column *c, long double si, long do
     wait_for_row(a, c->name, "deviation", c, deviation);
 }
 
-static void put_share(answer *a, const char *name, double part) {
+static void put_member(answer *a, const char *name, const answer_cell *c) {
     char from[LEX_NAME + 8];
     const struct waiting *w = &a->waiting;
+    if (c->kind != CELL_SHARE) {
+        text_member(a, name, c);
+        return;
+    }
     snprintf(from, sizeof from, "from %s", name);
     if (!a->lost)
-        wait_for_row(a, w->of[w->estimate].name, from, NULL, part);
+        wait_for_row(a, w->of[w->estimate].name, from, NULL, c->v.v);
 }
 
 static void put_waiting(answer *a, bool ok) {
@@ -117,20 +122,12 @@ static void put_waiting(answer *a, bool ok) {
     *w = (struct waiting){.count = 0};
 }
 
-/* Of a page alone: elsewhere the rows say it. */
-static void put_words(answer *a, const char *format, va_list args) {
-    if (a->layout == LAYOUT_PAGE)
-        text_words(a, format, args);
-}
-
 const answer_form answer_as_csv = {
+    .words = LAYOUT_PAGE, /* elsewhere the rows say it */
     .value = put_csv_value,
     .estimate = put_csv_estimate,
     .close = text_close,
-    .quantity = text_quantity,
-    .fact = text_fact,
-    .words = put_words,
-    .share = put_share,
+    .member = put_member,
     .columns = put_csv_columns,
     .row = put_csv_row,
     .heads = put_csv_heads,

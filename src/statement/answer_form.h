@@ -4,10 +4,11 @@
 #ifndef STATEMENT_ANSWER_FORM_H
 #define STATEMENT_ANSWER_FORM_H
 
-#include <stdarg.h>
 #include <stdio.h>
 
 #include "statement/output.h"
+
+enum { ANSWER_PARTS = 4 };
 
 /* On its way out. */
 typedef struct answer {
@@ -18,6 +19,8 @@ typedef struct answer {
     /* an object, of JSON, or the lines of a report, of text */
     int layout;
     bool any; /* something is in it */
+    unsigned parts;
+    char bracket[ANSWER_PARTS]; /* of JSON: which of its parts are open */
     /* values that wait for the end, of CSV: one row has them all */
     struct waiting {
         column *of;
@@ -48,9 +51,17 @@ typedef struct answer_head {
 } answer_head;
 
 typedef struct answer_cell {
-    enum { CELL_WORDS, CELL_NUMBER, CELL_FLAG } kind;
+    enum {
+        CELL_WORDS,
+        CELL_NUMBER,
+        CELL_FLAG,
+        /* of an event alone */
+        CELL_QUANTITY,
+        CELL_FACT, /* words that text shows too */
+        CELL_SHARE
+    } kind;
     const char *words;
-    double v;          /* of a number or a flag */
+    value v;           /* of what is no words */
     int digits;        /* of a number, for programs */
     const char *shown; /* in text; NULL: the words */
 } answer_cell;
@@ -58,30 +69,20 @@ typedef struct answer_cell {
 /* ---- forms ---- */
 
 /* How text lays out an event: it has but words; one line of its quantities; a line of each. */
-enum { LAYOUT_QUIET, LAYOUT_LINE, LAYOUT_PAGE };
+enum { LAYOUT_QUIET, LAYOUT_LINE, LAYOUT_PAGE, LAYOUT_NONE };
 
 /* NULL: the form has no place for it. */
 typedef struct answer_form {
     bool data; /* every line is one for programs */
+    int words; /* the first layout that shows what is for readers alone */
     void (*value)(answer *a, const column *c, long double si);
     void (*estimate)(answer *a, const column *c, long double si, long double deviation);
     void (*beside)(answer *a, const column *c, long double si, long double deviation);
     void (*open)(answer *a, const char *kind, const char *text);
     void (*close)(answer *a);
-    void (*number)(answer *a, const char *name, double v);
-    void (*string)(answer *a, const char *name, const char *text);
-    void (*flag)(answer *a, const char *name, bool v);
-    void (*list)(answer *a, const char *name, const double *v, size_t count);
-    void (*quantity)(answer *a, const char *name, value v);
-    void (*fact)(answer *a, const char *name, const char *text);
-    void (*share)(answer *a, const char *name, double part);
-    void (*group)(answer *a, const char *name);
+    void (*member)(answer *a, const char *name, const answer_cell *c);
+    void (*begin)(answer *a, const char *name, char bracket); /* NULL: it has no name */
     void (*up)(answer *a);
-    void (*items)(answer *a, const char *name);
-    void (*item)(answer *a);
-    void (*item_up)(answer *a);
-    void (*items_up)(answer *a);
-    void (*words)(answer *a, const char *format, va_list args);
     bool (*columns)(answer *a, const char *event);
     void (*row)(answer *a, const long double *si);
     void (*heads)(answer *a, const char *event, const answer_head *heads, size_t count);
@@ -95,8 +96,6 @@ extern const answer_form answer_as_text, answer_as_csv, answer_as_json;
 
 /* CSV writes these as text does. */
 void text_close(answer *a);
-void text_quantity(answer *a, const char *name, value v);
-void text_fact(answer *a, const char *name, const char *text);
-void text_words(answer *a, const char *format, va_list args);
+void text_member(answer *a, const char *name, const answer_cell *c);
 
 #endif

@@ -42,22 +42,21 @@ static void put_beside(answer *a, const column *c, long double si, long double d
 
 /* ---- events ------------------------------------------------------------------------------------ */
 
-void text_quantity(answer *a, const char *name, value v) {
+static void put_quantity(answer *a, const char *name, value v) {
     char text[160];
-    if (a->layout == LAYOUT_QUIET)
-        return;
     format_value(a->set, v, text, sizeof text);
-    if (a->layout == LAYOUT_PAGE) {
+    if (a->layout == LAYOUT_PAGE)
         fprintf(a->to, "    %s = %s\n", name, text);
-    } else {
+    else
         fprintf(a->to, "%s%s = %s", a->any ? ", " : "  ", name, text);
-        a->any = true;
-    }
+    a->any = a->layout == LAYOUT_LINE;
 }
 
-void text_fact(answer *a, const char *name, const char *text) {
-    if (a->layout == LAYOUT_PAGE)
-        fprintf(a->to, "    %s: %s\n", name, text);
+void text_member(answer *a, const char *name, const answer_cell *c) {
+    if (c->kind == CELL_QUANTITY && a->layout != LAYOUT_QUIET)
+        put_quantity(a, name, c->v);
+    else if (c->kind == CELL_FACT && a->layout == LAYOUT_PAGE)
+        fprintf(a->to, "    %s: %s\n", name, c->words);
 }
 
 void text_close(answer *a) {
@@ -65,12 +64,12 @@ void text_close(answer *a) {
         putc('\n', a->to);
 }
 
-void text_words(answer *a, const char *format, va_list args) {
-    vfprintf(a->to, format, args);
-}
-
-static void put_share(answer *a, const char *name, double part) {
-    fprintf(a->to, "%s%s %.3g %%", a->any ? ", " : "    from ", name, 100 * part);
+static void put_member(answer *a, const char *name, const answer_cell *c) {
+    if (c->kind != CELL_SHARE) {
+        text_member(a, name, c);
+        return;
+    }
+    fprintf(a->to, "%s%s %.3Lg %%", a->any ? ", " : "    from ", name, 100 * c->v.v);
     a->any = true;
 }
 
@@ -181,11 +180,8 @@ const answer_form answer_as_text = {
     .estimate = put_text_estimate,
     .beside = put_beside,
     .close = text_close,
-    .quantity = text_quantity,
-    .fact = text_fact,
-    .share = put_share,
+    .member = put_member,
     .up = end_group,
-    .words = text_words,
     .columns = put_text_columns,
     .row = hold,
     .heads = put_text_heads,

@@ -57,9 +57,9 @@ const grammar *command_form(const command *c) {
     return grammar_made(&forms[c - all], c->name, NULL, c->takes);
 }
 
-const grammar *shape_form(const geometry *g) {
+const grammar *geometry_form(size_t i) {
     static grammar forms[SHAPES];
-    return grammar_made(&forms[g - geometry_row(0)], "geometry", g->name, g->takes);
+    return grammar_made(&forms[i], "geometry", geometry_row(i)->name, geometry_row(i)->takes);
 }
 
 bool argument_word(const lexer *lx) {

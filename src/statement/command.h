@@ -29,9 +29,9 @@ const command *command_find(const char *name, size_t len);
 const command *command_row(size_t i); /* NULL after the last */
 const char *command_name(size_t i);
 const hole_row *hole_at(size_t i); /* likewise */
-/* What it takes; what `geometry` takes behind the name of this shape. */
+/* What it takes; what `geometry` takes behind the i-th shape. */
 const grammar *command_form(const command *c);
-const grammar *shape_form(const geometry *g);
+const grammar *geometry_form(size_t i);
 /* Parsed where it is wanted first. */
 const grammar *grammar_made(grammar *f, const char *name, const char *shape, const char *takes);
 /* "step Fx=20 N ...", as who types it is told. */

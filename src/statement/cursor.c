@@ -34,29 +34,3 @@ bool at_end(lexer *lx) {
         return lex_fail(lx, "unexpected '%.*s': units are asked for by `in` (a in mm)", LEX_WORD(lx));
     return stray_unit(lx) ? false : lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
 }
-
-size_t word_at(const lexer *lx) {
-    size_t end = lx->at;
-    while (end < lx->end && !strchr(" \t\n\r", lx->text[end]))
-        end++;
-    return end - lx->at;
-}
-
-size_t choice_at(const lexer *lx) {
-    const size_t len = word_at(lx);
-    const char *comma = memchr(lx->text + lx->at, ',', len);
-    return comma ? (size_t)(comma - lx->text) - lx->at : len;
-}
-
-bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, unsigned *out) {
-    value v;
-    size_t at = lx->at;
-    if (lx->kind == T_END)
-        return lex_fail(lx, "expected %s: a whole number from 1 to %u", what, limit);
-    if (!expr_value(c, lx, &v))
-        return false;
-    if (!dim_equal(v.d, DIM_NONE) || !(v.v >= 1 && v.v <= limit) || v.v != (long double)(unsigned)v.v)
-        return calc_fail(lx->error, at, lx->last - at, "%s must be a whole number from 1 to %u", what, limit);
-    *out = (unsigned)v.v;
-    return true;
-}

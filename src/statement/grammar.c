@@ -120,8 +120,10 @@ static bool parse_hole(parsing *g, size_t n, char before) {
         g->p += 4 + word_length(g->p + 4);
     if (g->p[-1] == ',' && !strncmp(g->p, " ...", 4))
         a->list = true;
-    if (!strncmp(g->p, " ...", 4))
+    if (!strncmp(g->p, " ...", 4)) {
+        a->again = row->kind == HOLE_WORD;
         g->p += 4;
+    }
     a->len = (size_t)(g->p - a->text);
     return true;
 }

@@ -6,8 +6,9 @@
  *
  * A word in lower case begins a clause, capitals are a hole. NAME= is an argument, whose dimension and range
  * are those of the quantity; := where it may be live, += where it may be an increment, an example behind it.
- * [ ] may be left out, and stand in any order; with a * it may come again; | parts ways, of which one is
- * gone; a comma and ... let the hole, or of several holes the clause from its first on, come again. N:1000 is
+ * [ ] may be left out, and stand in any order; with a * it may come again, as may a word with ... behind it;
+ * | parts ways, of which one is gone; a comma and ... let the hole, or of several holes the clause from its
+ * first on, come again. N:1000 is
  * the most that a number may be. A hole may stand for clauses that several rows have in common. */
 #ifndef STATEMENT_GRAMMAR_H
 #define STATEMENT_GRAMMAR_H
@@ -26,16 +27,17 @@ typedef enum hole_kind {
     HOLE_TEXT,    /* "..." */
     HOLE_FILE,    /* all up to a blank, or "..." */
     HOLE_CHOICE,  /* one of some words */
-    HOLE_WORD,    /* the same, but any other too: the command judges it, and what follows it */
-    HOLE_LOAD,    /* a statement of the load */
+    HOLE_WORD,    /* any word: the command judges it */
+    HOLE_LOAD,    /* a statement of the load, which begins with one of some words */
     HOLE_CLAUSES  /* none, but clauses: a table of them */
 } hole_kind;
 
 typedef struct hole_row {
     const char *name;
     hole_kind kind;
-    const char *noun;               /* of a choice: what is chosen; of a value: the quantity */
-    const char *(*words)(size_t i); /* of a choice or a word; of clauses, their lines */
+    const char *noun;                        /* of a choice: what is chosen; of a value: the quantity */
+    const char *(*words)(size_t i);          /* of a choice or a word; of clauses, their lines */
+    const struct grammar *(*form)(size_t i); /* of a choice that stands first: what follows that word */
 } hole_row;
 
 typedef struct hole {

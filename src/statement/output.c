@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "text/characters.h"
+#include "text/lex.h"
 
 /* ---- numbers ----------------------------------------------------------------------------------- */
 
@@ -84,6 +85,11 @@ void print_number(FILE *to, int width, int digits, double v) {
         pad -= part;
     }
     fwrite(text, 1, n, to);
+}
+
+double round_up(double v) {
+    const double place = pow(10, floor(log10(v)));
+    return ceil(v / place * (1 - 1e-9)) * place;
 }
 
 void print_safe(FILE *to, const char *text, size_t len) {

@@ -33,6 +33,8 @@ void columns_free(column *c, size_t count);
 size_t number_text(char text[NUMBER_TEXT], int digits, double v);
 /* The same in a field of `width`, to the right. */
 void print_number(FILE *to, int width, int digits, double v);
+/* A positive number rounded up to one digit, as bounds are told. */
+double round_up(double v);
 /* A value with a unit chosen for it, as text. */
 void format_value(const settings *set, value v, char *buf, size_t size);
 /* The same with as many digits as reading it back takes. */

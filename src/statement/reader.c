@@ -4,9 +4,18 @@
 
 #include <string.h>
 
+#include "text/lines.h"
 #include "text/unit_text.h"
 
 /* ---- what has been said ------------------------------------------------------------------------ */
+
+/* Bytes up to a blank: names with hyphens are several tokens to the lexer. */
+static size_t word_at(const lexer *lx) {
+    size_t end = lx->at;
+    while (end < lx->end && !strchr(" \t\n\r", lx->text[end]))
+        end++;
+    return end - lx->at;
+}
 
 static const hole_row *first_hole(const clause *a) {
     return a->holes ? a->hole[0].row : NULL;
@@ -87,18 +96,15 @@ lexer hole_lexer(const lexer *lx, const span *part) {
     return own;
 }
 
+void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]) {
+    const span *part = &h->hole[0];
+    snprintf(word, LEX_NAME, "%.*s", part->len < LEX_NAME ? (int)part->len : 0, lx->text + part->at);
+}
+
 bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
     lexer own = *lx;
     own.at = part->at;
     return lex_filename(&own, name, FILE_NAME);
-}
-
-static bool is_choice(const hole_row *row, const char *word, size_t len, size_t *choice) {
-    const char *name;
-    for (*choice = 0; (name = row->words(*choice)); ++*choice)
-        if (!strncmp(name, word, len) && !name[len])
-            return true;
-    return false;
 }
 
 /* ---- errors ------------------------------------------------------------------------------------ */
@@ -121,12 +127,26 @@ static bool not_taken(lexer *lx, const grammar *f, const char *name, token_kind 
                      how == T_DEFINE ? ":=" : "+=", usage);
 }
 
-/* "R1 and R2": the arguments of a way. */
+/* "for EXPR = EXPR" */
+static void clause_text(const clause *a, char buf[GRAMMAR_USAGE]) {
+    char line[GRAMMAR_USAGE];
+    snprintf(line, sizeof line, "%.*s", (int)a->len, a->text);
+    takes_text(line, buf, GRAMMAR_USAGE);
+}
+
+/* "R1 and R2", or "for EXPR = EXPR to FILE": what a way takes. */
 static void way_words(const grammar *f, const clause *of, char *buf, size_t size) {
+    char text[GRAMMAR_USAGE];
     *buf = 0;
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (a->group == of->group && a->way == of->way)
-            snprintf(buf + strlen(buf), size - strlen(buf), "%s%s", *buf ? " and " : "", a->name);
+        if (a->group == of->group && a->way == of->way) {
+            clause_text(a, text);
+            snprintf(buf + strlen(buf), size - strlen(buf), "%s%s",
+                     !*buf         ? ""
+                     : a->argument ? " and "
+                                   : " ",
+                     text);
+        }
 }
 
 /* Twice the same, or another way than one that has been gone. */
@@ -238,11 +258,20 @@ static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
                                                  "the seconds must be a positive number up to %u", of->most));
 }
 
+/* A word of a table, in which no word has a comma or an `=`. */
+static size_t choice_at(const lexer *lx) {
+    size_t len = 0;
+    while (lx->at + len < lx->end && !strchr(" \t\n\r,=", lx->text[lx->at + len]))
+        len++;
+    return len;
+}
+
 static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
+    enum { LISTED = 8 };
     char word[LEX_NAME], list[CALC_ERROR_TEXT - 64] = "";
     const size_t len = choice_at(lx);
     h->hole[0] = (span){lx->at, len};
-    if (is_choice(row, lx->text + lx->at, len, &h->choice)) {
+    if (word_among(row->words, lx->text + lx->at, len, &h->choice)) {
         lex_seek(lx, lx->at + len);
         return true;
     }
@@ -257,13 +286,18 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
                      h->of->name, row->words(i));
         return lex_fail(lx, "expected %s", list);
     }
-    const char *near = suggest(word, row->words);
-    for (size_t i = 0; i < 7 && row->words(i); i++)
+    for (size_t i = 0; i < LISTED && row->words(i); i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", row->words(i));
-    if (row->words(7))
+    if (row->words(LISTED))
         snprintf(list + strlen(list), sizeof list - strlen(list), ", ...");
-    return lex_fail(lx, near ? "unknown %s '%s': did you mean %s?" : "unknown %s '%s' (%s)", row->noun, word,
-                    near ? near : list);
+    if (!len)
+        return lex_fail(lx, "which %s? one of %s", row->noun, list);
+    const char *lead = lead_from(word), *near = lead ? lead : suggest(word, row->words);
+    return lex_fail(lx,
+                    lead   ? "unknown %s '%s': %s"
+                    : near ? "unknown %s '%s': did you mean %s?"
+                           : "unknown %s '%s' (%s)",
+                    row->noun, word, near ? near : list);
 }
 
 /* ---- clauses ----------------------------------------------------------------------------------- */
@@ -300,26 +334,60 @@ static bool is_equals(const lexer *lx) {
     return comparison || lx->kind == T_ASSIGN || lx->kind == T_DEFINE || lx->kind == T_INCREMENT;
 }
 
-/* Skips a part of the statement. Only behind an operand can a word of the row begin a clause, which ends the
- * part; a comma may end it too, and an `=` that does not belong to `at`. */
-static void skip_part(lexer *lx, const grammar *f, bool comma_ends, bool equals_ends) {
+/* The clause that the word at the cursor was meant for, or NULL. */
+static const clause *clause_near(const lexer *lx, const grammar *f) {
+    char word[LEX_NAME];
+    lex_word(lx, word);
+    for (const clause *a = f->clause; lx->kind == T_NAME && lx->len > 1 && a < f->clause + f->count; a++)
+        if (!a->argument && *a->name && one_letter_apart(word, a->name))
+            return a;
+    return NULL;
+}
+
+/* Is the name at the cursor the unit of the number before it? */
+static bool is_unit(const lexer *lx, const grammar *f) {
+    enum { SHORT = 3 }; /* what is no longer may be any unit, misspelt */
+    unit known;
+    char word[LEX_NAME];
+    lex_word(lx, word);
+    return lx->len <= SHORT || unit_lookup(word, strlen(word), &known) || unit_suggest(word) ||
+           !clause_near(lx, f);
+}
+
+/* Skips what stands in the i-th hole of the clause. Only behind an operand can a word of the row begin a
+ * clause, which ends the part, as does a name that cannot stand there; a comma may end it too, and an `=`
+ * that does not belong to `at`. */
+static void skip_part(lexer *lx, const grammar *f, const clause *a, unsigned i) {
     calc_error *const error = lx->error, *const strange = error_quiet();
+    const hole_kind kind = a->hole[i].row->kind;
+    const bool comma_ends = a->list && *a->name,
+               equals_ends = i + 1 < a->holes && a->hole[i + 1].before == '=';
+    const bool titled = !*a->name && grammar_first(f, HOLE_WORD); /* it may begin with `map`, or a figure */
+    const size_t head = titled ? lx->at + lx->len : 0;
     int depth = 0;
-    bool operand = false, changing = false;      /* it ends before the token; there has been an `at` */
+    bool operand = false, number = false;        /* it ends before the token, and is that */
+    bool word = false;                           /* that of a clause stands for it */
+    bool changing = false;                       /* there has been an `at` */
     enum { NOTHING, PLACE, NAMED } at = NOTHING; /* where `at` wants a name, and behind that name */
     for (lx->error = strange; lx->kind != T_END || strange->raised; lex_next(lx)) {
         const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
-        if (depth == 0 &&
-            (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
-             (equals_ends && at != NAMED && is_equals(lx)) || (name && operand && clause_at(lx, f))))
+        const clause *next = name ? clause_at(lx, f) : NULL;
+        const bool figure = lx->last == head && !(clause_near(lx, f) && lex_peek(lx) != T_END);
+        const bool ends = name && operand &&
+                          (next || !(joins || word || figure || kind == HOLE_LOAD ||
+                                     (number && is_unit(lx, f)) || (kind == HOLE_SPAN && lex_is(lx, "to"))));
+        if (depth == 0 && (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
+                           (equals_ends && at != NAMED && is_equals(lx)) || ends))
             break;
         error_clear(strange); /* whoever parses the part reports what is no token */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
         changing = changing || (joins && lex_is(lx, "at"));
         const bool place = (joins && lex_is(lx, "at")) || (changing && lx->kind == T_COMMA);
         at = name && at == PLACE ? NAMED : place ? PLACE : NOTHING;
-        operand = !joins && (name || lx->kind == T_NUMBER || lx->kind == T_CLOSE || lx->kind == T_PERCENT ||
-                             lx->kind == T_STRING);
+        word = next && !operand;
+        number = lx->kind == T_NUMBER;
+        operand = !joins &&
+                  (name || number || lx->kind == T_CLOSE || lx->kind == T_PERCENT || lx->kind == T_STRING);
     }
     lx->error = error;
     if (strange->raised) /* it ends at what is no token */
@@ -331,17 +399,18 @@ static bool skip_names(lexer *lx, const said *s, const clause *a) {
     if (lx->kind != T_NAME)
         return *a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name");
     if (a->list && !*a->name) {
-        skip_part(lx, s->by, false, false);
+        skip_part(lx, s->by, a, 0);
         return true;
     }
     lex_next(lx);
     return !lx->error->raised;
 }
 
-static bool skip_load(lexer *lx, said *s) {
-    if (!lex_is(lx, "program") && !lex_is(lx, "cycle") && !lex_is(lx, "step"))
+static bool skip_load(lexer *lx, const said *s, const clause *a) {
+    size_t load;
+    if (!word_among(a->hole[0].row->words, lx->text + lx->at, lx->len, &load))
         return lex_fail(lx, "along what? program, cycle, step ... or cycle ...");
-    skip_part(lx, s->by, false, false);
+    skip_part(lx, s->by, a, 0);
     return true;
 }
 
@@ -368,6 +437,24 @@ static bool skip_name(lexer *lx, const grammar *f, const hole_row *row) {
     return true;
 }
 
+static bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, unsigned *out) {
+    value v;
+    size_t at = lx->at;
+    if (lx->kind == T_END)
+        return lex_fail(lx, "expected %s: a whole number from 1 to %u", what, limit);
+    if (!expr_value(c, lx, &v))
+        return false;
+    if (!dim_equal(v.d, DIM_NONE) || !(v.v >= 1 && v.v <= limit) || v.v != (long double)(unsigned)v.v)
+        return calc_fail(lx->error, at, lx->last - at, "%s must be a whole number from 1 to %u", what, limit);
+    *out = (unsigned)v.v;
+    return true;
+}
+
+/* What a number is of: `steps 7`, `digits 7`; of a word that must stand there, `jenkins N`. */
+static const char *count_name(const grammar *f, const clause *a) {
+    return !*a->name ? who(f) : a->optional || a->group ? a->name : a->hole[0].row->name;
+}
+
 static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
     const clause *a = h->of;
     const hole *of = &a->hole[i];
@@ -382,7 +469,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
     case HOLE_CHOICE:
         return read_choice(lx, row, h);
     case HOLE_COUNT:
-        ok = read_count(&sh->calc, lx, h->of->name, of->most, &h->count);
+        ok = read_count(&sh->calc, lx, count_name(s->by, a), of->most, &h->count);
         break;
     case HOLE_FILE: {
         char name[FILE_NAME];
@@ -394,19 +481,20 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         ok = skip_names(lx, s, a);
         break;
     case HOLE_LOAD:
-        ok = skip_load(lx, s);
+        ok = skip_load(lx, s, a);
         break;
     case HOLE_TEXT:
         if (lx->kind != T_STRING)
             return lex_fail(lx, "expected %s \"TEXT\"", a->name);
         lex_next(lx);
         break;
-    case HOLE_WORD:
+    case HOLE_WORD: /* which need not be made of tokens */
+        error_clear(lx->error);
         h->hole[i].len = word_at(lx);
         lex_seek(lx, lx->at + h->hole[i].len);
         return true;
     default:
-        skip_part(lx, s->by, a->list && *a->name, i + 1 < a->holes && a->hole[i + 1].before == '=');
+        skip_part(lx, s->by, a, i);
         ok = row->kind != HOLE_SPAN || !lacks_end(lx, a, &h->hole[i]);
         break;
     }
@@ -466,10 +554,24 @@ static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
     return !lx->error->raised;
 }
 
-/* Is the word of a row that may begin with any word one of its clauses? `record off`, but `record off.txt`.
- */
-static bool begins_clause(const lexer *lx, const clause *a) {
-    return a && word_at(lx) == lx->len && (a->holes == 0 || lex_peek(lx) != T_END);
+/* The word that what follows depends on, as the shape of a geometry. */
+static bool read_head(lexer *lx, said *s) {
+    const clause *a = s->by->clause;
+    const hole_row *row = s->by->count && !*a->name ? first_hole(a) : NULL;
+    heard h = {.of = a};
+    if (!row || !row->form || (a->optional && lx->kind == T_END && !lx->error->raised))
+        return true;
+    if (!read_choice(lx, row, &h))
+        return false;
+    s->row = h.choice;
+    s->by = row->form(h.choice);
+    return true;
+}
+
+/* Is the word of a row that may begin otherwise one of its clauses? `record off`, but `record off.txt`. */
+static bool begins_clause(const lexer *lx, const clause *a, hole_kind first) {
+    const bool whole = first == HOLE_COUNT || word_at(lx) == lx->len;
+    return a && first != HOLE_EXPR && whole && (a->holes == 0 || first != HOLE_FILE || lex_peek(lx) != T_END);
 }
 
 /* What may only stand first. */
@@ -478,13 +580,17 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
     while (a + 1 < end && !*a[1].name) /* any expression may stand where a word may */
         a++;
     const hole_row *row = a < end && !*a->name ? first_hole(a) : NULL;
-    if (!row || (row->kind == HOLE_FILE && begins_clause(lx, clause_at(lx, s->by))) ||
+    if (!row || begins_clause(lx, clause_at(lx, s->by), row->kind) ||
         (a->optional && lx->kind == T_END && !lx->error->raised))
         return true;
     if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || at_argument(lx)))
         return true;
-    heard *h = add_heard(lx, s, a);
-    return h && read_holes(sh, lx, s, h);
+    do {
+        heard *h = add_heard(lx, s, a);
+        if (!h || !read_holes(sh, lx, s, h))
+            return false;
+    } while (a->again && (lx->kind != T_END || lx->error->raised));
+    return true;
 }
 
 /* `with = 0.3`: a clause whose name is missing. */
@@ -497,8 +603,9 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     out->by = f;
     out->wakes = false;
     out->count = 0;
-    if (!read_first(sh, lx, out))
+    if (!read_head(lx, out) || !read_first(sh, lx, out))
         return false;
+    f = out->by;
     while (lx->kind == T_NAME) {
         const token_kind how = lex_peek(lx);
         const clause *a;
@@ -514,51 +621,59 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     return !lx->error->raised && said_wake(sh, lx, out);
 }
 
-bool said_end(lexer *lx, const grammar *f) {
-    char word[LEX_NAME];
-    if (lx->kind == T_COMMA)
-        return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", f->command);
-    if (lx->kind != T_NAME)
-        return at_end(lx);
-    lex_word(lx, word);
-    for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (!a->argument && *a->name && lx->len > 1 && one_letter_apart(word, a->name))
-            return lex_fail(lx, "unexpected '%s': did you mean %s?", word, a->name);
-    return at_end(lx);
+static bool misspelt(lexer *lx, const said *s) {
+    const clause *meant = clause_near(lx, s->by);
+    return meant && !lex_fail(lx, "unexpected '%.*s': did you mean %s?", LEX_WORD(lx), meant->name);
 }
 
-/* `a, with E0 +- 5 %`: the word of the clause, taken for a value of the part before it. */
-static bool is_taken(const lexer *lx, const said *s, const clause *a) {
-    calc_error ignored, *error = lx->error;
-    if (!s->count || *s->list[0].of->name)
-        return false;
-    lexer own = hole_lexer(lx, &s->list[0].hole[0]);
-    own.error = &ignored;
-    error_clear(&ignored);
-    while (own.kind != T_END && !(own.at > s->list[0].hole[0].at && lex_is(&own, a->name)))
-        lex_next(&own);
-    return own.kind != T_END && lex_peek(&own) == T_NAME &&
-           !calc_fail(error, own.at, own.len, "something is missing before %s", a->name);
+bool said_end(lexer *lx, const said *s) {
+    if (lx->kind == T_COMMA)
+        return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", s->by->command);
+    return !misspelt(lx, s) && at_end(lx);
+}
+
+bool said_hides(const lexer *lx, const said *s, const char *word) {
+    for (const heard *h = s->list; h < s->list + s->count; h++) {
+        if (!first_hole(h->of) || first_hole(h->of)->kind != HOLE_EXPR)
+            continue;
+        lexer own = hole_lexer(lx, &h->hole[0]);
+        own.error = error_quiet();
+        while (own.kind != T_END && !(own.at > h->hole[0].at && lex_is(&own, word)))
+            lex_next(&own);
+        if (own.kind != T_END && lex_peek(&own) == T_NAME)
+            return !calc_fail(lx->error, own.at, own.len, "something is missing before %s", word);
+    }
+    return false;
+}
+
+/* Of words that stand for themselves one must be said: `auto | off | on`. */
+static bool has_way(lexer *lx, const said *s) {
+    const clause *a = s->by->clause, *end = a + s->by->count;
+    char list[CALC_ERROR_TEXT / 2] = "";
+    if (a == end || s->count || a->optional || a->argument || !a->group)
+        return true;
+    for (; a < end; a++)
+        list_word(list, sizeof list, a->name, a + 1 == end);
+    return lex_fail(lx, "expected %s", list);
 }
 
 /* Clauses that may not be left out. */
 static bool is_whole(lexer *lx, said *s) {
-    char text[GRAMMAR_USAGE], line[GRAMMAR_USAGE];
+    char text[GRAMMAR_USAGE];
     for (const clause *a = s->by->clause; a < s->by->clause + s->by->count; a++) {
         if (a->argument || a->optional || a->group || !*a->name || said_of(s, a->name, 0))
             continue;
         if (s->count && !*s->list[0].of->name && !s->list[0].hole[0].len)
             return lex_fail(lx, "expected a value here");
-        if (is_taken(lx, s, a))
+        if (said_hides(lx, s, a->name))
             return false;
-        snprintf(line, sizeof line, "%.*s", (int)a->len, a->text);
-        takes_text(line, text, sizeof text);
+        clause_text(a, text);
         return lex_fail(lx, "expected %s", text);
     }
-    return true;
+    return has_way(lx, s);
 }
 
 bool said_read(shell *sh, lexer *lx, const grammar *f, said *out) {
-    return (said_read_some(sh, lx, f, out) && is_whole(lx, out) && said_end(lx, f)) ||
+    return (said_read_some(sh, lx, f, out) && !misspelt(lx, out) && is_whole(lx, out) && said_end(lx, out)) ||
            (said_drop(sh, out), false);
 }

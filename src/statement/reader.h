@@ -28,7 +28,8 @@ typedef struct heard {
 
 enum { HEARD = 40, FILE_NAME = 4096 };
 typedef struct said {
-    const grammar *by;
+    const grammar *by; /* of the row, or of the word that stands first, where that has its own */
+    size_t row;        /* the place of that word in its table */
     bool wakes;   /* names of its own, unknown before, stand behind what uses them: known until said_drop */
     size_t names; /* of the session, before */
     unsigned count;
@@ -39,12 +40,16 @@ typedef struct said {
 bool said_read(shell *sh, lexer *lx, const grammar *f, said *out);
 /* The same as far as the row goes, and the end behind it: no comma, no word misspelt. */
 bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out);
-bool said_end(lexer *lx, const grammar *f);
+bool said_end(lexer *lx, const said *s);
 /* What is live goes, unless it has been taken over, and what became known. */
 void said_drop(shell *sh, said *s);
 /* The names alone, where another statement comes between; and known again. */
 void said_sleep(shell *sh, said *s);
 bool said_wake(shell *sh, const lexer *lx, said *s);
+
+/* Is the word of a clause within an expression instead, where something is missing before it? Then an error
+ * says so. */
+bool said_hides(const lexer *lx, const said *s, const char *word);
 
 /* The name at the cursor becomes known, until names_forget; before: how many names there were. */
 bool names_wake(shell *sh, const lexer *lx, size_t before);
@@ -54,6 +59,8 @@ void names_forget(shell *sh, size_t before);
 heard *said_of(said *s, const char *name, size_t i);
 /* A lexer over the hole alone, at its beginning. */
 lexer hole_lexer(const lexer *lx, const span *part);
+/* The word that stands first there; empty where it is longer than any name. */
+void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]);
 /* The name of a file that stands there. */
 bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]);
 /* Points the error, where it has no place, at the first hole. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files of tables. */
+/* Files of tables, and others. */
 #include "statement/target.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ static const struct {
              {".txt", FORMAT_TEXT, true},
              {".dat", FORMAT_TEXT, true}};
 
-static bool choose_form(const lexer *lx, const char *name, target *t) {
+static bool choose_form(const lexer *lx, const span *part, const char *name, target *t) {
     if (!strncmp(name, "/dev/", 5))
         return true;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
@@ -23,24 +23,27 @@ static bool choose_form(const lexer *lx, const char *name, target *t) {
             t->blocks = forms[i].blocks;
             return true;
         }
-    return calc_fail(lx->error, t->at, t->len,
+    return calc_fail(lx->error, part->at, part->len,
                      "cannot tell the form of a table from '%s': use .csv, .json, .txt or .dat", name);
+}
+
+bool target_file(const lexer *lx, const span *part, target *t) {
+    char name[FILE_NAME];
+    t->name = *part;
+    if (!hole_file(lx, part, name))
+        return false;
+    if (!file_out_open(&t->file, name, &shell_stop, lx->error))
+        return calc_place(lx->error, part->at, part->len);
+    t->to = t->file.to;
+    return true;
 }
 
 bool target_open(shell *sh, const lexer *lx, said *all, target *t) {
     const heard *to = said_of(all, "to", 0);
     char name[FILE_NAME];
     *t = (target){.to = sh->out, .format = sh->set.format};
-    if (!to)
-        return true;
-    t->at = to->hole[0].at;
-    t->len = to->hole[0].len;
-    if (!hole_file(lx, &to->hole[0], name) || !choose_form(lx, name, t))
-        return false;
-    if (!file_out_open(&t->file, name, &shell_stop, lx->error))
-        return calc_place(lx->error, t->at, t->len);
-    t->to = t->file.to;
-    return true;
+    return !to || (hole_file(lx, &to->hole[0], name) && choose_form(lx, &to->hole[0], name, t) &&
+                   target_file(lx, &to->hole[0], t));
 }
 
 void target_report(shell *sh, const char *name, const file_report *r) {
@@ -58,7 +61,7 @@ bool target_close(shell *sh, lexer *lx, target *t, bool ok) {
         return ok;
     snprintf(name, sizeof name, "%s", t->file.name);
     if (!file_out_close(&t->file, ok, &report, lx->error))
-        return calc_place(lx->error, t->at, t->len);
+        return calc_place(lx->error, t->name.at, t->name.len);
     if (ok)
         target_report(sh, name, &report);
     return ok;

@@ -11,11 +11,13 @@ typedef struct target {
     int format;
     bool blocks; /* blank lines between curves */
     file_out file;
-    size_t at, len; /* of the name in the statement */
+    span name; /* in the statement */
 } target;
 
 /* As `to FILE` has been said, or not. */
 bool target_open(shell *sh, const lexer *lx, said *all, target *t);
+/* The file of this name, whatever its ending. */
+bool target_file(const lexer *lx, const span *part, target *t);
 /* Keeps the file where ok; false: something was wrong before, or a byte was lost. */
 bool target_close(shell *sh, lexer *lx, target *t, bool ok);
 /* "wrote F (12 kB)", on standard error. */

@@ -30,6 +30,14 @@ bool word_find(word_index *x, const char *word, size_t len, size_t *row) {
     return false;
 }
 
+bool word_among(const char *(*name)(size_t i), const char *word, size_t len, size_t *row) {
+    const char *known;
+    for (*row = 0; (known = name(*row)); ++*row)
+        if (!strncmp(known, word, len) && !known[len])
+            return true;
+    return false;
+}
+
 /* Edits, counted double: a change of case costs 1, another letter, a missing one or a swap 2. */
 static size_t word_distance(const char *a, const char *b) {
     enum { LONGEST = 40 };

@@ -16,6 +16,9 @@ typedef struct word_index {
 } word_index;
 bool word_find(word_index *x, const char *word, size_t len, size_t *row);
 
+/* The same of few names, without an index. */
+bool word_among(const char *(*name)(size_t i), const char *word, size_t len, size_t *row);
+
 /* Greek letters as names here write them: mu for its sign, d for a delta. */
 enum { PLAIN_WORD = 64 };
 void plain_letters(const char *word, size_t len, char plain[PLAIN_WORD]);

@@ -30,6 +30,7 @@
 #include "prompt/show.h"
 #include "statement/command.h"
 #include "statement/output.h"
+#include "statement/setting_table.h"
 #include "statement/shell.h"
 #include "text/lines.h"
 

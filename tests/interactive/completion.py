@@ -46,14 +46,14 @@ OFFERED = (
     ("set model ", "auto closed memory springs", "off"),
     ("2*", "wobble wobbly( breadth a", "zebra"),  # which has been undone
     ("dW at ", "FN= wobble=", "zebra="),
-    ("dW(3 N) in ", "uJ nJ J", "mm"), ("breadth in ", "um mm", "J"), ("(breadth) in ", "um N", None), ("2*a in ", "um N", None),
-    ("wobbly(2) in ", "um %", None), ("dW, breadth in ", "um mm", "J"), ("dW(3 N)*2 in ", "uJ um", None),
+    ("dW(3 N) in ", "uJ nJ J", "mm"), ("breadth in ", "um mm", "J"), ("(breadth) in ", "um mm", "J"), ("2*a in ", "um mm", "N"),
+    ("dW, breadth in ", "um mm", "J"), ("dW(3 N)*2 in ", "uJ mJ", "um"),
     ("plot Fx against ", "dx W breadth", "table"), 
     ("plot loop log x ", "points title", "log"), ('plot loop title "a b" ', "points to", "title"), ("press FN=20k", "kN kgf", "um"), ("press FN=20", "N kN kgf", "um"), ("press FN=20", "lbf", "steps"),
     ("?", "press plot theory", "fricti"), ("undo ", "", "to"), 
-    ("friction 0.4 ", "", "mm"), ("nix in ", "um N", None), ("F_A*breadth in ", "um N", None), ("a, 2*breadth, breadth in ", "um mm", "J"),
+    ("friction 0.4 ", "", "mm"), ("nix in ", "um N", None), ("F_A*breadth in ", "um N", None), ("a, 2*breadth, 2*breadth in ", "um mm", "J"),
     ("1 + 1; ", "press plot breadth", None), ("undo 3 ", "um N", None), ("table 3 ", "um N", None), ("press FN=100 N; ", "step cycle", None), ("2 \u00b5", "", "um"), ("x over ", "", "gap1.csv"), ("reset all ", "", "press"),
-    ("?set fo", "format", "fricti"), ("a + breadth in ", "um N", None), ("table a, breadth in ", "um mm", "J"), ("table breadth in ", "um mm", "J"),
+    ("?set fo", "format", "fricti"), ("a + breadth in ", "um mm", "N"), ("maximize 2*dW in ", "uJ", "um"), ("table a, breadth in ", "um mm", "J"), ("table breadth in ", "um mm", "J"),
     ("plot a for FN = 1 N .. 2 N log x ", "points title", None),
     ("uncertainty breadth ", "with in at samples seed", "along"), ("uncertainty breadth in ", "um mm", "J"),
     ("uncertainty a with ", "FN mu wobble", "dW"), ("solve ", "FN mu wobble", "dW"), ("solve mu ", "for", "steps"),
@@ -71,7 +71,7 @@ DONE = (
     ("step dx=1 u", "m "), ("geometry flat-r", "ounded "), ("record o", "ff "), ("x = 3*kap", "pa "), ("?apr", "opos "),
     ("reset ", "all "), ("geometry file gap1.csv ", "smooth "),
     ("geometry file gap1.csv smo", "oth "), ("1; fric", "tion "), ("dW at m", "u="), ("wobbl", "e"), ("1;  fric", "tion "),
-    ("?the", "ory "),
+    ("?the", "ory "), ("wobbly(2) in ", "% "),
 )
 
 

@@ -383,7 +383,7 @@ def terminals(tests):
     shown = tests.run("-c", "set plot 100x30; set plot terminal dumb; show settings")
     tests.check("settings of plots are shown as they are set", "set plot 100x30\nset plot terminal dumb\n" in shown.stdout,
                 shown.stdout)
-    fails(tests, "set plot terminal vt100", "expected auto, dumb, block or sixel")
+    fails(tests, "set plot terminal vt100", "unknown terminal 'vt100' (auto, dumb, block, sixel)")
     json = tests.run("--format=json", "--color=always", "-c", SCENE + "plot loop")
     tests.check("no colours in JSON", "\\u001b" not in json.stdout, json.stdout[:300])
 

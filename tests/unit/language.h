@@ -13,9 +13,15 @@
 #include "language/walk.h"
 #include "scene/functions.h"
 #include "text/characters.h"
+#include "text/words.h"
 #undef unit
 #undef value
 #undef quantity
+
+static inline const geometry *geometry_find(const char *name) {
+    size_t i;
+    return word_among(geometry_name, name, strlen(name), &i) ? geometry_row(i) : NULL;
+}
 
 static calc_error error;
 
@@ -59,8 +65,7 @@ static inline void press_steel(calc *c, const volatile sig_atomic_t *stop, int r
     inputs_put(in, IN_E0, 210e9);
     inputs_put(in, IN_NU, 0.3);
     inputs_put(in, IN_MU, 0.4);
-    inputs_geometry(in, geometry_find(rows ? "file" : "sphere", rows ? 4 : 6), NULL,
-                    rows ? rows_of_sphere(rows) : NULL);
+    inputs_geometry(in, geometry_find(rows ? "file" : "sphere"), NULL, rows ? rows_of_sphere(rows) : NULL);
     if (!rows)
         inputs_put(in, IN_RADIUS, 0.01);
     CHECK(load(c, press, (cycle_extra){0}));

@@ -143,7 +143,7 @@ static bool ask_stiffness(scene *s, double v[VALUES]) {
         s->now = &now;
         scene_moved(s);
         ok = get_kn(s, &kn, &error) && scene_forces(s, &state, &error);
-        if (ok && s->in.geometry == geometry_find("sphere", 6) && state->dz > 0)
+        if (ok && s->in.geometry == geometry_find("sphere") && state->dz > 0)
             CHECK_REL(kn, 1.5L * state->FN / state->dz, 1e-15L);
         s->now = NULL;
         scene_moved(s);
@@ -404,7 +404,7 @@ static void too_steep(void) {
     fret_pressed contact;
     calc c;
     begin(&c, &(scened){.automatic = true});
-    inputs_geometry(&c.now->in, geometry_find("sum", 3), &sum, NULL);
+    inputs_geometry(&c.now->in, geometry_find("sum"), &sum, NULL);
     CHECK(again(c.now, CONTACT, one));
     CHECK(scene_contact(c.now, &contact, fresh()) && (c.now->used & USED(MODEL_PIECES)));
     calc_free(&c);

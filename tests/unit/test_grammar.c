@@ -3,6 +3,7 @@
 
 #define unit calc_unit /* the other one is at work here */
 #include "statement/command.h"
+#include "statement/setting_table.h"
 #undef unit
 
 static grammar parsed;
@@ -21,6 +22,9 @@ static void all_rows(void) {
     for (const geometry *g; (g = geometry_row(shapes)); shapes++)
         if (!CHECK(parses(g->takes)))
             printf("%s %s\n", g->name, g->takes);
+    for (size_t i = 0; setting_row(i); i++)
+        if (!CHECK(parses(setting_row(i)->takes)))
+            printf("%s %s\n", setting_row(i)->name, setting_row(i)->takes);
     for (const hole_row *h = holes; h->name; h++)
         for (size_t i = 0; h->kind == HOLE_CLAUSES && h->words(i); i++)
             CHECK(parses(h->words(i)));
@@ -69,6 +73,8 @@ static void clauses_with_holes(void) {
     CHECK(parsed.clause[2].again && !parsed.clause[1].again);
     CHECK(parses("EXPR RANGE [to FILE.png|svg]"));
     CHECK(grammar_clause(&parsed, "for")->again && grammar_clause(&parsed, "to")->optional);
+    CHECK(parses("WORD ...") && parsed.clause[0].again && !parsed.clause[0].list);
+    CHECK(parses("EXPR RANGE [to FILE.png|svg]"));
     CHECK(grammar_first(&parsed, HOLE_EXPR) && !grammar_first(&parsed, HOLE_FILE));
 }
 

@@ -3,6 +3,7 @@
 
 #define unit calc_unit /* the other one is at work here */
 #include "statement/command.h"
+#include "statement/setting_table.h"
 #undef unit
 
 static shell sh;
@@ -72,6 +73,22 @@ static void lists(void) {
     said_drop(&sh, &all);
 }
 
+/* The row of the word that stands first; words up to blanks. */
+static void heads(void) {
+    CHECK(reads("set plot 80x24") && all.row == SETTING_PLOT && has("", 0, "80x24", NULL));
+    CHECK(reads("set cores 4") && all.row == SETTING_CORES && all.list[0].count == 4);
+    CHECK(reads("set") && all.by->shape == NULL && all.count == 0);
+    CHECK(reads("geometry flat-cone b=1 mm slope=0.1") && !strcmp(all.by->shape, "flat-cone"));
+    CHECK(reads("apropos (x \"y z") && all.count == 3 && has("", 1, "\"y", NULL));
+    CHECK(fails("set report of", "did you mean off?") && fails("geometry con", "did you mean cone?"));
+    CHECK(fails("set format", "expected text, csv or json") &&
+          fails("set timing on off", "give either off or on"));
+    CHECK(fails("table a*for x = 1 .. 2 to b.csv", "something is missing") ==
+          false); /* its command says it */
+    CHECK(said_hides(&lx, &all, "for") && !said_hides(&lx, &all, "along"));
+    said_drop(&sh, &all);
+}
+
 /* Names of a range are known while what has been said is, and no longer. */
 static void names(void) {
     size_t i;
@@ -124,6 +141,7 @@ int main(int argc, char **argv) {
     shell_init(&sh, stdout, stderr);
     CASE(cut());
     CASE(lists());
+    CASE(heads());
     CASE(names());
     CASE(arguments());
     CASE(errors());

@@ -149,7 +149,7 @@ static void follows(void) {
     in->second = SECOND_RIGID;
     scene_forget(c.now, false);
     CHECK(goes_anew(&w, &c));
-    inputs_geometry(in, geometry_find("cone", 4), NULL, NULL);
+    inputs_geometry(in, geometry_find("cone"), NULL, NULL);
     inputs_put(in, IN_SLOPE, 0.05);
     scene_forget(c.now, false);
     CHECK(goes_anew(&w, &c));
@@ -159,12 +159,12 @@ static void follows(void) {
             sum.power[0].h = 2e-4;
         if (i == 2)
             sum.power[sum.terms++] = (fret_power){.n = 4, .h = 1e-5, .r0 = 1e-3};
-        inputs_geometry(in, geometry_find("sum", 3), &sum, NULL);
+        inputs_geometry(in, geometry_find("sum"), &sum, NULL);
         scene_forget(c.now, false);
         CHECK(goes_anew(&w, &c) && !goes_anew(&w, &c));
     }
     for (int i = 0; i < 2; i++) { /* two tables, the same numbers */
-        inputs_geometry(in, geometry_find("file", 4), NULL, rows_of_sphere(40));
+        inputs_geometry(in, geometry_find("file"), NULL, rows_of_sphere(40));
         scene_forget(c.now, false);
         CHECK(goes_anew(&w, &c) && !goes_anew(&w, &c));
     }

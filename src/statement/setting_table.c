@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of settings, and showing them. Touches the settings and the scene's choice of a
+ * model. */
+#include "statement/setting_table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- those that are no int of the settings ----------------------------------------------------- */
+
+static const char *const terminals[] = {"auto", "dumb", "block", "sixel"};
+
+const char *terminal_name(size_t i) {
+    return i < sizeof terminals / sizeof *terminals ? terminals[i] : NULL;
+}
+
+static bool set_plot(shell *sh, lexer *lx, const said *all) {
+    enum { LEAST_WIDTH = 20, LEAST_HEIGHT = 8, SIZE = 30 };
+    const heard *h = &all->list[0];
+    const size_t len = h->hole[0].len;
+    char text[SIZE + 1] = "";
+    int width = 0, height = 0, used = 0;
+    if (!strcmp(h->of->name, "terminal")) {
+        sh->set.plot_terminal = (int)h->choice;
+        return true;
+    }
+    if (h->of->holes) {
+        snprintf(text, sizeof text, "%.*s", (int)(len < SIZE ? len : SIZE), lx->text + h->hole[0].at);
+        if (sscanf(text, "%4dx%4d%n", &width, &height, &used) != 2 || (size_t)used != len ||
+            width < LEAST_WIDTH || height < LEAST_HEIGHT)
+            return calc_fail(lx->error, h->hole[0].at, len,
+                             "expected a size such as 80x24 (at least %dx%d), auto or terminal", LEAST_WIDTH,
+                             LEAST_HEIGHT);
+    }
+    sh->set.plot_width = width;
+    sh->set.plot_height = height;
+    return true;
+}
+
+static void show_plot(const calc *c, const settings *set, FILE *to) {
+    (void)c;
+    if (set->plot_width)
+        fprintf(to, "%dx%d", set->plot_width, set->plot_height);
+    else
+        fputs("auto", to);
+    if (set->plot_terminal)
+        fprintf(to, "\nset plot terminal %s", terminals[set->plot_terminal]);
+}
+
+/* The model belongs to the scene. */
+static bool set_model(shell *sh, lexer *lx, const said *all) {
+    const heard *h = &all->list[0];
+    model_id id = 0;
+    (void)lx;
+    while (id < MODELS && strcmp(models[id].name, h->of->name) != 0)
+        id++;
+    const bool automatic = id == MODELS;
+    scene_set_model(&sh->calc.scene, automatic, automatic ? MODEL_CLOSED : id, h->of->holes ? h->count : 0);
+    return true;
+}
+
+static void show_model(const calc *c, const settings *set, FILE *to) {
+    const scene *s = &c->scene;
+    (void)set;
+    fputs(s->automatic ? "auto" : models[s->model].name, to);
+    if (!s->automatic && models[s->model].count)
+        fprintf(to, " %u", s->springs);
+}
+
+/* A number of cores is the calculator's. */
+static bool set_cores(shell *sh, lexer *lx, const said *all) {
+    const heard *h = &all->list[0];
+    (void)lx;
+    sh->calc.cores = h->of->holes ? h->count : 0;
+    return true;
+}
+
+static void show_cores(const calc *c, const settings *set, FILE *to) {
+    (void)set;
+    if (c->cores)
+        fprintf(to, "%u", c->cores);
+    else
+        fputs("auto", to);
+}
+
+static bool has_cores(const calc *c, const settings *set) {
+    (void)set;
+    return c->cores > 0;
+}
+
+static bool has_plot(const calc *c, const settings *set) {
+    (void)c;
+    return set->plot_width > 0;
+}
+
+const settings settings_initial = {.digits = 6};
+
+/* ---- the table --------------------------------------------------------------------------------- */
+
+static const setting rows[] = {
+    [SETTING_FORMAT] = {.name = "format",
+                        .takes = "text | csv | json",
+                        .summary = "how answers and tables are written; JSON: an object a line",
+                        .example = "    fret> set format csv\n"
+                                   "    fret> pi, 1 mm\n"
+                                   "    pi,1 mm [m]\n"
+                                   "    3.1415926535897931,0.001\n"
+                                   "    fret> set format json\n"
+                                   "    fret> 1 mm\n"
+                                   "    {\"name\":\"1 mm\",\"value\":0.001,\"unit\":\"m\"}\n",
+                        .at = offsetof(settings, format)},
+    [SETTING_DIGITS] = {.name = "digits",
+                        .takes = "N:17",
+                        .summary = "significant digits of numbers as text, 1 to 17",
+                        .example = "    fret> set digits 12\n"
+                                   "    fret> pi\n"
+                                   "    pi = 3.14159265359\n",
+                        .at = offsetof(settings, digits)},
+    [SETTING_REPORT] = {.name = "report",
+                        .takes = "auto | off | on",
+                        .summary = "what press, step and cycle tell of themselves; auto: at the prompt",
+                        .example = "    fret> set report on\n"
+                                   "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
+                                   "      FN = 100 N, a = 186.626 um, dz = 3.48291 um\n",
+                        .at = offsetof(settings, report)},
+    [SETTING_TIMING] = {.name = "timing",
+                        .takes = "off | on",
+                        .summary = "the time of each statement, and the models that answered",
+                        .example = "    fret> set timing on\n"
+                                   "    fret> pi\n"
+                                   "    pi = 3.14159\n"
+                                   "    time: 0.000241 ms\n",
+                        .at = offsetof(settings, timing)},
+    [SETTING_PAGER] = {.name = "pager",
+                       .takes = "auto | off | on",
+                       .summary = "show text by $PAGER; auto: what the terminal is too low for",
+                       .example = "    fret> set pager off\n",
+                       .at = offsetof(settings, pager)},
+    [SETTING_MODEL] = {.name = "model",
+                       .takes = "auto | closed | memory | springs N:10000000",
+                       .summary = "what answers for tangential loads; auto: the cheapest exact one",
+                       .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press "
+                                  "FN=100 N; cycle FA=20 N\n"
+                                  "    fret> dW\n"
+                                  "    dW = 1.90646 uJ\n"
+                                  "    fret> set model springs 100\n"
+                                  "    fret> dW\n"
+                                  "    dW = 1.90687 uJ\n",
+                       .apply = set_model,
+                       .show = show_model},
+    [SETTING_PLOT] = {.name = "plot",
+                      .takes = "SIZE | auto | terminal TERMINAL",
+                      .summary = "size of plots in the terminal, such as 80x24, and how they are drawn "
+                                 "there: auto, dumb, block or sixel",
+                      .example = "    fret> set plot 64x18\n",
+                      .apply = set_plot,
+                      .show = show_plot,
+                      .differs = has_plot},
+    [SETTING_CORES] =
+        {.name = "cores",
+         .takes = "N:64 | auto",
+         .summary =
+             "processes that long tables, maps, fits and samples are shared among; auto: one for each core",
+         .example = "    fret> set cores 1\n",
+         .apply = set_cores,
+         .show = show_cores,
+         .differs = has_cores},
+};
+const setting *setting_row(size_t i) {
+    return i < SETTINGS ? &rows[i] : NULL;
+}
+
+const char *setting_name(size_t i) {
+    return i < SETTINGS ? rows[i].name : NULL;
+}
+
+/* ---- by the table ------------------------------------------------------------------------------ */
+
+const grammar *setting_form(size_t i) {
+    static grammar forms[SETTINGS];
+    return grammar_made(&forms[i], "set", rows[i].name, rows[i].takes);
+}
+
+static int *held(settings *set, const setting *row) {
+    return (int *)(void *)((char *)set + row->at);
+}
+
+bool setting_apply(shell *sh, lexer *lx, const said *all) {
+    const setting *row = &rows[all->row];
+    const heard *h = &all->list[0];
+    if (row->apply)
+        return row->apply(sh, lx, all);
+    *held(&sh->set, row) = h->of->holes ? (int)h->count : (int)(h->of - all->by->clause);
+    return true;
+}
+
+bool setting_format(settings *set, const char *word) {
+    const grammar *f = setting_form(SETTING_FORMAT);
+    const clause *a = grammar_clause(f, word);
+    if (a)
+        set->format = (int)(a - f->clause);
+    return a != NULL;
+}
+
+void setting_show(size_t i, const calc *c, const settings *set, FILE *to) {
+    const setting *row = &rows[i];
+    const clause *words = setting_form(i)->clause;
+    settings own = *set;
+    fprintf(to, "set %s ", row->name);
+    if (row->show)
+        row->show(c, set, to);
+    else if (*words->name)
+        fputs(words[*held(&own, row)].name, to);
+    else
+        fprintf(to, "%d", *held(&own, row));
+    fputc('\n', to);
+}
+
+void settings_write(const calc *c, const settings *set, FILE *to) {
+    settings own = *set, initial = settings_initial;
+    for (size_t i = 0; i < SETTINGS; i++)
+        if (rows[i].show ? rows[i].differs && rows[i].differs(c, set)
+                         : *held(&own, &rows[i]) != *held(&initial, &rows[i]))
+            setting_show(i, c, set, to);
+}

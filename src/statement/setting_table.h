@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The one table of settings: `set`, `show settings`, completion and help derive from it. */
+#ifndef STATEMENT_SETTING_TABLE_H
+#define STATEMENT_SETTING_TABLE_H
+
+#include "statement/command.h"
+
+typedef struct setting {
+    const char *name;
+    const char *takes; /* what may follow, see grammar.h */
+    const char *summary;
+    const char *example; /* of `help`: a transcript, indented by four */
+    size_t at;           /* an int of settings that holds the number, or which word */
+    /* where it is neither */
+    bool (*apply)(shell *sh, lexer *lx, const said *all);
+    void (*show)(const calc *c, const settings *set, FILE *to);
+    bool (*differs)(const calc *c, const settings *set); /* from how it begins; NULL: not to be written */
+} setting;
+
+typedef enum setting_id {
+    SETTING_FORMAT,
+    SETTING_DIGITS,
+    SETTING_REPORT,
+    SETTING_TIMING,
+    SETTING_PAGER,
+    SETTING_MODEL,
+    SETTING_PLOT,
+    SETTING_CORES,
+    SETTINGS
+} setting_id;
+
+extern const settings settings_initial;
+
+const setting *setting_row(size_t i); /* NULL after the last */
+const char *setting_name(size_t i);
+const grammar *setting_form(size_t i);
+const char *terminal_name(size_t i);
+/* As it has been said; on error nothing has changed. */
+bool setting_apply(shell *sh, lexer *lx, const said *all);
+/* By its word. */
+bool setting_format(settings *set, const char *word);
+/* The settings that are not as they begin, but for the model, which belongs to the scene. */
+void settings_write(const calc *c, const settings *set, FILE *to);
+void setting_show(size_t i, const calc *c, const settings *set, FILE *to);
+
+#endif
