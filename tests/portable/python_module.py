@@ -78,7 +78,7 @@ def run(tests):
         print("left out: the module for Python needs numpy")
         return
     python = functools.partial(python, program=knows[0])
-    for name in ("contact", "session"):
+    for name in ("_contact", "_session"):
         done = python("-c", "import doctest, fret.%s as m, sys; sys.exit(doctest.testmod(m, verbose=False).failed)" % name)
         tests.check("what fret.%s shows" % name, done.returncode == 0, done.stdout + done.stderr)
     done = python("-c", TRIED)

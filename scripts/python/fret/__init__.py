@@ -4,9 +4,9 @@
 Contact is a contact with a memory: press, step, cycle, and ask; arrays of loads at once. session() runs statements of the
 program `fret`, with its units, `solve` and `fit`. Theory: Mathematics 2022, 10, 3641."""
 from ._library import Error, GrossSlip
-from .contact import (Body, Contact, Material, Shape, State, cone, exact_sphere, flat_cone, flat_paraboloid, flat_rounded,
+from ._contact import (Body, Contact, Material, Shape, State, cone, exact_sphere, flat_cone, flat_paraboloid, flat_rounded,
                       power, powers, rigid, sphere, table)
-from .session import Session, SessionError
+from ._session import Session, SessionError
 
 
 def session(program=None):

@@ -151,7 +151,7 @@ def check(status):
 
 def numbers(values):
     """An array of doubles in one piece, and its address for C."""
-    array = numpy.ascontiguousarray(values, dtype=float)
+    array = numpy.asarray(values, dtype=float, order="C")
     return array, array.ctypes.data_as(_numbers)
 
 

@@ -10,6 +10,7 @@ import numpy
 
 class SessionError(ValueError):
     """What the program refuses, in its words."""
+    __module__ = "fret"
 
 
 class Session:
@@ -25,7 +26,7 @@ class Session:
     >>> fret.session().value("FN")
     Traceback (most recent call last):
         ...
-    fret.session.SessionError: FN has no value yet: press first (press FN=100 N)
+    fret.SessionError: there is no load yet: press first (press FN=100 N)
     """
 
     # An expression that nobody asks: its value ends the answers to a line.
