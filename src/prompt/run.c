@@ -346,6 +346,8 @@ int shell_stream(shell *sh, file_in *in) {
             record_line(sh, in->line, in->length);
         last = shell_line(sh, &from, in->line, in->length, (size_t)in->number);
         ok = ok && last;
+        if (in->waits && in->at == in->have) /* who writes into the pipe may be waiting for the answer */
+            fflush(sh->out);
     }
     if (got == FILE_GOT_ERROR)
         shell_error(sh, error.text);

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is installed, read and removed again; the library from Python; package names of other systems."""
+"""What is installed, read and removed again; package names of other systems."""
 import os
 import re
 import shutil
 import subprocess
-import sys
 
 import harness
 
@@ -56,16 +55,6 @@ def completes(tests, path):
             path, words, len(words.split()) - 1, line, len(line))
         done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, cwd=harness.ROOT)
         tests.check("bash completes `%s`" % line, done.stdout.split() == want.split(), done.stdout + done.stderr)
-
-
-def from_python(tests):
-    script = os.path.join(harness.ROOT, "scripts/ctypes_loss.py")
-    done = subprocess.run([sys.executable, script, os.path.join(harness.ROOT, tests.build, "libfret.so")],
-                          capture_output=True, text=True)
-    want = tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-                     "table dW(F) in uJ for F = 5 N .. 40 N steps 7").stdout
-    tests.check("the library from Python", [line.split() for line in done.stdout.splitlines()[1:]] ==
-                [line.split() for line in want.splitlines()[1:]] and want.count("\n") == 9, done.stdout + done.stderr + want)
 
 
 def example(tests):
@@ -121,5 +110,5 @@ def begins(tests):
 
 def run(tests):
     """What is installed is the plain build."""
-    for room in (installed, from_python, example, elsewhere, debian, begins):
+    for room in (installed, example, elsewhere, debian, begins):
         room(tests)

@@ -1,0 +1,343 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A contact with a memory, over the one door of the library (fret/contact.h). SI units throughout."""
+import ctypes
+from collections import namedtuple
+from dataclasses import dataclass
+from typing import Optional, Sequence, Tuple, Union
+
+import numpy
+
+from . import _library as lib
+from ._library import library
+
+Array = Union[float, Sequence[float], numpy.ndarray]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A half-space of modulus E0 [Pa] > 0 and Poisson's ratio -1 < nu <= 1/2."""
+    E0: float
+    nu: float
+
+
+#: The second body, where it does not give way.
+rigid = Body(float("inf"), 0.0)
+
+
+@dataclass(frozen=True)
+class Material:
+    """Two bodies with E(z) = E0 (z/c0)^k, -1 < k < 1, c0 [m] > 0; k and c0 are shared. The second body is as the first, or
+    a Body, or `rigid`."""
+    E0: float
+    nu: float
+    k: float = 0.0
+    c0: float = 1e-3
+    second: Optional[Body] = None
+
+    def _struct(self):
+        second = self.second or Body(self.E0, self.nu)
+        stiff = second is rigid
+        return lib.Material((lib.Body(self.E0, self.nu, False), lib.Body(0 if stiff else second.E0, second.nu, stiff)),
+                            self.k, self.c0)
+
+
+class Shape:
+    """The initial gap f(r) between the bodies. Made by the functions of this module: sphere, cone, power, ..."""
+
+    def __init__(self, kind, powers=(), b=0.0, R=0.0, slope=0.0, rows=None):
+        self._gap = lib.Gap(kind=kind, terms=len(powers), b=b, R=R, slope=slope)
+        if len(powers) > lib.TERMS:
+            raise lib.Error("a sum has %d powers at most" % lib.TERMS)
+        for i, power in enumerate(powers):
+            self._gap.power[i] = lib.Power(*power)
+        self._table = None
+        self._made_of = (kind, tuple(powers), b, R, slope, rows)
+        if rows is not None:
+            (r, at_r), (f, at_f) = map(lib.numbers, rows)
+            if r.shape != f.shape or r.ndim != 1:
+                raise lib.Error("a table has as many radii as gaps")
+            self._table = lib.Handle("fret_table_make", "fret_table_free", at_r, at_f, len(r), None)
+            self._gap.table = self._table.pointer
+
+    def __reduce__(self):
+        return Shape, self._made_of
+
+
+def sphere(R: float) -> Shape:
+    """f = r^2/(2R), Hertz: two curved bodies have 1/R = 1/R1 + 1/R2."""
+    return Shape(0, [(2, 0.5 / R, 1)])
+
+
+def cone(slope: float) -> Shape:
+    """f = slope r."""
+    return Shape(0, [(1, slope, 1)])
+
+
+def power(n: float, h: float, r0: float = 1.0) -> Shape:
+    """f = h (r/r0)^n, n > 0; h [m] is the gap at r0 [m]."""
+    return Shape(0, [(n, h, r0)])
+
+
+def powers(terms: Sequence[Tuple[float, float, float]]) -> Shape:
+    """A sum of up to 16 such powers, each (n, h, r0)."""
+    return Shape(1, list(terms))
+
+
+def flat_cone(b: float, slope: float) -> Shape:
+    """f = slope (r - b) for r > b [m]."""
+    return Shape(2, b=b, slope=slope)
+
+
+def flat_paraboloid(b: float, R: float) -> Shape:
+    """f = (r^2 - b^2)/(2R) for r > b [m]: a truncated sphere."""
+    return Shape(3, b=b, R=R)
+
+
+def flat_rounded(b: float, R: float) -> Shape:
+    """f = (r - b)^2/(2R) for r > b [m]: the usual fretting pad."""
+    return Shape(4, b=b, R=R)
+
+
+def exact_sphere(R: float) -> Shape:
+    """f = R - sqrt(R^2 - r^2), r <= 0.95 R."""
+    return Shape(5, R=R)
+
+
+def table(r: Array, f: Array) -> Shape:
+    """A sampled gap, a monotone piecewise cubic: r[0] = 0 < r[1] < ..., f[0] = 0 [m]."""
+    return Shape(6, rows=(r, f))
+
+
+State = namedtuple("State", "FN dz a Fx dx c W U kn kt")
+State.__doc__ = """What a contact is now: normal force FN [N], indentation depth dz [m], contact radius a [m]; tangential force
+Fx [N], displacement dx [m], stick radius c [m]; energy dissipated so far W [J], stored tangential energy U [J]; stiffnesses
+kn = dFN/ddz and kt = dFx/ddx going on in the direction of the last step [N/m]."""
+
+
+def _one_of(what, **given):
+    """The name and value of the one argument that is given."""
+    named = [(name, value) for name, value in given.items() if value is not None]
+    if len(named) != 1:
+        raise TypeError("%s takes one of %s" % (what, ", ".join(given)))
+    return named[0]
+
+
+class Contact:
+    """Two bodies in contact: any history of both forces, or both displacements, exactly.
+
+    Coulomb's friction mu > 0, slip along the force. `exact` steps in long double, all digits of a double; without it power
+    laws step five times as fast, to 3e-14 of mu FN (fret/contact.h tells the bounds).
+
+    >>> import fret
+    >>> ball = fret.Contact(fret.Material(E0=210e9, nu=0.3), fret.sphere(R=10e-3), mu=0.4)
+    >>> now = ball.press(FN=100).step(Fx=20).state
+    >>> print("a = %.6g m, c = %.6g m, dx = %.6g m" % (now.a, now.c, now.dx))
+    a = 0.000186626 m, c = 0.000148125 m, dx = 6.25995e-07 m
+    >>> print("%.6g J" % ball.cycle(FA=20))
+    1.90646e-06 J
+    >>> ball.step(Fx=50)
+    Traceback (most recent call last):
+        ...
+    fret.GrossSlip: Fx = 50 exceeds the friction limit: gross slip
+    """
+
+    def __init__(self, material: Material, shape: Shape, mu: float, exact: bool = True):
+        self._made_of = (material, shape, mu, exact)
+        self._law = lib.Handle("fret_normal_make", "fret_normal_free", ctypes.byref(material._struct()),
+                               ctypes.byref(shape._gap), None, None)
+        self._contact = lib.Handle("fret_contact_make", "fret_contact_free", self._law.pointer, mu, 0 if exact else 1)
+
+    # ---- loads ----------------------------------------------------------------------------------
+
+    def press(self, FN: Optional[float] = None, dz: Optional[float] = None, a: Optional[float] = None) -> "Contact":
+        """Presses the open bodies anew: to a force FN [N], an indentation depth dz [m] or a contact radius a [m]. Returns
+        the contact, as the other loads do that have no result."""
+        name, value = _one_of("press", FN=FN, dz=dz, a=a)
+        if name == "a":
+            name, value = "dz", float(self._pressed("radius", value).dz)
+        library.fret_contact_reset(self._contact.pointer)
+        return self.step(**{name: value})
+
+    def step(self, FN: Optional[float] = None, dz: Optional[float] = None, Fx: Optional[float] = None,
+             dx: Optional[float] = None) -> "Contact":
+        """One straight step to a force or a displacement, normal (FN [N] or dz [m]), tangential (Fx [N] or dx [m]) or both:
+        straight in (FN, Fx) where Fx is given, else in (dz, dx). What is not given is kept: FN, and with a normal step dx.
+        Raises GrossSlip where |Fx| > mu FN; the contact is then as before."""
+        step = lib.Step(0, 0, 0, 0)
+        if FN is not None or dz is not None:
+            name, step.normal = _one_of("the normal part of a step", FN=FN, dz=dz)
+            step.normal_by = 1 if name == "FN" else 2
+        if Fx is not None or dx is not None:
+            name, step.tangential = _one_of("the tangential part of a step", Fx=Fx, dx=dx)
+            step.tangential_by = 2 if name == "Fx" else 1
+        lib.check(library.fret_contact_step(self._contact.pointer, ctypes.byref(step)))
+        return self
+
+    def cycle(self, FA: Optional[float] = None, dxA: Optional[float] = None, times: int = 1, FNA: float = 0.0,
+              phase: float = 0.0) -> float:
+        """Closed cycles Fx = -FA .. FA [N], or dx = -dxA .. dxA [m]; with FNA > 0 [N] the normal force swings too,
+        Fx = FA cos s, FN + FNA cos(s + phase), phase in rad. Returns the energy that the last of them dissipates [J]."""
+        name, amplitude = _one_of("cycle", FA=FA, dxA=dxA)
+        if times < 1:
+            raise lib.Error("times = %s must be 1 or more" % times)
+        if FNA:
+            if name == "dxA":
+                raise lib.Error("a normal force swings with Fx: give FA")
+            FN = self.forces.FN
+            self.step(FN=FN + FNA * numpy.cos(phase), Fx=amplitude)
+            for _ in range(times):
+                loss = self.swing(amplitude, FNA, phase, FN)
+            return loss
+        name = "Fx" if name == "FA" else "dx"
+        self.step(**{name: amplitude})
+        for _ in range(times):
+            loss = 0.0
+            for end in (-amplitude, amplitude):
+                self.step(**{name: end})
+                loss += library.fret_contact_last_loss(self._contact.pointer)
+        return loss
+
+    def swing(self, FA: float, FNA: float, phase: float, FN: float, start: float = 0.0, end: float = 1.0) -> float:
+        """The part start .. end of a period of Fx = FA cos s, FN + FNA cos(s + phase): the sine itself, no chords. The load
+        must be where the part begins. Returns what it dissipates [J]. Not with exact=False, nor of a table."""
+        lib.check(library.fret_contact_swing(self._contact.pointer, ctypes.byref(lib.Sine(FA, FNA, phase, FN)), start, end))
+        return library.fret_contact_last_loss(self._contact.pointer)
+
+    # ---- what it is now -------------------------------------------------------------------------
+
+    @property
+    def state(self) -> State:
+        """Everything: see State."""
+        return self._state(library.fret_contact_state)
+
+    @property
+    def forces(self) -> State:
+        """Forces, displacements and W alone, for an inner loop; a, c, U, kn, kt may be 0."""
+        return self._state(library.fret_contact_forces)
+
+    def _state(self, ask):
+        now = lib.State()
+        ask(self._contact.pointer, ctypes.byref(now))
+        return State(*(getattr(now, name) for name in State._fields))
+
+    def p(self, r: Array):
+        """Pressure p(r) [Pa] at radii r >= 0 [m], a number or an array.
+
+        >>> import fret
+        >>> steel = fret.Material(E0=210e9, nu=0.3)
+        >>> round(float(fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).press(FN=100).p(0)) / 1e6, 3)
+        1370.879
+        """
+        return self._field("pressure", r)
+
+    def qx(self, r: Array):
+        """Tangential traction q_x(r) [Pa]."""
+        return self._field("traction", r)
+
+    def uz(self, r: Array):
+        """Normal displacement of the surfaces u_z(r) [m], both bodies together."""
+        return self._field("surface", r)
+
+    def ux(self, r: Array):
+        """Tangential displacement u_x(r) [m], both bodies together, the mean over the angle."""
+        return self._field("surface_x", r)
+
+    def slip(self, r: Array):
+        """Local slip delta_x - u_x(r) [m], on which friction works."""
+        return self.forces.dx - self.ux(r)
+
+    def _field(self, kind, r):
+        ask = getattr(library, "fret_field_" + kind)
+        field = lib.Handle("fret_field_make", "fret_field_free", self._contact.pointer)
+        radii = numpy.asarray(r, dtype=float)
+        values = numpy.empty(radii.size)
+        value = ctypes.c_longdouble()
+        for i, radius in enumerate(radii.flat):
+            lib.check(ask(field.pointer, radius, ctypes.byref(value)))
+            values[i] = value.value
+        return values.reshape(radii.shape)[()]
+
+    # ---- closed forms for arrays of loads -------------------------------------------------------
+
+    def loss(self, FA: Optional[Array] = None, dxA: Optional[Array] = None):
+        """Energies [J] dissipated in closed cycles of amplitudes FA [N], or dxA [m] (beyond gross slip, too), at the normal
+        force as it is: closed forms, 10 ns each by force.
+
+        >>> import fret
+        >>> ball = fret.Contact(fret.Material(E0=210e9, nu=0.3), fret.sphere(R=10e-3), mu=0.4).press(FN=100)
+        >>> [float("%.6g" % dW) for dW in ball.loss(FA=[10, 20, 30])]
+        [1.88365e-07, 1.90646e-06, 9.01533e-06]
+        """
+        name, amplitudes = _one_of("loss", FA=FA, dxA=dxA)
+        contact = self._loaded()
+        if name == "FA":
+            return self._many(amplitudes, 1, lambda at, to, n: library.fret_arrays_loss(contact, at, to[0], n))[0]
+
+        def by_displacement(at, to, count):
+            loss = ctypes.c_longdouble()
+            for i in range(count):
+                lib.check(library.fret_cycle_loss_by_displacement(contact, at[i], ctypes.byref(loss)))
+                to[0][i] = loss.value
+            return lib.Status()
+        return self._many(amplitudes, 1, by_displacement)[0]
+
+    def loading(self, Fx: Array):
+        """Stick radii c and displacements dx [m] of first loading to Fx [N], at the normal force as it is."""
+        contact = self._loaded()
+        return self._many(Fx, 2, lambda at, to, n: library.fret_arrays_loading(contact, at, to[0], to[1], n))
+
+    def pressing(self, FN: Array):
+        """Contact radii a and indentation depths dz [m] under normal forces FN [N]."""
+        return self._many(FN, 2,
+                          lambda at, to, n: library.fret_arrays_press(self._law.pointer, at, to[0], to[1], n))
+
+    @property
+    def dxmax(self) -> float:
+        """Displacement at which gross slip begins [m], at the normal force as it is."""
+        return library.fret_gross_slip(self._loaded())
+
+    def _many(self, loads, count, ask):
+        array, at = lib.numbers(loads)
+        out = [lib.numbers(numpy.empty(array.shape)) for _ in range(count)]
+        lib.check(ask(at, [address for _, address in out], array.size))
+        return tuple(values[()] for values, _ in out)
+
+    def _pressed(self, by, value):
+        press = lib.Press()
+        lib.check(getattr(library, "fret_press_by_" + by)(self._law.pointer, value, ctypes.byref(press)))
+        return press
+
+    def _loaded(self):
+        return lib.Pressed(self._law.pointer, self._made_of[2], self._pressed("force", self.forces.FN))
+
+    # ---- the history ----------------------------------------------------------------------------
+
+    def copy(self) -> "Contact":
+        """Another contact with the same history, over the same law."""
+        other = Contact.__new__(Contact)
+        other._made_of, other._law = self._made_of, self._law
+        other._contact = lib.Handle("fret_contact_make", "fret_contact_free", self._law.pointer, self._made_of[2],
+                                    0 if self._made_of[3] else 1)
+        lib.check(library.fret_contact_copy(other._contact.pointer, self._contact.pointer))
+        return other
+
+    def pack(self) -> numpy.ndarray:
+        """The history as an array of doubles; `unpack` of a contact of the same law, mu and exactness takes it back, bit for
+        bit. What has swung is packed as its chords."""
+        count = ctypes.c_size_t()
+        library.fret_contact_pack(self._contact.pointer, None, 0, ctypes.byref(count))
+        out, address = lib.numbers(numpy.empty(count.value))
+        lib.check(library.fret_contact_pack(self._contact.pointer, address, len(out), ctypes.byref(count)))
+        return out
+
+    def unpack(self, history: Array) -> "Contact":
+        array, address = lib.numbers(history)
+        lib.check(library.fret_contact_unpack(self._contact.pointer, address, array.size))
+        return self
+
+    def __reduce__(self):
+        return _restored, (self._made_of, self.pack())
+
+
+def _restored(made_of, history):
+    return Contact(*made_of).unpack(history)

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The module `fret` for Python: what its documentation shows, beside the program, and its examples."""
+import functools
+import os
+import shutil
+import subprocess
+import sys
+
+import harness
+
+MODULE = os.path.join(harness.ROOT, "scripts/python")
+
+TRIED = r"""
+import pickle
+import numpy as np
+import fret
+
+steel = fret.Material(E0=210e9, nu=0.3, k=0.3, c0=1e-3)
+SHAPES = {
+    "sphere R=10 mm": fret.sphere(R=10e-3), "cone slope=0.05": fret.cone(slope=0.05),
+    "power n=3 h=1 um r0=1 mm": fret.power(3, 1e-6, 1e-3), "sum 2:50 m^-1, 4:2e6 m^-3": fret.powers([(2, 50, 1), (4, 2e6, 1)]),
+    "flat-cone b=0.1 mm slope=0.05": fret.flat_cone(1e-4, 0.05),
+    "flat-paraboloid b=0.1 mm R=10 mm": fret.flat_paraboloid(1e-4, 10e-3),
+    "flat-rounded b=0.1 mm R=10 mm": fret.flat_rounded(1e-4, 10e-3), "exact-sphere R=10 mm": fret.exact_sphere(10e-3)}
+with fret.session() as s:
+    s.run("material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; friction 0.4")
+    for said, shape in SHAPES.items():
+        s.run("geometry %s; press FN=100 N; step Fx=20 N; step FN=90 N Fx=-10 N" % said)
+        contact = fret.Contact(steel, shape, mu=0.4).press(FN=100).step(Fx=20).step(FN=90, Fx=-10)
+        for ours, theirs in ((contact.state.a, "a"), (contact.state.dx, "dx"), (contact.state.W, "W"), (contact.state.c, "c"),
+                             (contact.qx(5e-5), "qx(0.05 mm)"), (contact.ux(1e-3), "ux(1 mm)"), (contact.p(5e-5), "p(0.05 mm)"),
+                             (contact.uz(1e-3), "uz(1 mm)"), (contact.loss(FA=10), "dW(10 N)")):
+            want = s.value(theirs)
+            assert abs(ours - want) <= 1e-12 * abs(want), (said, theirs, ours, want)
+        again = pickle.loads(pickle.dumps(contact))
+        assert again.state == contact.state, said
+        assert contact.copy().step(Fx=5).state == contact.step(Fx=5).state, said
+    s.run("geometry sphere R=10 mm; press FN=100 N; cycle FA=20 N FNA=30 N phase=90 deg times 3")
+    swung = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).press(FN=100).cycle(FA=20, FNA=30, phase=np.pi / 2, times=3)
+    assert abs(swung - s.value("dW")) <= 1e-12 * swung, swung
+    for refused, what in (("press FN=-1 N", fret.SessionError),):
+        try:
+            s.run(refused)
+        except what as error:
+            assert "FN" in str(error), error
+        else:
+            raise AssertionError(refused)
+    assert abs(s.value("a") - fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).press(FN=100).state.a) < 1e-3
+for wrong in (lambda: fret.Material(E0=-1, nu=0.3), lambda: fret.Material(E0=1e9, nu=0.3, k=1), lambda: fret.Material(E0=float("nan"), nu=0.3)):
+    try:
+        fret.Contact(wrong(), fret.sphere(R=10e-3), mu=0.4)
+    except fret.Error as error:
+        assert error.quantity in ("E0", "k"), error
+    else:
+        raise AssertionError("taken")
+r = np.linspace(0, 1e-3, 50)
+rows = fret.Contact(steel, fret.table(r, r**2 / 0.02), mu=0.4).press(FN=100)
+ball = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).press(FN=100)
+assert abs(rows.state.a / ball.state.a - 1) < 1e-12, rows.state.a
+fast = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4, exact=False).press(FN=100)
+assert abs(fast.cycle(FA=20) / ball.cycle(FA=20) - 1) < 1e-12
+assert ball.loss(FA=np.full((2, 3), 20.0)).shape == (2, 3) and np.isscalar(ball.loss(FA=20.0))
+print("holds")
+"""
+
+
+def run(tests):
+    env = dict(tests.env, PYTHONPATH=MODULE, FRET_LIBRARY=os.path.join(harness.ROOT, tests.build, "libfret.so"),
+               FRET_PROGRAM=os.path.join(harness.ROOT, tests.fret))
+
+    def python(*args, program=sys.executable):
+        return subprocess.run([program, *args], capture_output=True, text=True, env=env, cwd=tests.dir, timeout=120)
+
+    # that of the system has the packages of the system, where another one is found first
+    knows = [program for program in (sys.executable, "/usr/bin/python3")
+             if shutil.which(program) and not python("-c", "import numpy", program=program).returncode]
+    if not knows:
+        print("left out: the module for Python needs numpy")
+        return
+    python = functools.partial(python, program=knows[0])
+    for name in ("_contact", "_session"):
+        done = python("-c", "import doctest, fret.%s as m, sys; sys.exit(doctest.testmod(m, verbose=False).failed)" % name)
+        tests.check("what fret.%s shows" % name, done.returncode == 0, done.stdout + done.stderr)
+    done = python("-c", TRIED)
+    tests.check("the module beside the program", done.stdout == "holds\n", done.stdout + done.stderr)
+    tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+              "set format csv; table dx in m, Fx in N along cycle dxA=1 um steps 100 to loop.csv")
+    done = python(os.path.join(MODULE, "examples/beside.py"), "loop.csv")
+    tests.check("a loop beside the theory", done.returncode == 0, done.stdout + done.stderr)
+    if python("-c", "import matplotlib").returncode:
+        print("left out: an example of the module for Python needs matplotlib")
+        return
+    done = python(os.path.join(MODULE, "examples/loops.py"), "loops.png")
+    tests.check("loops by matplotlib", done.returncode == 0 and os.path.getsize(os.path.join(tests.dir, "loops.png")) > 10000,
+                done.stdout + done.stderr)
