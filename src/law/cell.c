@@ -258,8 +258,7 @@ fret_real fret_cell_rate(const fret_cell *c, int by, fret_real s) {
     return by == BY_LOAD ? fret_cell_stiffness(c, s) * rate : rate;
 }
 
-/* How much less depth or load is at s - back, with all digits where that is little. */
-static fret_real cell_fall(const fret_cell *c, int by, fret_real s, fret_real back) {
+fret_real fret_cell_fall(const fret_cell *c, int by, fret_real s, fret_real back) {
     if (c->powers) {
         const fret_stretch p = part_of_powers(c, s, log_left(s, back));
         return by == BY_DEPTH ? p.h : p.G + p.h * (back < s ? stiffness_of_powers(c, s - back) : 0);
@@ -351,11 +350,26 @@ fret_real fret_cell_find(const fret_cell *c, int by, fret_real rise) {
 static fret_real short_of(fret_real back, fret_real *slope, void *context) {
     const search *f = context;
     *slope = fret_cell_rate(f->cell, f->by, f->s - back);
-    return cell_fall(f->cell, f->by, f->s, back) - f->wanted;
+    return fret_cell_fall(f->cell, f->by, f->s, back) - f->wanted;
 }
 
-fret_real fret_cell_find_back(const fret_cell *c, int by, fret_real s, fret_real drop) {
+/* By secants, first of the one from s itself: what is left of a step is its product with the one before. */
+fret_real fret_cell_find_back(const fret_cell *c, int by, fret_real s, fret_real drop, fret_real guess) {
+    enum { STEPS = 6 };
+    static const fret_real ENOUGH = 1e-18L;
     const fret_real most = s - c->begin;
+    fret_real back = guess > 0 ? guess : drop / fret_cell_rate(c, by, s), before = 0, fallen = 0;
+    if (!(drop > 0))
+        return 0;
+    for (int i = 0; i < STEPS && back > 0 && back < most; i++) {
+        const fret_real fall = fret_cell_fall(c, by, s, back), last = back - before,
+                        step = (drop - fall) * last / (fall - fallen);
+        if (fabsl(step * last) <= ENOUGH * s * back)
+            return fminl(back + step, most);
+        before = back;
+        fallen = fall;
+        back += step;
+    }
     if (drop >= fret_cell_rise(c, by, s))
         return most;
     search f = {c, by, drop, s};
@@ -385,8 +399,8 @@ typedef double lanes __attribute__((vector_size(NODES * sizeof(double))));
  * always holds and whose digits will do. */
 static void means_of_part(const fret_cell *c, const way *w, fret_real h, double *G, double *L) {
     const fret_real edge = c->x * c->x + c->width * w->s;
-    const double s = (double)w->s, part = (double)(w->back / w->s), q = (double)c->q, power = (double)c->m - 1,
-                 share = (double)(w->s / h), share_q = (double)(w->to_q / h),
+    const double s = (double)w->s, part = (double)(w->back / w->s), q = (double)c->q,
+                 power = (double)c->m - 1, share = (double)(w->s / h), share_q = (double)(w->to_q / h),
                  fall = (double)(c->width * w->back / edge);
     double P = 0, Q = 0, sum = 0;
     lanes back, node, less, quotient = {0}, quotient_q = {0};
