@@ -13,7 +13,7 @@ static fret_level level_of(coordinate by, const place *p) {
     return by == LOAD ? (fret_level){p->v, p->y} : (fret_level){p->y, p->v};
 }
 
-static void law_know(const fret_memory *m, coordinate by, place *p) {
+FRET_INLINE void law_know(const fret_memory *m, coordinate by, place *p) {
     if (fret_normal_closed(m->normal) && p->v < 0)
         p->v = power_value(&m->law[by], p->y);
     else if (p->v < 0)
