@@ -202,6 +202,13 @@ fret_real fret_law_distance(const fret_normal *n, fret_real y) {
                                 : c->width * p.s / (c->x + sqrtl(c->x * c->x + c->width * p.s));
 }
 
+fret_place fret_law_place(const fret_normal *n, fret_real a) {
+    static const fret_real NEAR = 0.9L;
+    return fret_normal_closed(n) || !(fret_gap_start(&n->gap) < NEAR * a) || !(a < n->end)
+               ? (fret_place){0, 0}
+               : fret_cells_at(n->cells, a);
+}
+
 fret_real fret_law_other(const fret_normal *n, bool by_load, fret_real value, fret_place *at) {
     if (value <= 0)
         return 0;

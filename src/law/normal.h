@@ -79,6 +79,9 @@ typedef struct fret_slice {
     fret_real h, w, fall, G, L, K;
 } fret_slice;
 
+/* The place of a pressed contact by its radius; next to a flat end, where that tells too little, and of a
+ * power law it stays to be looked for. */
+fret_place fret_law_place(const fret_normal *normal, fret_real a);
 /* The load of a depth, or the depth of a load. at: its place, looked for unless it is known. */
 fret_real fret_law_other(const fret_normal *normal, bool by_load, fret_real value, fret_place *at);
 
