@@ -167,8 +167,9 @@ static fret_real loss_of_power(const fret_normal *normal, const fraction *f) {
 static fret_real general_loss(const fret_pressed *c, bool by_load, const fraction *f) {
     const fret_level edge = {c->press.dz, c->press.F};
     const fret_real whole = by_load ? edge.F : edge.y, s = dd_value(f->s), t = fminl(f->t_wide, 1);
+    fret_place at[2] = {fret_law_place(c->normal, c->press.a), {0, 0}};
     return 4 * c->mu * (c->mu * c->normal->foundation.eta) *
-           fret_law_slice_to(c->normal, &edge, by_load, t * whole, s * whole, NULL).L;
+           fret_law_slice_to(c->normal, &edge, by_load, t * whole, s * whole, at).L;
 }
 
 static fret_real loss_of(const fret_pressed *c, const fraction *f) {

@@ -3,6 +3,7 @@
 #include "history/diagram.h"
 
 #define NUMBER double
+#define SPOT char /* a power law looks for none */
 #define DIAGRAM fret_diagram
 #define FUNCTION(f) f
 #define POWER pow
@@ -14,40 +15,31 @@
 
 /* ---- the law ----------------------------------------------------------------------------------- */
 
-FRET_INLINE double law_value(const fret_diagram *d, coordinate by, double y) {
-    return power_value(&d->law[by], y);
+FRET_INLINE void law_know(const fret_diagram *d, coordinate by, place *p) {
+    if (p->v < 0)
+        p->v = power_value(&d->law[by], p->y);
 }
 
-FRET_INLINE fallen law_fall(const fret_diagram *d, coordinate by, place edge, double thick, double y,
-                            double v) {
+FRET_INLINE double law_fall(const fret_diagram *d, coordinate by, place *edge, double thick, place *inner) {
     (void)thick;
-    if (v < 0)
-        v = law_value(d, by, y);
-    return (fallen){edge.v - v, v};
-}
-
-/* Of a power law none is looked for. */
-typedef char spot;
-
-static spot no_spot(void) {
-    return 0;
+    law_know(d, by, inner);
+    return edge->v - inner->v;
 }
 
 FRET_INLINE bow law_bow(const fret_diagram *d, coordinate by, const place *outer, const place *inner,
-                        double w, spot *at) {
-    (void)at;
+                        double w) {
     return power_bow(&d->law[by], outer, inner, w);
 }
 
 /* Depth and load, or load and depth, whose product is an energy: numbers to go on with? */
 static bool law_shown(const fret_diagram *d, coordinate by, double y) {
-    const double v = law_value(d, by, y), product = y * v;
+    const double v = power_value(&d->law[by], y), product = y * v;
     return product > 1e-290 && product < 1e290 && v > 1e-290 && v < 1e290;
 }
 
 /* F_N - s F_x/mu with all digits, which tell a depth near gross slip. */
-FRET_INLINE double law_left(const fret_diagram *d, coordinate by, double s, place edge, double level) {
-    const dd limit = dd_prod(d->mu, edge.y);
+FRET_INLINE double law_left(const fret_diagram *d, coordinate by, double s, const place *edge, double level) {
+    const dd limit = dd_prod(d->mu, edge->y);
     return by == DEPTH ? level : fmax(((limit.hi - s * d->Fx) + limit.lo) / d->mu, 0);
 }
 
@@ -57,12 +49,9 @@ static fret_real law_radius(const fret_diagram *d) {
 
 #include "history/diagram_body.h"
 
-static fret_status law_press(fret_diagram *d, coordinate by, double y, double *v) {
+static fret_status law_press(fret_diagram *d, coordinate by, double y) {
     const fret_status st = count_near(d, by, y);
-    if (st.code)
-        return st;
-    *v = law_value(d, by, y);
-    return law_shown(d, by, y) ? st : fret_fail(FRET_OVERFLOW, NULL, y, 1e290);
+    return st.code || law_shown(d, by, y) ? st : fret_fail(FRET_OVERFLOW, NULL, y, 1e290);
 }
 
 /* ---- the object -------------------------------------------------------------------------------- */

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The memory diagram: a curve that steps append to and cut. Included once for each kind of number, behind
  * history/diagram_type.h and what the law is there:
- *   law_value   the other coordinate of a place
- *   law_fall    that of a place, and how far it is below that of the edge
- *   law_bow     what a slice of the law bends (history/power_law.h); slices from the edge inwards hand on a
- *               `spot` where the law has looked, at first no_spot
+ *   law_know    the other coordinate of a place, where it is < 0, and where the law has found that
+ *   law_fall    how far it is below that of the edge; of a place `thick` below it, which is then known
+ *   law_bow     what a slice of the law bends (history/power_law.h)
  *   law_shown   whether numbers hold it
- *   law_press   the other coordinate of an edge out of the ordinary, if they do
+ *   law_press   gets ready for an edge out of the ordinary, if they do
  *   law_left    the level of slip at an edge near gross slip, of which every digit counts
  *   law_radius  the contact radius
  * LITTLE: what places are known to, of the largest. Allocates the layers of its contact. */
@@ -36,9 +35,9 @@ FRET_INLINE NUMBER size_of(NUMBER x) {
 /* ---- life -------------------------------------------------------------------------------------- */
 
 static void diagram_reset(DIAGRAM *d) {
-    d->edge = (point){{0, 0}, {0, 0}};
+    d->edge = (point){.y = {0, 0}};
     d->dz = d->slid = d->dx = d->Fx = d->W = d->W_rest = d->last_loss = 0;
-    d->limit[DEPTH] = d->limit[LOAD] = fret_normal_closed(d->normal) ? 0 : (NUMBER)INFINITY;
+    d->limit[DEPTH] = d->limit[LOAD] = 0;
     d->sure[DEPTH] = d->sure[LOAD] = (NUMBER)INFINITY;
     d->told = DEPTH;
     d->direction = 1;
@@ -111,7 +110,7 @@ static fret_status diagram_copy(DIAGRAM *to, const DIAGRAM *from) {
 
 /* ---- the power law ----------------------------------------------------------------------------- */
 
-static fret_status law_press(DIAGRAM *d, coordinate by, double y, NUMBER *v);
+static fret_status law_press(DIAGRAM *d, coordinate by, double y);
 
 /* Powers are taken of the ratio to a place nearby, where their rounding is least: the middle of the 2^16-fold
  * range of loads that y is in, and so the same whatever came before. */
@@ -146,24 +145,19 @@ APART fret_status count_near(DIAGRAM *d, coordinate by, double y) {
  * (1-x) + outer x^2,   x = 0 .. 1 from the inner one to the outer one. No term is negative: thin zones keep
  * their digits. */
 FRET_INLINE NUMBER over(const DIAGRAM *d, coordinate by, const place *from, const place *to, NUMBER w,
-                        NUMBER inner, NUMBER middle, NUMBER outer, spot *at) {
+                        NUMBER inner, NUMBER middle, NUMBER outer) {
     if (!(w > 0))
         return 0;
-    const bow b = law_bow(d, by, to, from, w, at);
+    const bow b = law_bow(d, by, to, from, w);
     const NUMBER sum = middle * b.middle + outer * b.outer;
     return inner > 0 ? sum + inner * b.inner : sum; /* the centre may bend without end */
 }
 
 /* The zone where a front of slip is. */
 typedef struct slip_front {
-    place edge, at; /* v < 0: not known */
-    NUMBER thick;   /* edge - at with its digits */
+    place edge, at;
+    NUMBER thick; /* edge - at with its digits */
 } slip_front;
-
-FRET_INLINE void know(const DIAGRAM *d, coordinate by, place *p) {
-    if (p->v < 0)
-        p->v = law_value(d, by, p->y);
-}
 
 /* Edge and front go evenly from a to b, the front by `travel`. */
 APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_front *b, NUMBER travel) {
@@ -175,10 +169,10 @@ APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_fro
            middle[3] = {travel * h1 / 2, (start + end) / 2, 0}, sum = 0;
     if (!(travel > 0))
         return 0;
-    know(d, by, &a->edge);
-    know(d, by, &a->at);
-    know(d, by, &b->edge);
-    know(d, by, &b->at);
+    law_know(d, by, &a->edge);
+    law_know(d, by, &a->at);
+    law_know(d, by, &b->edge);
+    law_know(d, by, &b->at);
     if (growth < 0 && h1 >= travel) {
         at[2] = &b->edge;
         at[3] = &a->edge;
@@ -196,23 +190,28 @@ APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_fro
         middle[1] = h0 * h1 / 2;
     }
     const NUMBER psi[4] = {0, start, end, 0};
-    spot last = no_spot();
     for (int i = 2; i >= 0; i--)
-        sum += over(d, by, at[i], at[i + 1], w[i], psi[i], middle[i], psi[i + 1], &last);
+        sum += over(d, by, at[i], at[i + 1], w[i], psi[i], middle[i], psi[i + 1]);
     return sum;
 }
 
 /* Of the force between two depths: that of the chord, less what lies between. */
 APART NUMBER mean_force(const DIAGRAM *d, const place *a, const place *b) {
     const NUMBER way = size_of(b->y - a->y);
-    spot last = no_spot();
     const bool rises = a->y < b->y;
-    return way > 0 ? (a->v + b->v) / 2 -
-                         law_bow(d, DEPTH, rises ? b : a, rises ? a : b, way, &last).middle * way / 4
+    return way > 0 ? (a->v + b->v) / 2 - law_bow(d, DEPTH, rises ? b : a, rises ? a : b, way).middle * way / 4
                    : b->v;
 }
 
 /* ---- steps ------------------------------------------------------------------------------------- */
+
+/* The normal state at the end of a step. */
+typedef struct normal_end {
+    NUMBER y[2];
+    SPOT at;
+    NUMBER dz; /* depth, or < 0 the gap between the bodies where they part */
+    coordinate told;
+} normal_end;
 
 /* One step, straight in (y, t) of the coordinate `by`, with the contact closed at both ends. */
 typedef struct path {
@@ -227,20 +226,22 @@ typedef struct path {
 } path;
 
 FRET_INLINE place place_of(const point *p, coordinate by) {
-    return (place){p->y[by], p->y[other_than(by)]};
+    return (place){p->y[by], p->y[other_than(by)], p->at};
 }
 
 /* Not as a whole: that waits for its parts to be written. */
-FRET_INLINE void put(place *to, NUMBER y, NUMBER v) {
-    to->y = y;
-    to->v = v;
-}
-
 FRET_INLINE void put_point(place *to, const point *p, coordinate by) {
-    put(to, p->y[by], p->y[other_than(by)]);
+    to->y = p->y[by];
+    to->v = p->y[other_than(by)];
+    to->at = p->at;
 }
 
-enum { UNKNOWN = -1 };
+/* One that is not known. */
+FRET_INLINE void put_at(place *to, NUMBER y) {
+    to->y = y;
+    to->v = -1;
+    to->at = (SPOT){0};
+}
 
 /* The level y - s t of slip of sign s at the end. law_left goes by what was asked for, and so knows more near
  * gross slip, but nothing where delta_x is far larger than what is left of it here. */
@@ -248,7 +249,8 @@ FRET_INLINE NUMBER end_level(const path *p, coordinate by, NUMBER s) {
     const NUMBER y = p->to.y[by], level = y - s * p->to.t[by];
     if (size_of(level) > (NUMBER)0.1 * y || level == 0)
         return level;
-    const NUMBER left = law_left(p->d, by, s, place_of(&p->to, by), level);
+    const place edge = place_of(&p->to, by);
+    const NUMBER left = law_left(p->d, by, s, &edge, level);
     return size_of(left - level) <= LITTLE * y ? left : level;
 }
 
@@ -278,42 +280,44 @@ FRET_INLINE meeting meet(const layer *l, coordinate by, NUMBER s, NUMBER level) 
 FRET_INLINE void cut(path *p, coordinate by, NUMBER s, size_t count, NUMBER part, NUMBER thick,
                      const point *outer, NUMBER travel) {
     const coordinate aside = other_than(by);
-    const place edge = place_of(&p->to, by);
+    place edge = place_of(&p->to, by), front = {0};
     DIAGRAM *d = p->d;
     layer *zone = &d->layers[count];
-    NUMBER y = 0, t = 0, ty = 0, tv = 0;
-    fallen fall = {edge.v, 0};
+    NUMBER fall = edge.v, t = 0, ty = 0, tv = 0;
     if (count) {
         const layer *top = zone - 1;
         const NUMBER inner = top->inner.y[by], v = top->inner.y[aside];
         ty = top->inner.t[by];
         tv = top->inner.t[aside];
-        y = lesser(inner + part, edge.y);
-        if (y > inner) {
-            fall = law_fall(d, by, edge, thick, y, UNKNOWN);
-            fall.v = lesser(greater(fall.v, v), edge.v);
-            t = !outer ? fall.v - v
-                       : layer_thickness(top, outer, aside) -
-                             (outer == &d->edge ? fall.by
-                                                : law_fall(d, by, place_of(outer, by), travel, y, fall.v).by);
+        put_at(&front, lesser(inner + part, edge.y));
+        if (front.y > inner) {
+            fall = law_fall(d, by, &edge, thick, &front);
+            front.v = lesser(greater(front.v, v), edge.v);
+            t = front.v - v;
+            if (outer) {
+                place end = place_of(outer, by);
+                t = layer_thickness(top, outer, aside) -
+                    (outer == &d->edge ? fall : law_fall(d, by, &end, travel, &front));
+            }
             ty += top->sigma * part;
             tv += top->sigma * t;
         } else { /* all of it */
-            y = inner;
-            fall = law_fall(d, by, edge, thick, y, v);
+            put_point(&front, &top->inner, by);
+            fall = law_fall(d, by, &edge, thick, &front);
             zone--;
         }
     } else {
         p->to.t[by] = s * edge.y;
         p->slides = true;
     }
-    zone->inner.y[by] = y;
-    zone->inner.y[aside] = fall.v;
+    zone->inner.y[by] = front.y;
+    zone->inner.y[aside] = front.v;
+    zone->inner.at = front.at;
     zone->inner.t[by] = ty;
     zone->inner.t[aside] = tv;
     zone->sigma = s;
     d->count = (size_t)(zone - d->layers) + 1;
-    p->to.t[aside] = tv + s * fall.by;
+    p->to.t[aside] = tv + s * fall;
 }
 
 /* Where the front is after a cut. */
@@ -333,7 +337,7 @@ FRET_INLINE void begin_at(slip_front *begin, const point *edge, coordinate by) {
 FRET_INLINE void dissipate_all(path *p, coordinate by, NUMBER e, place *from) {
     if (by == DEPTH && e > 0 && p->counts) {
         const place b = place_of(&p->to, DEPTH);
-        know(p->d, DEPTH, from);
+        law_know(p->d, DEPTH, from);
         p->loss += e * mean_force(p->d, from, &b);
     }
 }
@@ -361,9 +365,9 @@ FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
             break;
         left = greater(left - at.gain * thick, 0);
         if (at.gain > 0 && p->grow != 0)
-            put(&next->edge, edge - p->grow * (left / drive), UNKNOWN);
+            put_at(&next->edge, edge - p->grow * (left / drive));
         else
-            put(&next->edge, now->edge.y, now->edge.v);
+            next->edge = now->edge;
         put_point(&next->at, &top->inner, by);
         next->thick = now->thick + thick + (next->edge.y - now->edge.y);
         if (at.gain > 0)
@@ -428,11 +432,11 @@ FRET_INLINE void phases_back(path *p, coordinate by, last_phase *last) {
             way = now->thick / -widens;
             travel = lesser(speed * way, thick);
         }
-        put(&next->edge, greater(now->edge.y - way, to), UNKNOWN);
+        put_at(&next->edge, greater(now->edge.y - way, to));
         if (reached)
             put_point(&next->at, &top->inner, by);
         else
-            put(&next->at, overtaken ? next->edge.y : now->at.y - travel, UNKNOWN);
+            put_at(&next->at, overtaken ? next->edge.y : now->at.y - travel);
         next->thick = overtaken ? 0 : now->thick + widens * way;
         if (!reached && !overtaken) {
             put_point(&next->edge, &p->to, by);
@@ -509,8 +513,8 @@ FRET_INLINE void grow(path *p, coordinate by) {
 }
 
 /* To y, with t of the coordinate `by` there. Returns the loss. */
-FRET_INLINE NUMBER advance(DIAGRAM *d, coordinate by, NUMBER depth, NUMBER load, NUMBER t, bool counts) {
-    const NUMBER y[2] = {depth, load};
+FRET_INLINE NUMBER advance(DIAGRAM *d, coordinate by, const normal_end *end, NUMBER t, bool counts) {
+    const NUMBER *y = end->y;
     path p; /* not as a whole: that waits for its parts to be written */
     p.d = d;
     p.counts = counts;
@@ -521,6 +525,7 @@ FRET_INLINE NUMBER advance(DIAGRAM *d, coordinate by, NUMBER depth, NUMBER load,
     for (coordinate i = DEPTH; i <= LOAD; i++)
         p.to.y[i] = y[i];
     p.to.t[by] = t;
+    p.to.at = end->at;
     p.felt = size_of(t) + size_of(d->edge.t[by]);
     p.Y = p.grow > 0 ? y[by] : d->edge.y[by];
     const NUMBER aside = size_of(p.turn), along = size_of(p.grow);
@@ -536,6 +541,7 @@ FRET_INLINE NUMBER advance(DIAGRAM *d, coordinate by, NUMBER depth, NUMBER load,
         d->edge.y[i] = p.to.y[i];
         d->edge.t[i] = p.to.t[i];
     }
+    d->edge.at = p.to.at;
     for (size_t i = d->count; i > 0 && d->layers[i - 1].inner.y[other_than(by)] > y[other_than(by)]; i--)
         d->layers[i - 1].inner.y[other_than(by)] = y[other_than(by)]; /* whatever rounding says */
     if (p.slides && by == DEPTH)
@@ -543,31 +549,24 @@ FRET_INLINE NUMBER advance(DIAGRAM *d, coordinate by, NUMBER depth, NUMBER load,
     return p.loss;
 }
 
-APART NUMBER by_load(DIAGRAM *d, NUMBER depth, NUMBER load, NUMBER t) {
-    return advance(d, LOAD, depth, load, t, false);
+APART NUMBER by_load(DIAGRAM *d, const normal_end *end, NUMBER t) {
+    return advance(d, LOAD, end, t, false);
 }
-APART NUMBER by_load_with_loss(DIAGRAM *d, NUMBER depth, NUMBER load, NUMBER t) {
-    return advance(d, LOAD, depth, load, t, true);
+APART NUMBER by_load_with_loss(DIAGRAM *d, const normal_end *end, NUMBER t) {
+    return advance(d, LOAD, end, t, true);
 }
-APART NUMBER by_depth(DIAGRAM *d, NUMBER depth, NUMBER load, NUMBER t) {
-    return advance(d, DEPTH, depth, load, t, false);
+APART NUMBER by_depth(DIAGRAM *d, const normal_end *end, NUMBER t) {
+    return advance(d, DEPTH, end, t, false);
 }
-APART NUMBER by_depth_with_loss(DIAGRAM *d, NUMBER depth, NUMBER load, NUMBER t) {
-    return advance(d, DEPTH, depth, load, t, true);
+APART NUMBER by_depth_with_loss(DIAGRAM *d, const normal_end *end, NUMBER t) {
+    return advance(d, DEPTH, end, t, true);
 }
 
 static void open_contact(DIAGRAM *d, NUMBER dx) {
-    d->edge = (point){{0, 0}, {0, 0}};
+    d->edge = (point){.y = {0, 0}};
     d->count = 0;
     d->slid = dx;
 }
-
-/* The normal state at the end of a step. */
-typedef struct normal_end {
-    NUMBER y[2];
-    NUMBER dz; /* depth, or < 0 the gap between the bodies where they part */
-    coordinate told;
-} normal_end;
 
 FRET_INLINE fret_status press_to(DIAGRAM *d, coordinate by, double target, normal_end *to) {
     const double end = target > 0 ? target : 0;
@@ -576,16 +575,17 @@ FRET_INLINE fret_status press_to(DIAGRAM *d, coordinate by, double target, norma
     if (by == LOAD && target < 0)
         return fret_fail(FRET_NEGATIVE, "FN", target, 0);
     if (end != to->y[by]) {
-        NUMBER v = 0;
+        place edge;
+        put_at(&edge, end);
         if (end > 0 && (end < d->sure[by] || end > d->limit[by])) {
-            const fret_status st = law_press(d, by, end, &v);
+            const fret_status st = law_press(d, by, end);
             if (st.code)
                 return st;
-        } else if (end > 0) {
-            v = law_value(d, by, end);
         }
+        law_know(d, by, &edge);
         to->y[by] = end;
-        to->y[other_than(by)] = v;
+        to->y[other_than(by)] = edge.v;
+        to->at = edge.at;
         to->told = by;
     }
     to->dz = target < 0 ? (NUMBER)target : to->y[DEPTH];
@@ -595,6 +595,7 @@ FRET_INLINE fret_status press_to(DIAGRAM *d, coordinate by, double target, norma
 FRET_INLINE fret_status find_normal_end(DIAGRAM *d, const fret_step *step, normal_end *to) {
     to->y[DEPTH] = d->edge.y[DEPTH]; /* not as a whole: that waits for its parts to be written */
     to->y[LOAD] = d->edge.y[LOAD];
+    to->at = d->edge.at;
     to->dz = d->dz;
     to->told = d->told;
     return step->normal_by == FRET_KEEP_NORMAL ? fret_ok()
@@ -613,21 +614,19 @@ FRET_INLINE fret_status find_load(const DIAGRAM *d, const fret_step *step, NUMBE
     return st;
 }
 
-static void step_by_force(DIAGRAM *d, double Fx, const NUMBER y[2], NUMBER load) {
-    if (Fx == d->Fx && size_of(d->edge.t[LOAD]) <= y[LOAD])
+static void step_by_force(DIAGRAM *d, double Fx, const normal_end *end, NUMBER load) {
+    if (Fx == d->Fx && size_of(d->edge.t[LOAD]) <= end->y[LOAD])
         load = d->edge.t[LOAD]; /* the rounding of a quotient is no reversal */
     d->Fx = Fx;
-    d->last_loss =
-        d->lossless ? by_load(d, y[DEPTH], y[LOAD], load) : by_load_with_loss(d, y[DEPTH], y[LOAD], load);
-    if (y[LOAD] <= 0)
+    d->last_loss = d->lossless ? by_load(d, end, load) : by_load_with_loss(d, end, load);
+    if (end->y[LOAD] <= 0)
         open_contact(d, d->slid); /* no spring is left to be displaced */
     d->dx = d->slid + d->mu_eta * d->edge.t[DEPTH];
 }
 
 /* With the contact closed. t: int sigma dy at the end. */
-FRET_INLINE void move(DIAGRAM *d, const NUMBER y[2], NUMBER t) {
-    d->last_loss =
-        d->lossless ? by_depth(d, y[DEPTH], y[LOAD], t) : by_depth_with_loss(d, y[DEPTH], y[LOAD], t);
+FRET_INLINE void move(DIAGRAM *d, const normal_end *end, NUMBER t) {
+    d->last_loss = d->lossless ? by_depth(d, end, t) : by_depth_with_loss(d, end, t);
 }
 
 FRET_INLINE NUMBER turned(const DIAGRAM *d, NUMBER to, NUMBER from) {
@@ -645,7 +644,7 @@ static void step_by_displacement(DIAGRAM *d, NUMBER target, const normal_end *en
     else if (from > 0 && to <= 0)
         stop = old + (target - old) * (from / (from - to));
     if (from > 0 || to > 0)
-        move(d, end->y, turned(d, stop, old));
+        move(d, end, turned(d, stop, old));
     if (to <= 0)
         open_contact(d, target);
     d->Fx = d->mu * d->edge.t[LOAD];
@@ -685,7 +684,7 @@ APART fret_status any_step(DIAGRAM *d, const fret_step *step) {
     face(d, by_force ? d->Fx : d->dx, target);
     d->told = to.told;
     if (by_force)
-        step_by_force(d, step->tangential, to.y, load);
+        step_by_force(d, step->tangential, &to, load);
     else
         step_by_displacement(d, target, &to);
     end_step(d, to.dz);
@@ -703,14 +702,23 @@ FRET_INLINE fret_status diagram_step(DIAGRAM *d, const fret_step *step) {
     if (!is_plain(d, step))
         return any_step(d, step);
     const bool stays = step->normal == d->edge.y[DEPTH];
-    const NUMBER y[2] = {step->normal, stays ? d->edge.y[LOAD] : law_value(d, DEPTH, step->normal)};
+    place edge;
+    normal_end to;
+    put_at(&edge, step->normal);
+    if (stays)
+        put_point(&edge, &d->edge, DEPTH);
+    else
+        law_know(d, DEPTH, &edge);
+    to.y[DEPTH] = edge.y;
+    to.y[LOAD] = edge.v;
+    to.at = edge.at;
     const NUMBER t = turned(d, step->tangential, d->dx);
     face(d, d->dx, step->tangential);
     d->dx = step->tangential;
     d->told = stays ? d->told : DEPTH;
-    move(d, y, t);
+    move(d, &to, t);
     d->Fx = d->mu * d->edge.t[LOAD];
-    end_step(d, y[DEPTH]);
+    end_step(d, to.y[DEPTH]);
     return fret_ok();
 }
 
@@ -873,9 +881,8 @@ static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count)
         next = unpack_number(unpack_point(next, &made->layers[i].inner), &made->layers[i].sigma);
     made->dz = rest[0], made->slid = rest[1], made->dx = rest[2], made->Fx = rest[3];
     made->W = rest[4], made->W_rest = rest[5], made->last_loss = rest[6];
-    NUMBER v;
     st = !is_history(made) ? wrong
-         : made->count     ? law_press(made, made->told, (double)made->edge.y[made->told], &v)
+         : made->count     ? law_press(made, made->told, (double)made->edge.y[made->told])
                            : st;
     if (!st.code)
         st = diagram_copy(d, made);

@@ -15,9 +15,10 @@ static inline coordinate other_than(coordinate by) {
     return by == DEPTH ? LOAD : DEPTH;
 }
 
-/* A point of the curve: y is depth and load, t int sigma dy and int sigma dF_N. */
+/* A point of the curve: y is depth and load, t int sigma dy and int sigma dF_N; at: where the law has it. */
 typedef struct point {
     NUMBER y[2], t[2];
+    SPOT at;
 } point;
 
 /* From inner on outwards, to the next layer or to the edge, with the slope sigma = dt/dy. */
@@ -44,11 +45,6 @@ struct DIAGRAM {
     bool bounded, lossless;
     layer *layers; /* innermost first */
 };
-
-/* The other coordinate of a place below an edge, and how far it is below that of the edge. */
-typedef struct fallen {
-    NUMBER by, v;
-} fallen;
 
 /* How thick a layer is up to its outer end, in depth or load. Where all slips t tells it: that is small where
  * forces are, and has the digits of what is thin. */

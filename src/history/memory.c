@@ -9,43 +9,38 @@
 
 /* ---- the law ----------------------------------------------------------------------------------- */
 
-static fret_real law_value(const fret_memory *m, coordinate by, fret_real y) {
-    return fret_normal_closed(m->normal) ? power_value(&m->law[by], y)
-           : by == DEPTH                 ? fret_law_force(m->normal, y)
-                                         : fret_law_depth(m->normal, y);
+static fret_level level_of(coordinate by, const place *p) {
+    return by == LOAD ? (fret_level){p->v, p->y} : (fret_level){p->y, p->v};
 }
 
-static fret_level level_of(coordinate by, place p) {
-    return by == LOAD ? (fret_level){p.v, p.y} : (fret_level){p.y, p.v};
+FRET_INLINE void law_know(const fret_memory *m, coordinate by, place *p) {
+    if (fret_normal_closed(m->normal) && p->v < 0)
+        p->v = power_value(&m->law[by], p->y);
+    else if (p->v < 0)
+        p->v = fret_law_other(m->normal, by == LOAD, p->y, &p->at);
 }
 
-/* The other coordinate at y, which is `thick` below an edge, and how far it is below that of the edge. v: the
- * first, < 0 where it is not known. */
-static fallen law_fall(const fret_memory *m, coordinate by, place edge, fret_real thick, fret_real y,
-                       fret_real v) {
-    const fret_level level = level_of(by, edge);
-    if (2 * thick < edge.y) {
-        const fret_real fall = by == LOAD ? fret_law_thickness(m->normal, &level, thick)
-                                          : fret_law_load(m->normal, &level, thick);
-        return (fallen){fall, v < 0 ? edge.v - fall : v};
+static fret_real law_fall(const fret_memory *m, coordinate by, place *edge, fret_real thick, place *inner) {
+    if (2 * thick < edge->y) {
+        const fret_level level = level_of(by, edge);
+        fret_place at[2] = {edge->at, inner->at};
+        const fret_real fall = fret_law_fall(m->normal, &level, by == LOAD, thick, inner->y, at);
+        inner->at = at[1];
+        if (inner->v < 0)
+            inner->v = edge->v - fall;
+        return fall;
     }
-    if (v < 0)
-        v = law_value(m, by, y);
-    return (fallen){edge.v - v, v};
-}
-
-typedef fret_place spot;
-
-static spot no_spot(void) {
-    return fret_place_none();
+    law_know(m, by, inner);
+    return edge->v - inner->v;
 }
 
 FRET_INLINE bow law_bow(const fret_memory *m, coordinate by, const place *outer, const place *inner,
-                        fret_real w, spot *at) {
+                        fret_real w) {
     if (fret_normal_closed(m->normal))
         return power_bow(&m->law[by], outer, inner, w);
     const bool by_load = by == LOAD;
-    const fret_level level = level_of(by, *outer);
+    const fret_level level = level_of(by, outer);
+    fret_place at[2] = {outer->at, inner->at};
     const fret_slice s = fret_law_slice_to(m->normal, &level, by_load, w, inner->y, at);
     const fret_real N = (s.h * s.fall - s.G) / (by_load ? s.K + s.fall : 1),
                     G = !by_load  ? s.G
@@ -70,16 +65,17 @@ fret_press fret_memory_pressed(const fret_memory *m) {
 }
 
 /* Of y - s t with all digits: F_N - s F_x/mu, or delta_z - s (delta_x - slid)/(mu eta). */
-static fret_real law_left(const fret_memory *m, coordinate by, fret_real s, place edge, fret_real level) {
+static fret_real law_left(const fret_memory *m, coordinate by, fret_real s, const place *edge,
+                          fret_real level) {
     fret_press p = {.F = 0};
     double rest = 0;
     (void)level;
     if (m->told != by) {
-        (void)press(m, m->told, (double)edge.v, &p);
-        rest = (double)(by == LOAD ? (p.F - edge.y) + p.F_rest : (p.dz - edge.y) + p.dz_rest);
+        (void)press(m, m->told, (double)edge->v, &p);
+        rest = (double)(by == LOAD ? (p.F - edge->y) + p.F_rest : (p.dz - edge->y) + p.dz_rest);
     }
     const dd scale = by == LOAD ? dd_of(m->mu) : dd_mul_d(m->normal->wide_foundation.eta, m->mu);
-    const dd bound = dd_mul(scale, dd_from2(edge.y, rest)),
+    const dd bound = dd_mul(scale, dd_from2(edge->y, rest)),
              to = by == LOAD ? dd_from(m->Fx) : dd_sub(dd_from(m->dx), dd_from(m->slid));
     return fmaxl(dd_value(dd_div(s < 0 ? dd_add(bound, to) : dd_sub(bound, to), scale)), 0);
 }
@@ -90,12 +86,17 @@ static fret_real law_radius(const fret_memory *m) {
 
 #include "history/diagram_body.h"
 
-static fret_status law_press(fret_memory *m, coordinate by, double y, fret_real *v) {
+/* What lies between loads that numbers have held is held too. */
+static fret_status law_press(fret_memory *m, coordinate by, double y) {
     fret_press p;
-    const bool closed = fret_normal_closed(m->normal);
-    const fret_status st = closed ? count_near(m, by, y) : press(m, by, y, &p);
-    if (!st.code)
-        *v = closed ? law_value(m, by, y) : by == LOAD ? p.dz : p.F;
+    if (fret_normal_closed(m->normal))
+        return count_near(m, by, y);
+    const fret_status st = press(m, by, y, &p);
+    for (coordinate i = DEPTH; i <= LOAD && !st.code; i++) {
+        const fret_real at = i == LOAD ? p.F : p.dz;
+        m->sure[i] = fminl(m->sure[i], at);
+        m->limit[i] = fmaxl(m->limit[i], at);
+    }
     return st;
 }
 

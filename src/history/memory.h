@@ -5,10 +5,12 @@
 #define FRET_HISTORY_MEMORY_H
 
 #include "fret/contact.h"
+#include "law/normal.h"
 
 typedef struct fret_memory fret_memory;
 
 #define NUMBER fret_real
+#define SPOT fret_place
 #define DIAGRAM fret_memory
 #define FUNCTION(f) f##l
 #define POWER fret_pow

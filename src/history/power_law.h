@@ -73,8 +73,10 @@ FRET_INLINE NUMBER power_value(const power_law *p, NUMBER y) {
 
 /* ---- what a slice bends ------------------------------------------------------------------------ */
 
+/* A coordinate and the other one, and where the law has them: SPOT, all zeros where it has not looked. */
 typedef struct place {
     NUMBER y, v;
+    SPOT at;
 } place;
 
 /* Of a slice of thickness w, t from its outer end, dm = |v''| dy:

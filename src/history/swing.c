@@ -123,8 +123,9 @@ typedef struct slip {
 static fret_real loss_rate(const fret_normal *n, fret_real edge, fret_real front, fret_real zone) {
     if (!(zone > 0))
         return 0;
-    const fret_level outer = {fret_law_depth(n, edge), edge};
-    const fret_slice s = fret_law_slice_to(n, &outer, true, zone, front, NULL);
+    fret_place at[2] = {{0, 0}, {0, 0}};
+    const fret_level outer = {fret_law_other(n, true, edge, &at[0]), edge};
+    const fret_slice s = fret_law_slice_to(n, &outer, true, zone, front, at);
     return s.K > 0 ? s.G / s.K : 0; /* the centre has no weight */
 }
 

@@ -249,13 +249,15 @@ static void put_layer(fret_memory *m, const fret_real from[2], const fret_real t
     const fret_real N0 = (from[M] + from[P]) / 2, N1 = (to[M] + to[P]) / 2, load = N1 - N0;
     if (!(load > 0))
         return;
-    const fret_level outer = {fret_law_depth(m->normal, N1), N1};
+    fret_place at[2] = {{0, 0}, m->edge.at};
+    const fret_level outer = {fret_law_other(m->normal, true, N1, &at[0]), N1};
     const fret_real turn = (to[P] - from[P] - (to[M] - from[M])) / 2;
     layer *l = &m->layers[m->count++];
     *l = (layer){m->edge, turn / load};
     m->edge = (point){{outer.y, N1},
-                      {l->inner.t[DEPTH] + l->sigma * fret_law_thickness(m->normal, &outer, load),
-                       l->inner.t[LOAD] + turn}};
+                      {l->inner.t[DEPTH] + l->sigma * fret_law_fall(m->normal, &outer, true, load, N0, at),
+                       l->inner.t[LOAD] + turn},
+                      at[0]};
 }
 
 fret_status fret_swing_memory(const fret_swing *c, fret_memory *m) {

@@ -54,8 +54,10 @@ fret_real fret_cell_rate(const fret_cell *cell, int by, fret_real s);
 fret_real fret_cell_stiffness(const fret_cell *cell, fret_real s);
 /* s where depth or load is `rise` above the inner end; 0 where it underflows. */
 fret_real fret_cell_find(const fret_cell *cell, int by, fret_real rise);
-/* back where depth or load has fallen by `drop` from s on. */
-fret_real fret_cell_find_back(const fret_cell *cell, int by, fret_real s, fret_real drop);
+/* How much less it is at s - back, with all digits where that is little. */
+fret_real fret_cell_fall(const fret_cell *cell, int by, fret_real s, fret_real back);
+/* back where depth or load has fallen by `drop` from s on; guess: of it, or 0. */
+fret_real fret_cell_find_back(const fret_cell *cell, int by, fret_real s, fret_real drop, fret_real guess);
 /* From s inwards to the inner end. */
 fret_stretch fret_cell_below(const fret_cell *cell, fret_real s);
 /* From s inwards to s - back. */

@@ -21,15 +21,6 @@ static size_t cell_of(const fret_cells *all, int by, size_t count, fret_real val
     return lo;
 }
 
-static fret_place place_in(size_t i, fret_real s, fret_real back) {
-    return (fret_place){i, s, back, {(fret_real)NAN, (fret_real)NAN}};
-}
-
-/* Above the beginning of its cell. */
-static fret_real rise_of(const fret_cells *all, int by, const fret_place *p) {
-    return isnan(p->rise[by]) ? fret_cell_rise(&all->cell[p->i], by, p->s) : p->rise[by];
-}
-
 bool fret_cells_find(const fret_cells *all, int by, fret_real value, fret_place *out) {
     const fret_real most = all->most[by];
     if (!fret_cells_reach(most, value))
@@ -38,9 +29,7 @@ bool fret_cells_find(const fret_cells *all, int by, fret_real value, fret_place 
         value = most;
     out->i = cell_of(all, by, all->count, value);
     const fret_cell *c = &all->cell[out->i];
-    const fret_real rise = value - begin_of(c, by);
-    *out = place_in(out->i, fret_cell_find(c, by, rise), 0);
-    out->rise[by] = rise;
+    out->s = fret_cell_find(c, by, value - begin_of(c, by));
     return true;
 }
 
@@ -52,11 +41,12 @@ fret_place fret_cells_at(const fret_cells *all, fret_real x) {
         lo += fret_cell_radius(c, c->begin) < x ? half : 0;
         count -= half;
     }
-    return place_in(lo, fmaxl(fret_cell_place(&all->cell[lo], x), all->cell[lo].begin), 0);
+    return (fret_place){lo, fmaxl(fret_cell_place(&all->cell[lo], x), all->cell[lo].begin)};
 }
 
 fret_real fret_cells_level(const fret_cells *all, int by, const fret_place *p) {
-    return begin_of(&all->cell[p->i], by) + rise_of(all, by, p);
+    const fret_cell *c = &all->cell[p->i];
+    return begin_of(c, by) + fret_cell_rise(c, by, p->s);
 }
 
 fret_real fret_cells_stiffness(const fret_cells *all, const fret_place *p) {
@@ -67,28 +57,41 @@ fret_real fret_cells_radius(const fret_cells *all, const fret_place *p) {
     return fret_cell_radius(&all->cell[p->i], p->s);
 }
 
-fret_place fret_cells_inner(const fret_cells *all, int by, const fret_place *outer, fret_real drop,
-                            fret_real left) {
+fret_real fret_cells_inner(const fret_cells *all, int by, const fret_place *outer, fret_real drop,
+                           fret_real left, fret_place *inner) {
     static const fret_real LITTLE = 1e-3L; /* of which differences would lose too many digits */
-    size_t i = outer->i;
-    fret_real s = outer->s, rise = rise_of(all, by, outer);
-    if (drop >= rise && i > 0) { /* it ends in another cell */
-        const fret_real begin = begin_of(&all->cell[i], by), next = begin - (drop - rise);
-        i = left < begin ? cell_of(all, by, i, drop < left ? next : left) : i - 1;
-        drop = fmaxl(drop - rise - (begin - begin_of(&all->cell[i + 1], by)), 0);
+    const bool known = inner->s > 0 && inner->i <= outer->i;
+    const fret_real begin = begin_of(&all->cell[outer->i], by);
+    fret_real s = outer->s, rise = fminl(drop + left, all->most[by]) - begin;
+    if (!known)
+        inner->i = drop < rise || outer->i == 0 ? outer->i
+                   : left < begin ? cell_of(all, by, outer->i, drop < left ? begin - (drop - rise) : left)
+                                  : outer->i - 1;
+    const fret_cell *c = &all->cell[inner->i];
+    if (inner->i < outer->i) {
+        drop = fmaxl(drop - rise - (begin - begin_of(c + 1, by)), 0);
         s = 1;
-        rise = all->cell[i].rise[by];
+        rise = c->rise[by];
     }
-    const fret_cell *c = &all->cell[i];
-    const fret_real rest = left - begin_of(c, by);
-    if (drop >= rise)
-        return place_in(i, c->begin, s - c->begin);
-    if (drop > (c->powers ? 0.5L : LITTLE) * rise) {
-        const fret_real inner = fret_cell_find(c, by, i == 0 ? fmaxl(rest, 0) : rise - drop);
-        return place_in(i, inner, s - inner);
-    }
-    const fret_real back = fret_cell_find_back(c, by, s, drop);
-    return place_in(i, s - back, back);
+    const bool little = drop <= (c->powers ? 0.5L : LITTLE) * rise;
+    if (!known && !little)
+        inner->s = drop < rise ? fret_cell_find(c, by, inner->i == 0 ? left : rise - drop) : c->begin;
+    if (!little)
+        return s - inner->s;
+    const fret_real back = fret_cell_find_back(c, by, s, drop, known ? s - inner->s : 0);
+    if (!known)
+        inner->s = s - back;
+    return back;
+}
+
+fret_real fret_cells_fall(const fret_cells *all, int by, const fret_place *outer, const fret_place *inner,
+                          fret_real back) {
+    static const fret_real NEAR = 0.9L; /* of s: what is left tells more than how far back */
+    const fret_cell *o = &all->cell[outer->i], *i = &all->cell[inner->i];
+    const fret_real s = o == i ? outer->s : 1,
+                    part = back < NEAR * s ? fret_cell_fall(i, by, s, back)
+                                           : fret_cell_rise(i, by, s) - fret_cell_rise(i, by, inner->s);
+    return o == i ? part : fret_cell_rise(o, by, outer->s) + (begin_of(o, by) - begin_of(i + 1, by)) + part;
 }
 
 /* Adds the runs of cells below number `from`, down to and with number `to`. */
@@ -117,20 +120,20 @@ static fret_stretch part_of(const fret_cell *c, fret_real s, const fret_stretch 
 }
 
 fret_stretch fret_cells_between(const fret_cells *all, const fret_place *outer, const fret_place *inner,
-                                fret_real *K) {
+                                fret_real back, fret_real *K) {
     const fret_cell *o = &all->cell[outer->i], *i = &all->cell[inner->i];
     const bool whole = !(inner->s > i->begin);
-    if (outer->i == inner->i && !whole && inner->back < THIN * outer->s) {
+    if (outer->i == inner->i && !whole && back < THIN * outer->s) {
         *K = fret_cell_stiffness(o, inner->s);
-        return fret_cell_part(o, outer->s, inner->back);
+        return fret_cell_part(o, outer->s, back);
     }
     fret_stretch sum = fret_cell_below(o, outer->s);
     *K = i->K;
     if (outer->i == inner->i)
-        return whole ? sum : part_of(o, outer->s, &sum, inner->back, inner->s, K);
+        return whole ? sum : part_of(o, outer->s, &sum, back, inner->s, K);
     add_runs(all, outer->i, inner->i + !whole, &sum);
-    if (!whole && inner->back > 0) {
-        const fret_stretch rest = part_of(i, 1, &all->run[0][inner->i], inner->back, inner->s, K);
+    if (!whole && back > 0) {
+        const fret_stretch rest = part_of(i, 1, &all->run[0][inner->i], back, inner->s, K);
         return fret_stretch_join(&sum, &rest);
     }
     if (!whole)

@@ -6,7 +6,6 @@
 
 #include <float.h>
 #include <stdatomic.h>
-#include <stdint.h>
 
 #include "law/cell.h"
 #include "law/gap.h"
@@ -39,18 +38,11 @@ static inline bool fret_cells_reach(fret_real most, fret_real value) {
     return value <= most * (1 + 4 * DBL_EPSILON);
 }
 
-/* A place: s of a cell; of the inner end of a slice, how far before its outer end in that cell, or before the
- * outer end of that cell. */
+/* A place: s of cell i. At s = 0, where it is all zeros, it has not been looked for, or is the very first. */
 typedef struct fret_place {
     size_t i;
-    fret_real s, back;
-    fret_real rise[2]; /* of depth and load above the beginning of the cell; NaN where not known */
+    fret_real s;
 } fret_place;
-
-/* No place, yet. */
-static inline fret_place fret_place_none(void) {
-    return (fret_place){SIZE_MAX, 0, 0, {0, 0}};
-}
 
 /* Where depth or load is `value`; false: beyond the end. */
 bool fret_cells_find(const fret_cells *cells, int by, fret_real value, fret_place *out);
@@ -61,11 +53,15 @@ fret_real fret_cells_level(const fret_cells *cells, int by, const fret_place *pl
 fret_real fret_cells_stiffness(const fret_cells *cells, const fret_place *place);
 fret_real fret_cells_radius(const fret_cells *cells, const fret_place *place);
 /* Where depth or load is less than at `outer` by `drop`, and `left` is left, each with all digits where it is
- * little. */
-fret_place fret_cells_inner(const fret_cells *cells, int by, const fret_place *outer, fret_real drop,
-                            fret_real left);
+ * little: found unless `inner` knows it. Returns how far back that is, with all digits: from the outer place
+ * where both are in one cell, else from the outer end of the inner one's cell. */
+fret_real fret_cells_inner(const fret_cells *cells, int by, const fret_place *outer, fret_real drop,
+                           fret_real left, fret_place *inner);
+/* Depth or load between a place and one so far back. */
+fret_real fret_cells_fall(const fret_cells *cells, int by, const fret_place *outer, const fret_place *inner,
+                          fret_real back);
 /* From the one place to the other; K at the inner one. */
 fret_stretch fret_cells_between(const fret_cells *cells, const fret_place *outer, const fret_place *inner,
-                                fret_real *K);
+                                fret_real back, fret_real *K);
 
 #endif

@@ -302,10 +302,7 @@ static bool make_runs(maker *mk) {
 
 static void find_most(fret_cells *all) {
     const fret_cell *last = &all->cell[all->count - 1];
-    const fret_place end = {all->count - 1,
-                            isfinite(all->end) ? fret_cell_place(last, all->end) : 1,
-                            0,
-                            {(fret_real)NAN, (fret_real)NAN}};
+    const fret_place end = {all->count - 1, isfinite(all->end) ? fret_cell_place(last, all->end) : 1};
     for (int by = BY_DEPTH; by <= BY_LOAD; by++)
         all->most[by] = isfinite(all->end) ? fret_cells_level(all, by, &end) : (fret_real)INFINITY;
 }

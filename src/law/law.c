@@ -98,40 +98,59 @@ static bool is_at_end(const fret_normal *n, const fret_place *p) {
     return p->i == 0 && !(p->s > 0) && fret_gap_start(&n->gap) > 0;
 }
 
+static bool find_place(const fret_normal *n, bool by_load, fret_real value, fret_place *at) {
+    return at->s > 0 ||
+           fret_cells_find(n->cells, by_load ? BY_LOAD : BY_DEPTH, by_load ? value / n->stiff : value, at);
+}
+
+/* The load of a depth, or the depth of a load, at its place. */
+static fret_real other_at(const fret_normal *n, bool by_load, fret_real value, const fret_place *at) {
+    if (is_at_end(n, at)) {
+        const fret_real K = n->stiff * fret_cells_stiffness(n->cells, at);
+        return by_load ? value / K : K * value;
+    }
+    return by_load ? fret_cells_level(n->cells, BY_DEPTH, at)
+                   : n->stiff * fret_cells_level(n->cells, BY_LOAD, at);
+}
+
 static fret_point cell_point(const fret_normal *n, bool by_force, fret_real value) {
-    const fret_cells *all = n->cells;
-    fret_place p;
-    if (!fret_cells_find(all, by_force ? BY_LOAD : BY_DEPTH, by_force ? value / n->stiff : value, &p))
+    fret_place p = {0, 0};
+    if (!find_place(n, by_force, value, &p))
         return (fret_point){(fret_real)NAN, (fret_real)NAN, (fret_real)NAN, (fret_real)NAN};
-    fret_point out = {value, value, fret_cells_radius(all, &p), n->stiff * fret_cells_stiffness(all, &p)};
-    if (by_force)
-        out.y = is_at_end(n, &p) ? value / out.K : fret_cells_level(all, BY_DEPTH, &p);
-    else
-        out.F = is_at_end(n, &p) ? out.K * value : n->stiff * fret_cells_level(all, BY_LOAD, &p);
-    return out;
+    const fret_real other = other_at(n, by_force, value, &p);
+    return (fret_point){by_force ? other : value, by_force ? value : other, fret_cells_radius(n->cells, &p),
+                        n->stiff * fret_cells_stiffness(n->cells, &p)};
+}
+
+/* The places of a slice; false: beyond the end. */
+static bool find_ends(const fret_normal *n, const fret_level *outer, bool by_load, fret_real target,
+                      fret_real left, fret_place at[2], fret_real *back) {
+    const fret_real per = by_load ? 1 / n->stiff : 1, begin = n->cells->cell[0].begin;
+    if (!find_place(n, by_load, by_load ? outer->F : outer->y, &at[0]))
+        return false;
+    if (left > 0) {
+        *back = fret_cells_inner(n->cells, by_load ? BY_LOAD : BY_DEPTH, &at[0], target * per, left * per,
+                                 &at[1]);
+        return true;
+    }
+    at[1] = (fret_place){0, begin};
+    *back = (at[0].i > 0 ? 1 : at[0].s) - begin;
+    return true;
 }
 
 static fret_slice cell_slice(const fret_normal *n, const fret_level *outer, bool by_load, fret_real target,
-                             fret_real left, fret_place *at) {
-    const fret_cells *all = n->cells;
-    const int by = by_load ? BY_LOAD : BY_DEPTH;
-    const fret_real per = by_load ? 1 / n->stiff : 1;
-    fret_place from = at ? *at : fret_place_none();
-    if (from.i == SIZE_MAX && !fret_cells_find(all, by, (by_load ? outer->F : outer->y) * per, &from))
+                             fret_real left, fret_place at[2]) {
+    fret_real K, back;
+    if (!find_ends(n, outer, by_load, target, left, at, &back))
         return (fret_slice){(fret_real)NAN, (fret_real)NAN, (fret_real)NAN,
                             (fret_real)NAN, (fret_real)NAN, (fret_real)NAN};
-    const fret_place to = left > 0 ? fret_cells_inner(all, by, &from, target * per, left * per)
-                                   : (fret_place){0, all->cell[0].begin, from.s, {0, 0}};
-    fret_real K;
-    const fret_stretch sum = fret_cells_between(all, &from, &to, &K);
-    if (at)
-        *at = to;
+    const fret_stretch sum = fret_cells_between(n->cells, &at[0], &at[1], back, &K);
     const fret_real G = n->stiff * sum.G;
     K *= n->stiff;
     fret_slice out = {
         .h = target, .w = target, .fall = n->stiff * sum.K, .G = G, .L = n->stiff * sum.L, .K = K};
     if (by_load)
-        out.h = is_at_end(n, &from) ? target / K : sum.h;
+        out.h = is_at_end(n, &at[0]) ? target / K : sum.h;
     else
         out.w = G + target * K;
     return out;
@@ -183,28 +202,37 @@ fret_real fret_law_distance(const fret_normal *n, fret_real y) {
                                 : c->width * p.s / (c->x + sqrtl(c->x * c->x + c->width * p.s));
 }
 
-fret_real fret_law_force(const fret_normal *n, fret_real y) {
-    if (y <= 0)
+fret_place fret_law_place(const fret_normal *n, fret_real a) {
+    static const fret_real NEAR = 0.9L;
+    return fret_normal_closed(n) || !(fret_gap_start(&n->gap) < NEAR * a) || !(a < n->end)
+               ? (fret_place){0, 0}
+               : fret_cells_at(n->cells, a);
+}
+
+fret_real fret_law_other(const fret_normal *n, bool by_load, fret_real value, fret_place *at) {
+    if (value <= 0)
         return 0;
-    if (fret_normal_closed(n))
-        return fret_dd_exp_real(force_of_depth(n, fret_dd_log_real(y)));
-    return cell_point(n, false, y).F;
+    if (!fret_normal_closed(n))
+        return find_place(n, by_load, value, at) ? other_at(n, by_load, value, at) : (fret_real)NAN;
+    const dd log = fret_dd_log_real(value);
+    return fret_dd_exp_real(by_load ? depth_of_force(n, log) : force_of_depth(n, log));
+}
+
+fret_real fret_law_force(const fret_normal *n, fret_real y) {
+    return fret_law_other(n, false, y, &(fret_place){0, 0});
 }
 
 fret_real fret_law_depth(const fret_normal *n, fret_real F) {
-    if (F <= 0)
-        return 0;
-    if (fret_normal_closed(n))
-        return fret_dd_exp_real(depth_of_force(n, fret_dd_log_real(F)));
-    return cell_point(n, true, F).y;
+    return fret_law_other(n, true, F, &(fret_place){0, 0});
 }
 
 fret_slice fret_law_slice_to(const fret_normal *n, const fret_level *outer, bool by_load, fret_real target,
-                             fret_real left, fret_place *at) {
+                             fret_real left, fret_place at[2]) {
     if (!(target > 0))
         return (fret_slice){0, 0, 0, 0, 0, fret_law_at_depth(n, outer->y).K};
     if (!fret_normal_closed(n))
-        return cell_slice(n, outer, by_load, fminl(target, by_load ? outer->F : outer->y), left, at);
+        return cell_slice(n, outer, by_load, fminl(target, by_load ? outer->F : outer->y), left,
+                          at ? at : (fret_place[2]){{0, 0}, {0, 0}});
     if (!by_load)
         return power_slice(n, outer, target, left / outer->y);
     const fret_real inner =
@@ -217,24 +245,32 @@ fret_slice fret_law_slice(const fret_normal *n, const fret_level *outer, fret_re
     return fret_law_slice_to(n, outer, false, h, outer->y - h, NULL);
 }
 
+fret_real fret_law_fall(const fret_normal *n, const fret_level *outer, bool by_load, fret_real target,
+                        fret_real left, fret_place at[2]) {
+    const fret_real whole = by_load ? outer->F : outer->y, other = by_load ? outer->y : outer->F;
+    fret_real back;
+    if (target >= whole)
+        return other;
+    if (fret_normal_closed(n))
+        return -other * expm1l((by_load ? n->q : n->p) * log1pl(-target / whole));
+    if (!find_ends(n, outer, by_load, target, left, at, &back))
+        return (fret_real)NAN;
+    if (is_at_end(n, &at[0]))
+        return other * (target / whole);
+    const fret_real fall = fret_cells_fall(n->cells, by_load ? BY_DEPTH : BY_LOAD, &at[0], &at[1], back);
+    return by_load ? fall : n->stiff * fall;
+}
+
 fret_real fret_slice_moment(const fret_slice *s) {
     return (s->h * s->h * s->K + (s->h * s->G - s->L)) / 2;
 }
 
 fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real h) {
-    if (h >= outer->y)
-        return outer->F;
-    if (fret_normal_closed(n))
-        return -outer->F * expm1l(n->p * log1pl(-h / outer->y));
-    return fret_law_slice(n, outer, h).w;
+    return fret_law_fall(n, outer, false, h, outer->y - h, (fret_place[2]){{0, 0}, {0, 0}});
 }
 
 fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret_real w) {
-    if (w >= outer->F)
-        return outer->y;
-    if (fret_normal_closed(n))
-        return -outer->y * expm1l(n->q * log1pl(-w / outer->F));
-    return fret_law_slice_to(n, outer, true, w, outer->F - w, NULL).h;
+    return fret_law_fall(n, outer, true, w, outer->F - w, (fret_place[2]){{0, 0}, {0, 0}});
 }
 
 fret_real fret_law_load_outside(const fret_normal *n, const fret_level *outer, fret_real inner_depth) {

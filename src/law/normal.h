@@ -79,10 +79,19 @@ typedef struct fret_slice {
     fret_real h, w, fall, G, L, K;
 } fret_slice;
 
+/* The place of a pressed contact by its radius; next to a flat end, where that tells too little, and of a
+ * power law it stays to be looked for. */
+fret_place fret_law_place(const fret_normal *normal, fret_real a);
+/* The load of a depth, or the depth of a load. at: its place, looked for unless it is known. */
+fret_real fret_law_other(const fret_normal *normal, bool by_load, fret_real value, fret_place *at);
+
 /* Of a thickness, or load, `target`, beyond which `left` is left, with all digits where that is little. at:
- * of slices one within the other, where the one before has ended, and then where this one does; else NULL. */
+ * its outer and inner end, looked for unless they are known; or NULL. */
 fret_slice fret_law_slice_to(const fret_normal *normal, const fret_level *outer, bool by_load,
-                             fret_real target, fret_real left, fret_place *at);
+                             fret_real target, fret_real left, fret_place at[2]);
+/* Its load, or thickness, alone. */
+fret_real fret_law_fall(const fret_normal *normal, const fret_level *outer, bool by_load, fret_real target,
+                        fret_real left, fret_place at[2]);
 /* Of the thickness h, 0 <= h <= y. */
 fret_slice fret_law_slice(const fret_normal *normal, const fret_level *outer, fret_real h);
 /* int t K dt over it, t from the outer end [N m]. */

@@ -27,7 +27,5 @@ fret_real fret_integral_smooth(fret_integrand *f, void *context);
 
 /* Their nodes on 0..1: 1e-20 where its argument varies by less than 20 %. */
 extern const fret_real fret_gauss_node[8], fret_gauss_weight[8];
-/* Four: 1e-18 where it varies by less than 2 %. */
-extern const fret_real fret_gauss_4_node[4], fret_gauss_4_weight[4];
 
 #endif

@@ -71,6 +71,13 @@ static void same_stretch(const fret_stretch *a, const fret_stretch *b, fret_real
     CHECK_REL(a->L, b->L, few);
 }
 
+/* From a place inwards; the inner end is found, or known. */
+static fret_stretch slice(const fret_cells *c, int by, const fret_place *outer, fret_real drop,
+                          fret_real left, fret_place *inner, fret_real *K) {
+    const fret_real back = fret_cells_inner(c, by, outer, drop, left, inner);
+    return fret_cells_between(c, outer, inner, back, K);
+}
+
 /* A slice, from thin to nearly all, is what its two halves carry together; its load and thickness lead to
  * each other. */
 static void slices(const fret_gap *gap, double k, fret_real few) {
@@ -84,14 +91,13 @@ static void slices(const fret_gap *gap, double k, fret_real few) {
     for (int i = 0; i < (unit_skips(1) ? 100 : 1000); i++) {
         const fret_real y = most * (i % 3 ? uniform(0.05L, 1) : fret_pow(10, -uniform(0, 4))),
                         h = 0.9L * y * fret_pow(10, -uniform(0, 9)), part = h * uniform(0.2L, 0.8L);
-        fret_place outer, same;
+        fret_place outer, middle = {0, 0}, inner = {0, 0}, below = {0, 0}, same = {0, 0};
         CHECK(fret_cells_find(c, BY_DEPTH, y, &outer));
-        const fret_place middle = fret_cells_inner(c, BY_DEPTH, &outer, part, y - part),
-                         inner = fret_cells_inner(c, BY_DEPTH, &outer, h, y - h);
-        const fret_stretch whole = fret_cells_between(c, &outer, &inner, &K);
-        fret_stretch sum = fret_cells_between(c, &outer, &middle, &unused);
-        const fret_place below = fret_cells_inner(c, BY_DEPTH, &middle, h - part, y - h);
-        const fret_stretch rest = fret_cells_between(c, &middle, &below, &unused);
+        const fret_stretch whole = slice(c, BY_DEPTH, &outer, h, y - h, &inner, &K),
+                           known = slice(c, BY_DEPTH, &outer, h, y - h, &inner, &unused);
+        same_stretch(&whole, &known, few);
+        fret_stretch sum = slice(c, BY_DEPTH, &outer, part, y - part, &middle, &unused);
+        const fret_stretch rest = slice(c, BY_DEPTH, &middle, h - part, y - h, &below, &unused);
         CHECK_REL(whole.h, h, few);
         CHECK(whole.K > 0 && whole.G > 0 && whole.L > 0);
         sum = fret_stretch_join(&sum, &rest);
@@ -99,8 +105,10 @@ static void slices(const fret_gap *gap, double k, fret_real few) {
         same_stretch(&whole, &sum, few + 4e-19L * y / h);
         CHECK_REL(K, fret_cells_stiffness(c, &inner), few);
         const fret_real w = whole.G + whole.h * K, F = fret_cells_level(c, BY_LOAD, &outer);
-        same = fret_cells_inner(c, BY_LOAD, &outer, w, F - w);
-        CHECK_REL(fret_cells_between(c, &outer, &same, &unused).h, h, few + 4e-19L * y / h);
+        CHECK_REL(slice(c, BY_LOAD, &outer, w, F - w, &same, &unused).h, h, few + 4e-19L * y / h);
+        const fret_real back = fret_cells_inner(c, BY_LOAD, &outer, w, F - w, &same);
+        CHECK_REL(fret_cells_fall(c, BY_DEPTH, &outer, &same, back), h, few + 4e-19L * y / h);
+        CHECK_REL(fret_cells_fall(c, BY_LOAD, &outer, &same, back), w, few + 4e-19L * y / h);
     }
     fret_cells_free(c);
 }
@@ -119,9 +127,9 @@ static void areas(const fret_gap *gap, double k) {
     fret_place outer;
     CHECK_OK(fret_cells_make(gap, k, NULL, &c));
     CHECK(fret_cells_find(c, BY_DEPTH, 1e-5L, &outer));
-    const fret_place centre = {0, c->cell[0].begin, outer.s, {0, 0}};
+    const fret_place centre = {0, c->cell[0].begin};
     fret_real K;
-    const fret_stretch whole = fret_cells_between(c, &outer, &centre, &K);
+    const fret_stretch whole = fret_cells_between(c, &outer, &centre, outer.s, &K);
     CHECK(K == c->cell[0].K);
     const fret_real F = fret_cells_level(c, BY_LOAD, &outer), mean = fret_integral(load_at, c, 1e-15L).value;
     CHECK_ABS(whole.L, 1e-5L * F - 2e-5L * mean, 1e-5L * F, 1e-16L);
