@@ -6,6 +6,7 @@
 
 #include "commands/expressions.h"
 #include "commands/range.h"
+#include "commands/rows.h"
 #include "commands/study_commands.h"
 #include "study/fit.h"
 #include "study/uncertainty.h"
@@ -40,54 +41,6 @@ static bool read_names(shell *sh, lexer *lx, fit_question *q) {
     }
 }
 
-/* An angle needs its unit as lengths do. */
-static bool same_dim(dim a, dim b) {
-    return dim_equal(a, b) && (a.rad != 0) == (b.rad != 0);
-}
-
-/* Column `name` of this dimension; NULL: there is none, or with an error it is not of it. */
-static const double *column_of(const csv *data, const char *name, dim d, calc_error *error) {
-    char wants[128], is[128];
-    if (!csv_has(data, name))
-        return NULL;
-    const csv_values *of_file = csv_column(data, name, error);
-    if (!of_file || same_dim(of_file->d, d))
-        return of_file ? of_file->v : NULL;
-    dim_describe(d, wants, sizeof wants);
-    dim_describe(of_file->d, is, sizeof is);
-    calc_fail(error, 0, 0, "column %s is %s: it needs the unit of %s in the header", name, is, wants);
-    return NULL;
-}
-
-/* Columns as names: of inputs that the scene takes, or free ones. Those that are results, or no names, have
- * no say, and are missed if they are asked for; one that is named in vain is no matter. */
-static bool read_columns(shell *sh, const csv *data, fit_question *q, size_t names, calc_error *error) {
-    _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
-    for (size_t i = 0; i < data->columns; i++) {
-        const csv_values *of_file = &data->column[i];
-        calc_error *useless = error_quiet();
-        lexer lx;
-        knob *k = &q->column[q->columns].name;
-        lex_start(&lx, of_file->name, strlen(of_file->name), useless);
-        if (useless->raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble ||
-            of_file->twice)
-            continue;
-        const quantity *of = quantity_find(of_file->name, strlen(of_file->name));
-        if ((of && !quantity_is_input(of)) || (!of && name_taken(of_file->name, strlen(of_file->name))))
-            continue;
-        if (!names_wake(sh, &lx, names))
-            return calc_no_memory(error);
-        knob_name(&sh->calc, &lx, k); /* there is one */
-        if (k->is_input && !calc_takes(&sh->calc, k->in, error_quiet()))
-            continue;
-        if (k->is_input && !same_dim(k->d, of_file->d))
-            return column_of(data, of_file->name, k->d, error) != NULL;
-        k->d = of_file->d;
-        q->column[q->columns++].v = of_file->v;
-    }
-    return true;
-}
-
 /* A quantity in the equation that is also a column, whose rows it does not take: one of them was meant. */
 static bool ambiguous(const shell *sh, const csv *data, const expr *e, calc_error *error) {
     const quantity *of;
@@ -109,38 +62,14 @@ static bool ambiguous(const shell *sh, const csv *data, const expr *e, calc_erro
 }
 
 static bool uses_columns(const shell *sh, const fit_question *q) {
-    for (size_t i = 0; i < q->columns; i++) {
-        const knob *k = &q->column[i].name;
-        const quantity *of = NULL;
-        const char *own = k->text;
-        if (k->is_input) {
-            of = quantity_of_input(k->in);
-            own = NULL;
-        }
-        if (expr_mentions(&sh->calc, q->left, of, own) || expr_mentions(&sh->calc, q->right, of, own))
+    for (const column_knob *c = q->column; c < q->column + q->columns; c++)
+        if (columns_used(sh, c, q->left) || columns_used(sh, c, q->right))
             return true;
-    }
     return false;
 }
 
-/* A name that is unknown because something is wrong in its column. */
 static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
-    char name[CSV_NAME];
-    calc_error wrong, *error = lx->error;
-    if (expr_parse_at(&sh->calc, lx, e))
-        return true;
-    error_clear(&wrong);
-    snprintf(name, sizeof name, "%.*s", (int)(error->len < sizeof name ? error->len : 0),
-             lx->text + error->at);
-    if (csv_has(data, name) && !csv_column(data, name, &wrong)) {
-        calc_place(&wrong, error->at, error->len);
-        *error = wrong;
-    } else if (!strncmp(error->text, "unknown name", 12)) {
-        char names[CALC_ERROR_TEXT / 2];
-        csv_names(data, names, sizeof names);
-        calc_append(&sh->calc, error, " (the columns of %.100s are %s)", data->path, names);
-    }
-    return false;
+    return expr_parse_at(&sh->calc, lx, e) || columns_missed(sh, lx, data);
 }
 
 static bool read_side_in(shell *sh, const lexer *lx, const span *part, const csv *data, expr *e) {
@@ -154,7 +83,7 @@ static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv 
     if (!to)
         return lex_fail(lx, "expected to FILE.csv");
     if (!hole_file(lx, &to->hole[0], name) || !csv_read(name, &shell_stop, data, lx->error) ||
-        !read_columns(sh, data, q, names, lx->error) ||
+        !columns_wake(sh, data, names, q->column, &q->columns, lx->error) ||
         !read_side_in(sh, lx, &sides->hole[0], data, &sh->list[0]) ||
         !read_side_in(sh, lx, &sides->hole[1], data, &sh->list[1]))
         return false;
@@ -186,12 +115,12 @@ static bool read_loop(const lexer *lx, const heard *along, fit_question *q, csv 
     if (!hole_file(lx, &along->hole[0], name) || !csv_read(name, &shell_stop, data, error))
         return heard_place(error, along);
     q->rows = data->rows;
-    q->loop.dx = column_of(data, "dx", DIM_LENGTH, error);
-    q->loop.Fx = column_of(data, "Fx", DIM_FORCE, error);
-    q->loop.normal = column_of(data, "FN", DIM_FORCE, error);
+    q->loop.dx = columns_find(data, "dx", DIM_LENGTH, error);
+    q->loop.Fx = columns_find(data, "Fx", DIM_FORCE, error);
+    q->loop.normal = columns_find(data, "FN", DIM_FORCE, error);
     q->loop.normal_by = BY_FORCE;
     if (!q->loop.normal) {
-        q->loop.normal = column_of(data, "dz", DIM_LENGTH, error);
+        q->loop.normal = columns_find(data, "dz", DIM_LENGTH, error);
         q->loop.normal_by = BY_DISPLACEMENT;
     }
     if (!error->raised && (!q->loop.dx || !q->loop.Fx))

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "text/csv.h"
-
 /* A look at work. */
 typedef struct reading {
     shell *sh;
@@ -90,6 +88,11 @@ static bool read_over(const reading *r) {
     return true;
 }
 
+static bool read_residuals(const reading *r) {
+    r->out->residuals = true;
+    return true;
+}
+
 static const struct {
     const char *line;
     bool (*read)(const reading *r);
@@ -97,7 +100,8 @@ static const struct {
             {"[ylabel TEXT]*", read_ylabel},     {"[xrange LO .. HI]*", read_limits},
             {"[yrange LO .. HI]*", read_limits}, {"[log AXES]*", read_log},
             {"[flip AXES]*", read_flip},         {"[key OFF]*", read_key},
-            {"[points]*", read_points},          {"[over FILE]*", read_over}};
+            {"[points]*", read_points},          {"[over FILE]*", read_over},
+            {"[residuals]*", read_residuals}};
 enum { ROWS = sizeof rows / sizeof *rows };
 
 const char *look_line(size_t i) {
@@ -142,15 +146,15 @@ static bool is_quantity(const csv_values *v) {
     return quantity_find(v->name, strlen(v->name)) != NULL;
 }
 
-/* The only column but one of the axis' dimension that is not called after something else. */
-static const csv_values *column_for(const csv *c, const axis_of *axis, const csv_values *but,
+/* The only column of the axis' dimension that is not taken and not called after something else. */
+static const csv_values *column_for(const csv *c, const axis_of *axis, const bool taken[CSV_COLUMNS],
                                     calc_error *error) {
     const csv_values *one = NULL, *other = NULL;
     char wants[128], names[CALC_ERROR_TEXT / 2] = "";
     size_t n = 0, fit = 0;
     for (size_t i = 0; i < c->columns; i++) {
         const csv_values *v = &c->column[i];
-        if (v == but || !dim_equal(v->d, axis->d) || (v->trouble && !v->has_unit))
+        if (taken[i] || !dim_equal(v->d, axis->d) || (v->trouble && !v->has_unit))
             continue;
         if (is_quantity(v)) {
             other = v;
@@ -190,13 +194,26 @@ static bool is_fit(const csv *c, const csv_values *v, const axis_of *axis, calc_
                      wants);
 }
 
+const csv_values *looks_column(const csv *c, const axis_of *axis, const bool taken[CSV_COLUMNS],
+                               calc_error *error) {
+    const csv_values *named = column_named(c, axis);
+    if (named)
+        return is_fit(c, named, axis, error) ? named : NULL;
+    return column_for(c, axis, taken, error_quiet());
+}
+
 /* Names come first. */
 static bool find_columns(const csv *c, const axis_of *x, const axis_of *y, const csv_values **of_x,
                          const csv_values **of_y, calc_error *error) {
+    bool taken[CSV_COLUMNS] = {false};
     *of_x = column_named(c, x);
     *of_y = column_named(c, y);
-    *of_x = *of_x ? *of_x : column_for(c, x, *of_y, error);
-    *of_y = *of_y || !*of_x ? *of_y : column_for(c, y, *of_x, error);
+    if (*of_y)
+        taken[*of_y - c->column] = true;
+    *of_x = *of_x ? *of_x : column_for(c, x, taken, error);
+    if (*of_x)
+        taken[*of_x - c->column] = true;
+    *of_y = *of_y || !*of_x ? *of_y : column_for(c, y, taken, error);
     return !error->raised && is_fit(c, *of_x, x, error) && is_fit(c, *of_y, y, error);
 }
 

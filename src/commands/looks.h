@@ -5,6 +5,7 @@
 
 #include "commands/expressions.h"
 #include "plot/plot.h"
+#include "text/csv.h"
 
 enum { OVER = 4 }; /* files of measured points */
 
@@ -19,6 +20,7 @@ typedef struct looks {
     limits x, y;
     size_t files;
     span over[OVER];
+    bool residuals;
 } looks;
 
 /* The table of looks, a clause a line, and what an axis of theirs may be; NULL after the last. */
@@ -33,6 +35,10 @@ typedef struct axis_of {
     dim d;
 } axis_of;
 
+/* The column of that name, whole and of that dimension, or with an error not; else the only one of that
+ * dimension that is not taken and not called after another quantity; else NULL. */
+const csv_values *looks_column(const csv *c, const axis_of *axis, const bool taken[CSV_COLUMNS],
+                               calc_error *error);
 /* Adds the measured points, in SI. */
 bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y);
 /* The unit of an axis. */

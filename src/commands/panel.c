@@ -36,6 +36,11 @@ typedef struct panel_job {
     size_t each;                                 /* series of a curve */
     bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
     double last[PLOTTED][2];
+    found found;
+    const file_rows *over;       /* residuals of the file whose rows it goes over; or NULL */
+    const csv_values *residuals; /* its column for them; NULL: not looked for yet */
+    long double squares;
+    size_t rows, counted; /* that have come; finite residuals */
 } panel_job;
 
 /* c curve, t thin line, b an edge of a band, of two; s a curve told apart where it is at the bounds that
@@ -118,7 +123,10 @@ static bool add_curve(panel_job *job, size_t curve) {
                 return false;
             stick->style = (int)(2 * curve);
             slip->style = (int)(2 * curve + 1);
-        } else if (!add_series(job, role == 'b' ? PLOT_BAND : PLOT_CURVE,
+        } else if (!add_series(job,
+                               role == 'b' ? PLOT_BAND
+                               : job->over ? PLOT_MEASURED
+                                           : PLOT_CURVE,
                                title_of(job, curve, i, NULL, title), role != 'c')) {
             return false;
         }
@@ -159,11 +167,36 @@ static bool is_over(const panel_job *job, const sweep *s, long double time) {
     return job->m && job->m->at && s->along && time > (long double)job->m->until + 1e-9L;
 }
 
+/* What is measured less what the expressions say. */
+static bool subtract(panel_job *job, const long double *values, long double *left) {
+    const axis_of axis = {job->columns[0].name, job->found.d[0]};
+    const size_t rows = job->over->data.rows;
+    if (!job->residuals)
+        job->residuals = rows_compared(job->over, &axis, true, job->error);
+    if (!job->residuals)
+        return job->error->raised ||
+               calc_fail(job->error, 0, 0, "no column of %.200s is as %s, to be compared",
+                         job->over->data.path, axis.name);
+    for (size_t i = 0; i < job->count; i++) {
+        left[i] = job->residuals->v[job->rows % rows] - values[i];
+        if (isfinite(left[i])) {
+            job->squares += left[i] * left[i];
+            job->counted++;
+        }
+    }
+    job->rows++;
+    return true;
+}
+
 static bool give_point(void *context, const sweep *s, size_t curve, long double x,
                        const long double *values) {
     panel_job *job = context;
     const size_t at = curve * job->each;
+    long double left[PLOTTED];
     progress_pulse();
+    if (job->over && !subtract(job, values, left))
+        return false;
+    values = job->over ? left : values;
     const double abscissa = (double)(job->against ? values[job->count] : x);
     if (at >= job->p->count && !add_curve(job, curve))
         return false;
@@ -267,9 +300,21 @@ static bool scale_axis(panel_job *job, lexer *lx, bool x_axis, const column *c, 
     return looks_axis(lx, l, job->p, x_axis, axis, u);
 }
 
+/* The ordinate, and where there is no title their root mean square. */
+static bool name_residuals(panel_job *job, dim d, char name[TITLE]) {
+    char rms[NUMBER_TEXT + COLUMN_UNIT], title[200];
+    const long double mean = sqrtl(job->squares / (long double)(job->counted ? job->counted : 1));
+    snprintf(name, TITLE, "file %s - %.300s", job->residuals->name,
+             job->count > 1 ? "EXPR" : job->columns[0].name);
+    format_value(&job->sh->set, (value){mean, d}, rms, sizeof rms);
+    snprintf(title, sizeof title, "rms = %s over %zu rows", rms, job->counted);
+    job->p->title = job->p->title ? job->p->title : strdup(title);
+    return job->p->title || calc_no_memory(job->error);
+}
+
 static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
     const sweep *s = job->s;
-    char name[40];
+    char name[40], residuals[TITLE];
     const bool shared = main_count(job) > 1;
     const column *c = job->columns, *x = job->against ? &c[job->count] : NULL;
     size_t first = 0; /* whose dimension is known: there may be no value that tells of it */
@@ -287,15 +332,17 @@ static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
         job->p->title = strdup(job->figure->title);
     if (!job->p->title && job->figure)
         return calc_no_memory(lx->error);
-    return looks_lay_over(lx, job->looks, job->p, &ax, &ay) && scale_axis(job, lx, true, x, &ax) &&
-           scale_axis(job, lx, false, &c[0], &ay);
+    return (job->over ? name_residuals(job, ay.d, residuals)
+                      : looks_lay_over(lx, job->looks, job->p, &ax, &ay)) &&
+           scale_axis(job, lx, true, x, &ax) &&
+           scale_axis(job, lx, false, &c[0], job->over ? &(axis_of){residuals, ay.d} : &ay);
 }
 
 /* ---- motion ------------------------------------------------------------------------------------ */
 
 /* Does the sweep make scenes of its own, which know nothing of the instant? */
 static bool is_still(const sweep *s) {
-    return s->along || s->var.is_input || (s->curves && s->with.is_input);
+    return s->along || s->var.is_input || (s->at && s->at->names > 1) || (s->curves && s->with.is_input);
 }
 
 /* All figures follow one load. */
@@ -343,13 +390,16 @@ static bool no_second_range(const lexer *lx, said *all) {
 /* Curves and axes of what has been read. */
 static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
     const size_t count = job->count + job->against;
-    found f;
     job->s = s;
     s->turns = true;
-    s->refine = !s->along && !s->steps;
-    s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
-    sweep_job sweeping = range_job(job->sh, job->columns, count, &f, give_point, job, job->error);
-    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, &f))
+    if (s->at) {
+        job->p->points = true;
+    } else {
+        s->refine = !s->along && !s->steps;
+        s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
+    }
+    sweep_job sweeping = range_job(job->sh, job->columns, count, &job->found, give_point, job, job->error);
+    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, &job->found))
         return false;
     if (!job->m || !job->m->at) {
         note_missing(job->sh, &sweeping);
@@ -365,8 +415,20 @@ typedef struct written {
 } written;
 
 static const heard *range_of(said *all) {
-    const heard *by = said_of(all, "for", 0);
-    return by ? by : said_of(all, "along", 0);
+    const heard *by = said_of(all, "for", 0), *along = said_of(all, "along", 0);
+    return by ? by : along ? along : said_of(all, "at", 0);
+}
+
+/* In place of the range of a curve, the rows of the file that it is compared with. */
+static bool take_residuals(panel_job *job, const lexer *lx, range *r, file_rows *from) {
+    const looks *l = job->looks;
+    if (!l->residuals)
+        return true;
+    if (l->files != 1 || r->sweep.along || r->sweep.at || job->against)
+        return calc_fail(lx->error, l->over[0].at, l->over[0].len,
+                         "residuals are of EXPR, ... for NAME = LO .. HI over one FILE.csv");
+    job->over = from;
+    return rows_over(lx, &l->over[0], &r->sweep, from);
 }
 
 /* of: where the expressions stand, and the range unless the statement has one; all else stands there. */
@@ -376,7 +438,9 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     written own = {*lx, all}, *over = range_of(of->all) ? of : &own;
     const heard *against = said_of(of->all, "against", 0);
     range r;
-    bool ok = read_expressions_in(sh, &of->lx, &of->all->list[0].hole[0], columns, PLOTTED, &job->count);
+    file_rows at;
+    bool ok = rows_open(sh, &over->lx, over->all, &at) &&
+              read_expressions_in(sh, &of->lx, &of->all->list[0].hole[0], columns, PLOTTED, &job->count);
     size_t count = job->count;
     if (ok && against) {
         lexer abscissa = hole_lexer(&of->lx, &against->hole[0]);
@@ -385,8 +449,17 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
         job->against = job->p->airy = true;
     }
     job->columns = columns;
-    ok = ok && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
-         range_options(sh, lx, all, 0, &r, 0) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
+    if (!ok && at.given)
+        columns_missed(sh, lx, &at.data);
+    else if (ok && at.given)
+        ok = range_read_rows(sh, &over->lx, over->all, &at, count, &r);
+    else
+        ok = ok && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
+             range_options(sh, lx, all, 0, &r, 0);
+    ok = ok && take_residuals(job, lx, &r, &at) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
+    if (!ok && job->over)
+        calc_place(lx->error, job->looks->over[0].at, job->looks->over[0].len);
+    rows_close(&at);
     columns_free(columns, count);
     return ok;
 }
@@ -485,7 +558,7 @@ static bool draw_panel(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *
     plot_panel *p = plot_panel_add(f, lx->error);
     if (!p)
         return calc_place(lx->error, as->at, 1);
-    looks l = {.files = 0};
+    looks l = {.over = {{0, 0}}};
     panel_job job = {.sh = sh,
                      .p = p,
                      .looks = &l,

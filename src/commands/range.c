@@ -10,7 +10,9 @@ const char *load_name(size_t i) {
 }
 
 const char *range_line(size_t i) {
-    return i ? NULL : "[for NAME = LO .. HI]* [along LOAD] [steps N:100000000]* [log]* [with NAME = VALUES]";
+    return i ? NULL
+             : "[for NAME = LO .. HI]* [along LOAD] [at FILE] [steps N:100000000]* [log]* [with NAME = "
+               "VALUES]";
 }
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
@@ -61,6 +63,10 @@ static bool evaluate_range(const sweep *s, sweep_range *out, calc_error *error) 
     const range *r = s->context;
     lexer lx = r->own;
     lx.error = error;
+    if (s->at) {
+        out->d = s->var.d;
+        return true;
+    }
     if (!s->along)
         return range_read_interval(&r->sh->calc, &lx, &s->var, NULL, out);
     return s->what != ALONG_LOAD || read_load(r->sh, &lx, &out->step, &out->extra, out->bound);
@@ -117,6 +123,21 @@ static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
         s->curves++;
     } while (own.kind == T_COMMA);
     return at_end(&own);
+}
+
+bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t count, range *out) {
+    const heard *at = said_of(all, "at", 0);
+    start_range(sh, lx, &at->hole[0], out);
+    if (!rows_range(sh, lx, all, from, count, &out->sweep))
+        return false;
+    for (const heard *h = all->list; h < all->list + all->count; h++)
+        if (!strcmp(h->of->name, "with") && !read_with(sh, lx, h, &out->sweep))
+            return false;
+    for (size_t i = 0; out->sweep.curves && i < from->at.names; i++)
+        if (!strcmp(from->at.column[i].name.text, out->sweep.with.text))
+            return calc_fail(lx->error, at->hole[0].at, at->hole[0].len, "%s is given twice",
+                             out->sweep.with.text);
+    return true;
 }
 
 bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps) {

@@ -5,6 +5,7 @@
 #ifndef COMMANDS_RANGE_H
 #define COMMANDS_RANGE_H
 
+#include "commands/rows.h"
 #include "statement/command.h"
 #include "statement/output.h"
 #include "study/sweep.h"
@@ -34,6 +35,9 @@ bool range_read_along(shell *sh, const lexer *lx, const span *load, range *out);
 /* The range of the which-th `for`, or `along`. It must stay where it is, and the text of the statement too.
  */
 bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out);
+/* The rows of `at FILE` and its `with`, for the first `count` expressions; `from` must stay where it is, too.
+ */
+bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t count, range *out);
 /* `steps`, `log` and `with` of that range, which stand before the next `for`; steps: where none are given. */
 bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps);
 /* What a sweep finds of its expressions, or what their columns ask for. */

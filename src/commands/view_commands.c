@@ -57,14 +57,25 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
 
 /* ---- table ------------------------------------------------------------------------------------- */
 
+/* An expression against a column of the file whose rows it goes over. */
+typedef struct comparison {
+    const csv_values *with;
+    size_t of; /* the expression */
+    size_t count, worst_row;
+    long double squares, worst, largest; /* differences, and the largest value of the column */
+} comparison;
+
 typedef struct table_job {
     answer a;
     column columns[COLUMNS]; /* the sweep's own, then those of the expressions */
     size_t first;            /* of the expressions */
-    size_t count;
+    size_t count, shown;     /* columns of expressions, and behind them of comparisons */
     found found;
     size_t curve;
-    long double second; /* the value of the second name of a grid, in the last row */
+    long double second;  /* the value of the second name of a grid, in the last row */
+    const file_rows *at; /* those of a file, or NULL */
+    comparison compared[COLUMNS];
+    size_t comparisons;
     bool begun, blocks;
     const char *name; /* where it goes, for messages */
     bool screen;      /* rows that go there are progress enough */
@@ -81,12 +92,69 @@ static void begin_columns(table_job *job) {
     }
 }
 
+/* A column that looks as that of the expression. */
+static bool add_column(table_job *job, const column *like, const char *before, const char *with,
+                       const char *minus) {
+    char name[400];
+    snprintf(name, sizeof name, "%s%s%s%.200s", before, with, *minus ? " - " : "", minus);
+    column *c = &job->columns[job->first + job->count + job->shown++];
+    *c = *like;
+    c->name = column_name(name, strlen(name));
+    return c->name || calc_no_memory(job->error);
+}
+
+/* Two columns behind those of the expressions for each that the file has something to compare with. */
+static bool compare_columns(table_job *job) {
+    for (size_t i = 0; job->at && i < job->count; i++) {
+        const column *own = &job->columns[job->first + i];
+        bool alone = true;
+        for (size_t j = 0; j < job->count; j++)
+            alone = alone && (j == i || !dim_equal(own->d, job->columns[job->first + j].d));
+        const csv_values *with = rows_compared(job->at, &(axis_of){own->name, own->d}, alone, job->error);
+        if (job->error->raised)
+            return false;
+        if (!with || job->first + job->count + job->shown + 2 > COLUMNS)
+            continue;
+        job->compared[job->comparisons++] = (comparison){.with = with, .of = i};
+        if (!add_column(job, own, "file ", with->name, "") ||
+            !add_column(job, own, "file ", with->name, own->name))
+            return false;
+    }
+    return true;
+}
+
 static bool begin_table(table_job *job) {
     begin_columns(job);
-    if (!columns_distinct(job->columns, job->first + job->count))
+    if (!compare_columns(job))
+        return false;
+    const size_t all = job->first + job->count + job->shown;
+    if (!columns_distinct(job->columns, all))
         return calc_no_memory(job->error);
-    job->begun = answer_columns(&job->a, "table", job->columns, job->first + job->count);
+    job->begun = answer_columns(&job->a, "table", job->columns, all);
     return job->begun || calc_no_memory(job->error);
+}
+
+/* The names' values in a row of the file, and what is compared there; values: of the expressions. */
+static void give_compared(table_job *job, const long double *values, long double *row) {
+    const sweep_rows *at = &job->at->at;
+    const size_t r = job->rows % job->at->data.rows;
+    for (size_t i = 0; i < at->names; i++)
+        row[i] = at->column[i].v[r];
+    long double *next = row + job->first + job->count;
+    for (comparison *c = job->compared; c < job->compared + job->comparisons; c++) {
+        const long double theirs = c->with->v[r], difference = theirs - values[c->of];
+        *next++ = theirs;
+        *next++ = difference;
+        if (!isfinite(difference))
+            continue;
+        c->count++;
+        c->squares += difference * difference;
+        c->largest = fmaxl(c->largest, fabsl(theirs));
+        if (fabsl(difference) >= fabsl(c->worst)) {
+            c->worst = difference;
+            c->worst_row = r;
+        }
+    }
 }
 
 static bool give_row(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
@@ -102,7 +170,9 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     job->second = s->curves ? s->value[curve] : 0;
     row[0] = x;
     if (s->curves)
-        row[1] = s->value[curve];
+        row[job->first - 1] = s->value[curve];
+    if (job->at)
+        give_compared(job, values, row);
     memcpy(row + job->first, values, job->count * sizeof *row);
     const size_t curves = s->curves ? s->curves : 1;
     job->rows++;
@@ -119,8 +189,41 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
 /* second: the other name of a grid, or of the curves; NULL: there is none */
 static bool own_columns(table_job *job, const sweep *s, const knob *second) {
     column *own = job->columns;
-    return column_si(&own[0], s->var.text, s->var.d) &&
-           (!second || column_si(&own[1], second->text, second->d));
+    bool ok = s->at || column_si(own++, s->var.text, s->var.d);
+    for (size_t i = 0; s->at && i < s->at->names; i++)
+        ok = ok && column_si(own++, s->at->column[i].name.text, s->at->column[i].name.d);
+    return ok && (!second || column_si(own, second->text, second->d));
+}
+
+/* A line each: rms and worst, with its row. */
+static void say_compared(shell *sh, const table_job *job) {
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    for (const comparison *c = job->compared; c < job->compared + job->comparisons; c++) {
+        char rms[NUMBER_TEXT + COLUMN_UNIT], worst[NUMBER_TEXT + COLUMN_UNIT], part[40] = "";
+        const char *name = job->columns[job->first + c->of].name;
+        const long double mean = c->count ? sqrtl(c->squares / (long double)c->count) : (long double)NAN;
+        const dim d = job->columns[job->first + c->of].d;
+        answer_event(&a, "compare");
+        answer_string(&a, "name", name);
+        answer_string(&a, "column", c->with->name);
+        answer_number(&a, "rows", (double)c->count);
+        answer_number(&a, "rms", (double)mean);
+        answer_number(&a, "worst", (double)c->worst);
+        answer_number(&a, "row", (double)c->worst_row + 1);
+        answer_number(&a, "line", (double)job->at->data.line[c->worst_row]);
+        answer_done(&a);
+        if (!c->count)
+            continue;
+        format_value(&sh->set, (value){mean, d}, rms, sizeof rms);
+        format_value(&sh->set, (value){c->worst, d}, worst, sizeof worst);
+        if (c->largest > 0)
+            snprintf(part, sizeof part, " (%.3Lg %% of the largest)", 100 * mean / c->largest);
+        answer_words(&a, "file %s - %s: rms = %s%s over %zu rows, worst = %s in row %zu (line %zu)\n",
+                     c->with->name, name, rms, part, c->count, worst, c->worst_row + 1,
+                     job->at->data.line[c->worst_row]);
+    }
+    answer_end(&a, true);
 }
 
 /* ---- a grid as text: a matrix of each expression ----------------------------------------------- */
@@ -172,9 +275,9 @@ static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *swee
 
 /* ---- the command ------------------------------------------------------------------------------- */
 
-/* g: of two names, or NULL. */
-static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const grid *g, column *columns,
-                      size_t count) {
+/* g: of two names, at: the rows of a file; or NULL. */
+static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const grid *g, const file_rows *at,
+                      column *columns, size_t count) {
     table_job *job = calloc(1, sizeof *job);
     target to;
     if (!job)
@@ -184,7 +287,12 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
         return false;
     }
     const knob *second = g ? &g->b.var : s->curves ? &s->with : NULL;
-    job->first = 1 + (second != NULL);
+    job->first = (at ? at->at.names : 1) + (second != NULL);
+    job->at = at;
+    if (job->first + count > COLUMNS) {
+        free(job);
+        return target_close(sh, lx, &to, calc_fail(lx->error, 0, 0, "more than %d columns", COLUMNS));
+    }
     job->count = count;
     job->blocks = to.blocks;
     job->name = to.file.to ? to.file.name : "to standard output";
@@ -206,9 +314,12 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
         answer_end(&job->a, sweeping.values > 0);
     if (ok)
         note_missing(sh, &sweeping);
-    columns_free(job->columns, job->first + count);
+    ok = target_close(sh, lx, &to, ok);
+    if (ok)
+        say_compared(sh, job);
+    columns_free(job->columns, job->first + count + job->shown);
     free(job);
-    return target_close(sh, lx, &to, ok);
+    return ok;
 }
 
 bool do_table(shell *sh, lexer *lx, const command *self) {
@@ -217,22 +328,30 @@ bool do_table(shell *sh, lexer *lx, const command *self) {
     size_t count = 0;
     range r;
     grid_range two;
+    file_rows at;
     said all;
     if (!said_read(sh, lx, command_form(self), &all))
         return false;
     const span *first = &all.list[0].hole[0];
-    bool ok = said_of(&all, "for", 0) || said_of(&all, "along", 0);
-    ok = ok || (!range_hides(lx, &all) &&
-                calc_fail(lx->error, first->at, first->len,
-                          "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N"));
+    bool ok = rows_open(sh, lx, &all, &at);
+    const bool ranged = at.given || said_of(&all, "for", 0) || said_of(&all, "along", 0);
+    ok = ok && (ranged || (!range_hides(lx, &all) &&
+                           calc_fail(lx->error, first->at, first->len,
+                                     "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N")));
     ok = ok && read_expressions_in(sh, lx, first, columns, COLUMNS - 2, &count);
-    if (ok && said_of(&all, "for", 1))
+    if (!ok && at.given)
+        columns_missed(sh, lx, &at.data);
+    else if (ok && at.given)
+        ok = range_read_rows(sh, lx, &all, &at, count, &r) &&
+             run_table(sh, lx, &all, &r.sweep, NULL, &at, columns, count);
+    else if (ok && said_of(&all, "for", 1))
         ok = grid_range_read(sh, lx, &all, &two, ROWS, ACROSS) &&
-             run_table(sh, lx, &all, &two.grid.a, &two.grid, columns, count);
+             run_table(sh, lx, &all, &two.grid.a, &two.grid, NULL, columns, count);
     else
         ok = ok && range_read(sh, lx, &all, 0, &r) && range_options(sh, lx, &all, 0, &r, ROWS) &&
-             run_table(sh, lx, &all, &r.sweep, NULL, columns, count);
+             run_table(sh, lx, &all, &r.sweep, NULL, NULL, columns, count);
     columns_free(columns, count);
+    rows_close(&at);
     said_drop(sh, &all);
     return ok;
 }

@@ -302,7 +302,17 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
 
 /* ---- clauses ----------------------------------------------------------------------------------- */
 
+/* `at NAME =` belongs to the expression before it, `at FILE` does not. */
+static bool changes_scene(const lexer *lx) {
+    lexer next = *lx;
+    next.error = error_quiet();
+    lex_next(&next);
+    return lex_is(lx, "at") && next.kind == T_NAME && lex_peek(&next) == T_ASSIGN;
+}
+
 static const clause *clause_named(const lexer *lx, const grammar *f) {
+    if (changes_scene(lx))
+        return NULL;
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
         if (!a->argument && *a->name && lex_is(lx, a->name))
             return a;

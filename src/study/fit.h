@@ -4,14 +4,9 @@
 #define STUDY_FIT_H
 
 #include "study/ask.h"
+#include "study/points.h"
 
 enum { FIT_NAMES = 8, FIT_COLUMNS = 64 }; /* as many as a file has */
-
-/* A column of the data as a name of the expressions. */
-typedef struct fit_column {
-    knob name;
-    const double *v;
-} fit_column;
 
 /* A measured loop: F_x compared at each row. */
 typedef struct fit_loop {
@@ -27,7 +22,7 @@ typedef struct fit_question {
     size_t rows; /* more than names */
     /* each row an equation; left NULL: a loop */
     const expr *left, *right;
-    fit_column column[FIT_COLUMNS];
+    column_knob column[FIT_COLUMNS];
     size_t columns;
     fit_loop loop;
 } fit_question;

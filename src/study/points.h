@@ -7,6 +7,12 @@
 
 #include "language/trial.h"
 
+/* A column of a table as a name of expressions. */
+typedef struct column_knob {
+    knob name;
+    const double *v;
+} column_knob;
+
 typedef struct points {
     calc *c;
     trial *t;

@@ -105,6 +105,11 @@ long double sweep_value(const sweep *s, const sweep_range *r, long double part) 
     return points_place(r->lo, r->hi, s->log, part);
 }
 
+/* The name's value in that row of a table, or its number. */
+static long double row_of(const sweep_rows *at, size_t row) {
+    return at->names == 1 ? (long double)at->column[0].v[row] : (long double)(row + 1);
+}
+
 static long double place(const state *st, size_t row) {
     return sweep_value(st->s, &st->range,
                        st->part ? st->part[row] : (long double)row / (long double)st->s->steps);
@@ -115,13 +120,17 @@ static void give_swept(void *context, size_t row, long double x[]) {
     const sweep *s = st->s;
     if (s->curves)
         *x++ = s->value[st->curve];
-    *x = place(st, row);
+    for (size_t i = 0; s->at && i < s->at->names; i++)
+        *x++ = s->at->column[i].v[row];
+    if (!s->at)
+        *x = place(st, row);
 }
 
 static bool take_swept(void *context, size_t row, const long double x[], const value v[],
                        const calc_error *why) {
     state *st = context;
-    return take_row(st, row, x[st->s->curves > 0], v, why);
+    const sweep_rows *at = st->s->at;
+    return take_row(st, row, at ? row_of(at, row) : x[st->s->curves > 0], v, why);
 }
 
 static bool run_all(state *st) {
@@ -150,6 +159,12 @@ static bool begin_range(state *st) {
     points *p = &st->job->p;
     const size_t i = st->s->curves > 0;
     knob *var = &st->job->knobs[i];
+    const sweep_rows *at = st->s->at;
+    bool ok = true;
+    for (size_t n = 0; at && n < at->names && ok; n++)
+        ok = at->column[n].name.is_input || points_put(p, i + n, at->column[n].v[0], p->error);
+    if (at)
+        return ok;
     if (!dim_equal(var->d, st->range.d))
         points_dismiss(p);
     var->d = st->range.d;
@@ -244,7 +259,9 @@ bool sweep_begin(const sweep *s, sweep_job *job, size_t rows) {
     job->values = 0;
     if (s->curves)
         job->knobs[count++] = s->with;
-    if (!s->along)
+    for (size_t i = 0; s->at && i < s->at->names; i++)
+        job->knobs[count++] = s->at->column[i].name;
+    if (!s->along && !s->at)
         job->knobs[count++] = s->var;
     const bool ok = points_open(&job->p, job->c, job->knobs, count, job->expressions, job->count, job->error);
     job->p.all = rows;

@@ -17,10 +17,18 @@ typedef struct sweep_range {
     counted *bound[INPUTS]; /* of its amplitudes, live */
 } sweep_range;
 
+/* Values of several names at once, as the columns of a table have them. */
+enum { SWEEP_NAMES = 12 };
+typedef struct sweep_rows {
+    size_t names;
+    column_knob column[SWEEP_NAMES]; /* borrowed values */
+} sweep_rows;
+
 typedef struct sweep sweep;
 struct sweep {
     bool along;
-    knob var; /* for NAME = LO .. HI; along: called the time */
+    knob var; /* for NAME = LO .. HI; along: called the time; at: of one name that, else the row */
+    const sweep_rows *at; /* in place of a range, steps + 1 of them; or NULL */
     bool log;
     size_t steps;
     bool refine;     /* for: more points where a picture of it bends */
@@ -54,7 +62,7 @@ typedef struct sweep_job {
     char where[320];    /* of it */
     size_t values;      /* that could be had */
     points p;
-    knob knobs[2]; /* that of `with`, if there is one, and that of the range */
+    knob knobs[1 + SWEEP_NAMES]; /* that of `with`, if there is one, and those of the range */
 } sweep_job;
 
 /* False: an error; job->missing tells of gaps, which are none. An interrupt is an error, and so is a sweep

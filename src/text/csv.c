@@ -136,6 +136,17 @@ static char closing_of(char c) {
     return c == '[' ? ']' : c == '(' ? ')' : 0;
 }
 
+/* Where the unit of a title begins: at its bracket; of `p(r) [MPa]`, as tables are written, at the last. */
+static size_t unit_place(field f) {
+    size_t n = 0;
+    for (size_t last = f.len; last > 1 && f.text[f.len - 1] == ']'; last--)
+        if (f.text[last - 1] == '[')
+            return last - 1;
+    while (n < f.len && !strchr("[(/", f.text[n]))
+        n++;
+    return n;
+}
+
 static bool read_title(reader *r, field f) {
     csv *c = r->c;
     if (c->columns == CSV_COLUMNS)
@@ -144,9 +155,7 @@ static bool read_title(reader *r, field f) {
     unit *u = &r->unit[c->columns++];
     *column = (csv_values){.d = DIM_NONE};
     *u = (unit){DIM_NONE, 0, 1};
-    size_t n = 0;
-    while (n < f.len && !strchr("[(/", f.text[n]))
-        n++;
+    const size_t n = unit_place(f);
     const field name = trimmed(f.text, n);
     snprintf(column->name, sizeof column->name, "%.*s", (int)(name.len < CSV_NAME ? name.len : CSV_NAME - 1),
              name.text);
