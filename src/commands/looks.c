@@ -254,6 +254,18 @@ axis_unit axis_unit_for(const column *c, dim d, double size) {
     return u;
 }
 
+void looks_divide(plot_panel *p, bool x_axis, long double scale) {
+    for (size_t i = 0; i < p->count; i++) {
+        plot_series *s = p->series[i];
+        for (size_t j = 0; j < s->count; j++) {
+            double *v = x_axis ? &s->x[j] : &s->y[j];
+            *v = (double)(*v / scale);
+            if (!x_axis && s->y2)
+                s->y2[j] = (double)(s->y2[j] / scale);
+        }
+    }
+}
+
 bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
                 const axis_unit *u) {
     const limits *given = x_axis ? &l->x : &l->y;

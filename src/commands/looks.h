@@ -49,6 +49,8 @@ typedef struct axis_unit {
 
 /* The one that its column asks for (c may be NULL), or with a prefix that fits the size. */
 axis_unit axis_unit_for(const column *c, dim d, double size);
+/* All points into that unit. */
+void looks_divide(plot_panel *p, bool x_axis, long double scale);
 /* The label, where none was given, and the limits in that unit. */
 bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
                 const axis_unit *u);

@@ -263,18 +263,6 @@ static void note_logarithms(shell *sh, const plot_panel *p) {
         shell_note(sh, "a logarithmic axis has no place for what is not above 0");
 }
 
-static void divide(plot_panel *p, bool x_axis, long double scale) {
-    for (size_t i = 0; i < p->count; i++) {
-        plot_series *s = p->series[i];
-        for (size_t j = 0; j < s->count; j++) {
-            double *v = x_axis ? &s->x[j] : &s->y[j];
-            *v = (double)(*v / scale);
-            if (!x_axis && s->y2)
-                s->y2[j] = (double)(s->y2[j] / scale);
-        }
-    }
-}
-
 /* The ordinate by the expressions that share it, as far as there is room for them. */
 static void ordinate_name(const panel_job *job, char *name, size_t size) {
     *name = 0;
@@ -296,7 +284,7 @@ static bool scale_axis(panel_job *job, lexer *lx, bool x_axis, const column *c, 
     axis_unit own, *u = job->m ? &job->m->unit[job->index][x_axis] : &own;
     if (!job->m || !job->m->at)
         *u = axis_unit_for(c, axis->d, typical(job->p, x_axis, x_axis ? &l->x : &l->y));
-    divide(job->p, x_axis, u->scale);
+    looks_divide(job->p, x_axis, u->scale);
     return looks_axis(lx, l, job->p, x_axis, axis, u);
 }
 

@@ -170,9 +170,21 @@ bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *o
                      "a logarithmic sweep needs positive ends");
 }
 
-bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
+bool range_read_name(shell *sh, lexer *lx, said *all, size_t which, bool takes, range *out) {
     sweep *s = &out->sweep;
     sweep_range ends = {.lo = 0};
+    const heard *by = said_of(all, "for", which);
+    start_range(sh, lx, &by->hole[1], out);
+    lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
+    if (!(takes ? knob_read : knob_name)(&sh->calc, &name, &s->var) ||
+        !range_read_interval(&sh->calc, &own, &s->var, NULL, &ends) || !at_end(&own))
+        return false;
+    s->var.d = ends.d;
+    out->positive = ends.lo > 0 && ends.hi > 0;
+    return true;
+}
+
+bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
     const heard *along = said_of(all, "along", 0), *by = said_of(all, "for", which);
     if (along && by) {
         const heard *later = by->at > along->at ? by : along;
@@ -183,14 +195,7 @@ bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
         return range_read_along(sh, lx, &along->hole[0], out);
     if (!by)
         return lex_fail(lx, "expected for VAR = LO .. HI");
-    start_range(sh, lx, &by->hole[1], out);
-    lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
-    if (!knob_read(&sh->calc, &name, &s->var) ||
-        !range_read_interval(&sh->calc, &own, &s->var, NULL, &ends) || !at_end(&own))
-        return false;
-    s->var.d = ends.d;
-    out->positive = ends.lo > 0 && ends.hi > 0;
-    return true;
+    return range_read_name(sh, lx, all, which, true, out);
 }
 
 sweep_job range_job(shell *sh, const column *columns, size_t count, found *f, sweep_row *row, void *context,

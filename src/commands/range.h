@@ -35,6 +35,8 @@ bool range_read_along(shell *sh, const lexer *lx, const span *load, range *out);
 /* The range of the which-th `for`, or `along`. It must stay where it is, and the text of the statement too.
  */
 bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out);
+/* The same of a `for` that is there; takes: the scene must have a use for the name. */
+bool range_read_name(shell *sh, lexer *lx, said *all, size_t which, bool takes, range *out);
 /* The rows of `at FILE` and its `with`, for the first `count` expressions; `from` must stay where it is, too.
  */
 bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t count, range *out);

@@ -104,7 +104,8 @@ bool rows_range(shell *sh, const lexer *lx, said *all, file_rows *r, size_t coun
         for (size_t i = 0; i < sizeof others / sizeof *others; i++)
             if (!strcmp(h->of->name, others[i]) && !(i == 3 && h->of->holes))
                 return calc_fail(lx->error, h->at, h->len,
-                                 "the rows of the file are the range: %s does not go with at FILE", others[i]);
+                                 "the rows of the file are the range: %s does not go with at FILE",
+                                 others[i]);
     r->at.names = 0;
     for (const column_knob *c = r->column; c < r->column + r->count; c++) {
         bool used = c->name.is_input;
@@ -139,9 +140,10 @@ bool rows_over(const lexer *lx, const span *file, sweep *over, file_rows *out) {
         return calc_place(lx->error, file->at, file->len);
     const csv_values *x = looks_column(&out->data, &axis, taken, lx->error);
     if (!x)
-        return lx->error->raised ? calc_place(lx->error, file->at, file->len)
-                                 : calc_fail(lx->error, file->at, file->len,
-                                             "no column of %.200s, or more than one, is as %s", name, axis.name);
+        return lx->error->raised
+                   ? calc_place(lx->error, file->at, file->len)
+                   : calc_fail(lx->error, file->at, file->len,
+                               "no column of %.200s, or more than one, is as %s", name, axis.name);
     out->at.names = 1;
     out->at.column[0] = (column_knob){over->var, x->v};
     over->at = &out->at;
@@ -149,7 +151,8 @@ bool rows_over(const lexer *lx, const span *file, sweep *over, file_rows *out) {
     return true;
 }
 
-const csv_values *rows_compared(const file_rows *r, const axis_of *expression, bool alone, calc_error *error) {
+const csv_values *rows_compared(const file_rows *r, const axis_of *expression, bool alone,
+                                calc_error *error) {
     bool taken[CSV_COLUMNS];
     for (size_t i = 0; i < r->data.columns; i++)
         taken[i] = !alone;

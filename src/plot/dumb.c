@@ -39,6 +39,12 @@ static void set_texts(FILE *to, const plot_page *g) {
         set_label(to, g, e->text, e->text_column, e->row);
         putc('\n', to);
     }
+    for (size_t i = 0; i < g->panel->words; i++) {
+        int column, row;
+        page_word(g, i, &column, &row);
+        set_label(to, g, g->panel->word[i].text, column, row);
+        fputs(" front\n", to);
+    }
 }
 
 /* The cells of a layer that nothing covers. */

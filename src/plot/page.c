@@ -164,6 +164,12 @@ void page_layer(const plot_page *g, size_t layer, char sign[PAGE_SIGN], unsigned
         sign_of(g, g->order[layer - g->levels], sign, ink);
 }
 
+void page_word(const plot_page *g, size_t i, int *column, int *row) {
+    const double *at = g->panel->word[i].at;
+    *column = g->left + (int)lround(at[0] * g->x.cells) - (int)strlen(g->panel->word[i].text) / 2;
+    *row = g->top + g->y.cells - (int)lround(at[1] * g->y.cells);
+}
+
 static void put_in_order(plot_page *g) {
     const plot_panel *p = g->panel;
     size_t n = 0;
@@ -277,6 +283,8 @@ bool page_trace(const plot_page *g, const plot_cells *frame, bool by_layer) {
         unsigned char ink;
         page_layer(g, i, sign, &ink);
         ink = by_layer ? (unsigned char)(i + 1) : ink;
+        if (s->role == PLOT_BAND && !s->y2)
+            continue;
         if (!is_line(s))
             trace_points(g, s, frame, sign, ink);
         else

@@ -62,6 +62,8 @@ bool page_make(plot_page *g, const plot_panel *panel, const plot_extents *extent
                const plot_pages *pages, calc_error *error);
 void page_free(plot_page *g);
 
+/* Where a word within the frame begins. */
+void page_word(const plot_page *g, size_t i, int *column, int *row);
 /* What is drawn in the frame, from below: the levels of a map, then the series. */
 size_t page_layers(const plot_page *g);
 void page_layer(const plot_page *g, size_t layer, char sign[PAGE_SIGN], unsigned char *ink);

@@ -23,6 +23,7 @@ enum {
     PLOT_KEPT = 294912,  /* points a series holds; beyond, it thins itself and keeps the extremes */
     PLOT_WRITTEN = 2500, /* points of a series that go into a picture, about */
     PLOT_GRID = 500,     /* points of a map along an axis */
+    PLOT_WORDS = 4,      /* within the frame of a panel */
     PLOT_FRAMES = 1000,  /* of an animation */
     PLOT_PIXELS = 8000   /* of a picture along an axis */
 };
@@ -57,7 +58,7 @@ char *plot_text(const char *text, plot_form form);
 typedef enum plot_role {
     PLOT_CURVE,    /* a line through the points; a point that is not finite is a gap */
     PLOT_MEASURED, /* marks without a line */
-    PLOT_BAND,     /* the area between y and y2 */
+    PLOT_BAND,     /* the area between y and y2; without y2 the one inside, of pictures alone */
     PLOT_NOW       /* the present point, above all */
 } plot_role;
 
@@ -88,6 +89,11 @@ typedef struct plot_panel {
     bool points; /* marked on the lines */
     bool airy;   /* room around the points along x, too; else curves that are graphs over x fill its axis */
     plot_map map;
+    struct {
+        const char *text;
+        double at[2]; /* its middle, in parts of the frame from the lower left */
+    } word[PLOT_WORDS];
+    size_t words;
     size_t count;
     plot_series *series[PLOT_CURVES];
 } plot_panel;

@@ -325,9 +325,9 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
     const plot_series *c = p->series[at];
     size_t style = plot_style_of(p, at);
     fprintf(s->to, "$data%zu_%zu_%zu using 1:2%s with ", s->frame, s->panel, at,
-            deep                   ? ":(0)"
-            : c->role == PLOT_BAND ? ":3"
-                                   : "");
+            deep    ? ":(0)"
+            : c->y2 ? ":3"
+                    : "");
     switch (c->role) {
     case PLOT_CURVE:
         if (is_marked(p, at) && !deep)
@@ -341,7 +341,7 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
                 0.6 * s->kind->line * s->scale, style ? looks[style % LOOKS].color : "#000000");
         break;
     case PLOT_BAND:
-        fprintf(s->to, "filledcurves fs solid noborder fc rgb '%s'",
+        fprintf(s->to, "filledcurves %s fs solid noborder fc rgb '%s'", c->y2 ? "" : "closed",
                 c->thin ? "#e4e4e4" : looks[style % LOOKS].tint);
         break;
     default: /* the present point */
@@ -508,6 +508,11 @@ static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, c
     if (!p->map.nx && !x.log && !y.log)
         fputs("set xzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\nset yzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\n", s->to);
     set_key(s, p);
+    for (size_t i = 0; i < p->words; i++) {
+        fputs("set label ", s->to);
+        quoted(s, p->word[i].text);
+        fprintf(s->to, " at graph %.4g,%.4g center front\n", p->word[i].at[0], p->word[i].at[1]);
+    }
     if (p->map.nx) {
         draw_map(s, p, &x, &y);
     } else {

@@ -58,7 +58,13 @@ static bool draw_page(const plot_page *g, const plot_cells *page) {
     draw_x_tics(g, page);
     draw_border(g, page);
     draw_texts(g, page);
-    return page_trace(g, &frame, false);
+    const bool ok = page_trace(g, &frame, false);
+    for (size_t i = 0; i < g->panel->words; i++) {
+        int column, row;
+        page_word(g, i, &column, &row);
+        plot_cells_text(page, column, row, g->panel->word[i].text, 0);
+    }
+    return ok;
 }
 
 /* ---- printing ----------------------------------------------------------------------------------- */

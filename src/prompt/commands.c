@@ -601,6 +601,7 @@ const command commands[] = {
              "    fret> apropos stick\n"
              "    c           stick radius\n"
              "    plot springs  springs between their bounds\n"
+             "    plot regimes  running conditions\n"
              "    fret> apropos contact radius\n"
              "    a           contact radius\n"},
     {.name = "quit",

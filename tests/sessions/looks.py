@@ -474,6 +474,31 @@ def pages(tests):
                 turned["left"][-600:] + turned["flip"][-600:])
 
 
+def regimes(tests):
+    """Borders by Hertz and Mindlin: delta_max = mu (2-nu)/(2 (1-nu)) a^2/R, a^3 = 3 F R/(4 E*); c = a/2 at 3/4 of it."""
+    for across, ranges in enumerate(("for dxA = 0 um .. 3 um for FN = 1 N .. 200 N",
+                                     "for FN = 1 N .. 200 N for dxA = 0 um .. 3 um")):
+        text, (partial, gross, half, border) = script(tests, "regimes %d" % across, "plot regimes " + ranges)
+        pairs = [[(y, x) if across else (x, y) for x, y in points] for points in (half, border)]
+        for name, part, points_ in (("c = a/2", 0.75, pairs[0]), ("c = 0", 1, pairs[1])):
+            law = [part * 0.4 * 1.7 / 1.4 * (3 * f * R * 2 * (1 - 0.3**2) / (4 * 210e9)) ** (2 / 3) / R * 1e6 for _, f in points_]
+            tests.check("%s, %s" % (ranges, name), len(points_) > 20 and points_[0][1] == 1 and points_[-1][1] == 200 and
+                        all(abs(d - want) < 1e-6 * want for (d, _), want in zip(points_, law)), str(points_[:3]))
+        inside = [max(p[across] for p in points_) for points_ in (partial, gross)]
+        tests.check("areas of " + ranges, inside[0] < inside[1] == 3 and "filledcurves closed" in text and
+                    all('"%s" at graph' % word in text for word in ("partial slip", "gross slip")), str(inside))
+    fails(tests, "plot regimes", "regimes go for dxA = LO .. HI for NAME = LO .. HI")
+    fails(tests, "plot regimes for dxA = 2 um .. 1 um for FN = 1 N .. 2 N", "an empty range")
+    fails(tests, "plot regimes for dxA = 1 um .. 2 um for dz = 1 um .. 2 um", "dz")
+
+
+def residuals(tests):
+    with open(os.path.join(tests.dir, "rest.csv"), "w", encoding="utf-8") as f:
+        f.write("y,x\n4.5,2\n0.75,1\n")
+    text, (rest,) = script(tests, "residuals", "plot x^2 for x = 0 .. 3 over %s/rest.csv residuals" % tests.dir)
+    tests.check("residuals", rest == [(2, 0.5), (1, -0.25)] and "rms = 0.395285 over 2 rows" in text, str(rest))
+
+
 def run(tests):
     tests.each([lambda one=one: one(tests) for one in (points, parts, ranges, springs, looks, over, maps, beside_numbers, pages, moving, histories, terminals,
-                                                       formulas, bodies)])
+                                                       formulas, bodies, regimes, residuals)])
