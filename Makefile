@@ -219,6 +219,10 @@ latency: deps-check
 bench: all
 	@sh scripts/bench $(B)
 
+# Numbers that others published beside ours.
+published: $(B)/fret
+	@FRET=$(B)/fret sh scripts/published
+
 # Formats only where clang-format is at hand; the sources in git are formatted.
 format:
 	clang-format -i $(shell git ls-files '*.c' '*.h')
@@ -272,5 +276,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram faults latency bench format install clean FORCE
+.PHONY: published coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram faults latency bench format install clean FORCE
 -include $(shell find $(B) -name chroots -prune -o -name '*.d' -print 2>/dev/null)

@@ -38,6 +38,34 @@ static plot_terminal terminal_kind(const shell *sh, bool on_terminal) {
     return on_terminal && typeset_unicode() && term && strcmp(term, "linux") != 0 ? PLOT_BLOCK : PLOT_DUMB;
 }
 
+/* The scene and the program that drew it, in lines of so many characters; NULL: out of memory. To be freed.
+ */
+static char *caption_of(shell *sh, int columns) {
+    file_text kept, wrapped;
+    if (!file_text_open(&kept))
+        return NULL;
+    const bool ok = sh->write_scene(&sh->calc, &sh->set, kept.to, false);
+    fputs("fret " FRET_VERSION "\n", kept.to);
+    if (!file_text_close(&kept))
+        return NULL;
+    if (!ok || !file_text_open(&wrapped)) {
+        free(kept.text);
+        return NULL;
+    }
+    int at = 0;
+    for (const char *p = kept.text, *end; (end = strchr(p, '\n')); p = end + 1) {
+        const int n = (int)(end - p);
+        if (*p == '#')
+            continue;
+        fputs(at && at + n + 2 > columns ? "\n" : at ? "; " : "", wrapped.to);
+        at = (at && at + n + 2 <= columns ? at + 2 : 0) + n;
+        fwrite(p, 1, (size_t)n, wrapped.to);
+    }
+    fputc('\n', wrapped.to);
+    free(kept.text);
+    return file_text_close(&wrapped) ? wrapped.text : NULL;
+}
+
 /* One of the two, the other NULL. */
 static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *movie, const char *file) {
     file_report written;
@@ -58,9 +86,16 @@ static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *m
     if (!file && !to.columns)
         terminal_size(sh, &to.columns, &to.rows);
     fflush(sh->out);
+    char *caption = sh->set.plot_caption ? caption_of(sh, file ? 100 : to.columns) : NULL;
+    if (sh->set.plot_caption && !caption)
+        return text_end(&text, false), calc_no_memory(lx->error);
+    to.caption = caption;
     const bool ok =
         movie ? plot_animate(movie, &to, &written, lx->error) : plot_draw(f, &to, &written, lx->error);
     progress_wipe();
+    if (ok && !file && caption)
+        fputs(caption, text.to);
+    free(caption);
     if (!text_end(&text, ok))
         return calc_no_memory(lx->error);
     if (ok && file)

@@ -517,6 +517,17 @@ bool do_help(shell *sh, lexer *lx, const command *self) {
     return text_end(&t, true) || calc_no_memory(lx->error);
 }
 
+bool do_cite(shell *sh, lexer *lx, const command *self) {
+    text_out t;
+    said all;
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
+        return calc_no_memory(lx->error);
+    help_cite(t.to);
+    return text_end(&t, true) || calc_no_memory(lx->error);
+}
+
 bool do_apropos(shell *sh, lexer *lx, const command *self) {
     char words[HEARD + 1][LEX_NAME] = {""};
     bool known = true; /* no word is longer than any name */

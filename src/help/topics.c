@@ -99,8 +99,36 @@ static void equation(FILE *to, const char *number, const char *text) {
     }
 }
 
+#define TITLE_BEGINS "Frictional Energy Dissipation in Partial Slip Contacts of Axisymmetric Power-Law Graded"
+#define TITLE_ENDS                                                                                           \
+    "Elastic Solids under Oscillating Tangential Loads: Effect of the Geometry and the In-Depth Grading"
+static const char reference[] = "J. Wilhayn, M. He\xc3\x9f: " TITLE_BEGINS " " TITLE_ENDS
+                                ". Mathematics 2022, 10(19), 3641. https://doi.org/10.3390/math10193641";
+
+void help_cite(FILE *to) {
+    help_wrapped(to, reference, 0, 4);
+    fputs("fret " FRET_VERSION ": an interactive calculator for partial-slip contact.\n\n"
+          "@article{math10193641,\n"
+          "  author  = {Wilhayn, Josefine and He{\\ss}, Markus},\n"
+          "  title   = {" TITLE_BEGINS "\n             " TITLE_ENDS "},\n"
+          "  journal = {Mathematics},\n"
+          "  year    = {2022},\n"
+          "  volume  = {10},\n"
+          "  number  = {19},\n"
+          "  pages   = {3641},\n"
+          "  doi     = {10.3390/math10193641}\n"
+          "}\n"
+          "@misc{fret,\n"
+          "  title   = {fret: an interactive calculator for partial-slip contact},\n"
+          "  author  = {{The authors of fret}},\n"
+          "  note    = {version " FRET_VERSION "}\n"
+          "}\n",
+          to);
+}
+
 static void paper(FILE *to) {
-    fputs("Mathematics 2022, 10, 3641: its equations, and the quantities that they make.\n"
+    help_wrapped(to, reference, 0, 4);
+    fputs("\nIts equations, and the quantities that they make; `cite` has it as BibTeX.\n"
           "`explain NAME` puts the numbers of the scene in; `demo fig04` to `demo fig13`\n"
           "and `demo s1` to `demo s3` draw the figures and videos.\n\n",
           to);
@@ -276,7 +304,7 @@ static const topic topics[] = {
      .keywords = "batch pipe start-up fretrc config replay transcript save",
      .text = scripts_text,
      .example = "    fret> friction 0.4; save friction.fret\n"
-                "    wrote friction.fret (13 B)\n"
+                "    wrote friction.fret (26 B)\n"
                 "    fret> mu = 0.3; source friction.fret\n"
                 "    fret> mu\n"
                 "    mu = 0.4\n"},

@@ -21,6 +21,9 @@ const char *topic_name(size_t i);
 /* The table of units, for `show` too. */
 void help_units(FILE *to);
 
+/* How to cite the paper and the program, as text and as BibTeX. */
+void help_cite(FILE *to);
+
 /* What is left out where the bodies are dissimilar, and what that costs. */
 extern const char coupling_text[];
 

@@ -16,6 +16,8 @@ static const struct {
     {"traction", "qx(r) tells it, `plot traction` draws it"},
     {"p0", "p(0 m) is the largest pressure, of a smooth shape"},
     {"pmean", "FN/(pi*a^2) is the mean pressure"},
+    {"E*", "the effective modulus, 1/E* = (1-nu^2)/E0 + (1-nu_2^2)/E0_2; try: help Estar"},
+    {"E'", "in some books 2 E*, 2/E' = (1-nu^2)/E0 + (1-nu_2^2)/E0_2; try: help Estar"},
     {"stress", "p(r) and qx(r) on the surface; inside the body none is computed"},
     {"wear", "no wear law is here; dW and W are the friction work that drives it"},
     {"cylinder", "it touches along a line, contacts here are discs; try: help geometry"},

@@ -122,6 +122,7 @@ bool plot_band(plot_series *s, double x, double y, double y2);
 typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL } plot_terminal;
 
 typedef struct plot_target {
+    const char *caption;    /* lines below a picture, as typed; NULL: none */
     const char *file;       /* .png .svg .pdf .tex .html .gif .gp; NULL: text to `out` */
     FILE *out;              /* of text */
     plot_terminal terminal; /* of text; auto: dumb */

@@ -211,7 +211,9 @@ typedef struct scribe {
     const plot_kind *kind;
     double scale; /* of points against the usual size */
     size_t frame, panel, panels;
-    bool lost; /* a text found no memory */
+    const char *caption;
+    double foot; /* its part of the height */
+    bool lost;   /* a text found no memory */
 } scribe;
 
 static void quoted(scribe *s, const char *text) {
@@ -274,6 +276,25 @@ static void set_key(scribe *s, const plot_panel *p) {
                 "set key outside below center horizontal Left reverse samplen 3.5 spacing 1.1 height %s "
                 "maxcols %d\n",
                 s->kind->form == PLOT_TEX ? "2.5" : "1.2", key_columns(s, longest));
+}
+
+/* The lines below all panels, which keep to what is above it. */
+static void set_caption(scribe *s) {
+    double line = 0, lines = 0.5;
+    if (!s->caption)
+        return;
+    fprintf(s->to, "set origin %.6g,%.6g\nset size %.6g,%.6g\n", (double)s->panel / (double)s->panels,
+            s->foot, 1 / (double)s->panels, 1 - s->foot);
+    for (const char *p = s->caption; *p; p++)
+        lines += *p == '\n';
+    for (const char *p = s->caption, *end; !s->panel && (end = strchr(p, '\n')); p = end + 1) {
+        char *text = strndup(p, (size_t)(end - p));
+        fputs("set label ", s->to);
+        quoted(s, text);
+        fprintf(s->to, " at screen 0.02,%.4g left%s\n", s->foot * (1 - (line++ + 0.5) / lines),
+                s->kind->form == PLOT_TEX ? "" : " font ',10'");
+        free(text);
+    }
 }
 
 /* Panels side by side stand on one line and are of one height, whatever titles and keys they have. */
@@ -455,12 +476,13 @@ static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const p
     const double right = (s->panels > 1 ? 0.72 : 0.77) -
                          column * fmax(0, tic_columns(&z, n > 1 ? level[1] - level[0] : 1) - 6);
     fprintf(s->to,
-            "set lmargin at screen %.4g\nset rmargin at screen %.4g\nset bmargin at screen 0.15\n"
-            "set tmargin at screen 0.92\nset view map\nset palette defined (0 '#ffffff', 1 '#8fc1e3')\n"
+            "set lmargin at screen %.4g\nset rmargin at screen %.4g\nset bmargin at screen %.4g\n"
+            "set tmargin at screen %.4g\nset view map\nset palette defined (0 '#ffffff', 1 '#8fc1e3')\n"
             "set colorbox\nset style textbox opaque noborder margins 0.5,0.5\nset contour base\n"
             "set cntrlabel onecolor\n"
             "set cntrparam levels discrete ",
-            from + left * part, from + right * part);
+            from + left * part, from + right * part, s->foot + 0.15 * (1 - s->foot),
+            s->foot + 0.92 * (1 - s->foot));
     for (size_t i = 0; i < n; i++)
         fprintf(s->to, "%s%.9g", i ? "," : "", level[i]);
     fputs(n ? "\n" : "0\n", s->to);
@@ -508,6 +530,7 @@ static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, c
     if (!p->map.nx && !x.log && !y.log)
         fputs("set xzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\nset yzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\n", s->to);
     set_key(s, p);
+    set_caption(s);
     for (size_t i = 0; i < p->words; i++) {
         fputs("set label ", s->to);
         quoted(s, p->word[i].text);
@@ -536,6 +559,12 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
     /* texts keep their part of a panel */
     double scale = fmin(w / (double)panels / (panels > 1 ? BESIDE : WIDTH), h / (double)HEIGHT);
     scale = fmax(scale, 0.5);
+    enum { FOOT = 20 }; /* pixels of a line */
+    double foot = t->caption ? 0.5 : 0;
+    for (const char *p = t->caption; p && *p; p++)
+        foot += *p == '\n';
+    foot *= FOOT * scale;
+    h += foot;
     double points = kind->font * scale * (panels > 1 ? 0.9 : 1);
     fputs("# made by fret; to see it: gnuplot -p FILE\n", to);
     if (!write_data(to, reel, kind, t))
@@ -553,7 +582,14 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
         if (f->count > 1)
             fprintf(to, "set multiplot layout 1,%zu\n", f->count);
         for (size_t i = 0; i < f->count; i++) {
-            scribe s = {to, kind, scale, n, i, f->count, false};
+            scribe s = {.to = to,
+                        .kind = kind,
+                        .scale = scale,
+                        .frame = n,
+                        .panel = i,
+                        .panels = f->count,
+                        .caption = t->caption,
+                        .foot = foot / h};
             if (!draw_panel(&s, f, &reel->extent[i], error))
                 return false;
         }

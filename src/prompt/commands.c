@@ -45,6 +45,7 @@ const hole_row holes[] = {
     {.name = "PART", .kind = HOLE_CHOICE, .noun = "part", .words = show_name},
     {.name = "SETTING", .kind = HOLE_CHOICE, .noun = "setting", .words = setting_name, .form = setting_form},
     {.name = "SIZE", .kind = HOLE_WORD},
+    {.name = "SWITCH", .kind = HOLE_CHOICE, .words = switch_name},
     {.name = "TERMINAL", .kind = HOLE_CHOICE, .noun = "terminal", .words = terminal_name},
     {.name = "LESSON", .kind = HOLE_WORD, .words = script_name},
     {.name = "TOPIC", .kind = HOLE_WORD, .words = help_name},
@@ -513,10 +514,11 @@ const command commands[] = {
      .keywords = "write keep export scene history",
      .takes = "FILE | history FILE",
      .summary = "write the scene as commands; or what has been typed",
-     .help = "The file makes the scene again, to the last bit: `source FILE`, or fret FILE.\n"
+     .help = "The file makes the scene again, to the last bit: `source FILE`, or fret FILE. It\n"
+             "begins with the version that wrote it.\n"
              "`save history` writes the lines typed in this session, as they were typed.\n\n"
              "    fret> material steel; friction 0.3; save steel.fret\n"
-             "    wrote steel.fret (40 B)\n"
+             "    wrote steel.fret (53 B)\n"
              "    fret> reset all; source steel.fret\n"
              "    fret> show\n"
              "    material E0=210 GPa nu=0.3\n"
@@ -527,13 +529,13 @@ const command commands[] = {
      .keywords = "transcript log protocol test save",
      .takes = "FILE | off",
      .summary = "keep what is typed and answered as a transcript",
-     .help = "A transcript begins with the scene and the settings as they are. `replay FILE`,\n"
-             "or fret --replay FILE, runs it and compares the answers.\n\n"
+     .help = "A transcript begins with the version, the scene and the settings as they are.\n"
+             "`replay FILE`, or fret --replay FILE, runs it and compares the answers.\n\n"
              "    fret> record session.txt\n"
              "    fret> friction 0.3; 2*mu\n"
              "    2*mu = 0.6\n"
              "    fret> record off\n"
-             "    wrote session.txt (36 B)\n"},
+             "    wrote session.txt (49 B)\n"},
     {.name = "replay",
      .run = do_replay,
      .group = "the session",
@@ -591,6 +593,15 @@ const command commands[] = {
      .help = "    fret> help kappa\n"
              "    kappa: shape factor\n"
              "        kappa = (n/2) B(n/2,(k+1)/2)  (8)\n"},
+    {.name = "cite",
+     .run = do_cite,
+     .group = "the session",
+     .keywords = "paper reference BibTeX literature version authors DOI",
+     .takes = "",
+     .summary = "how to cite the paper and this program, with its version",
+     .help = "As text, then as BibTeX.\n\n"
+             "    $ fret -c cite | grep -c '^@'\n"
+             "    2\n"},
     {.name = "apropos",
      .run = do_apropos,
      .group = "the session",

@@ -25,6 +25,8 @@ bool do_save(shell *sh, lexer *lx, const command *self) {
                          "nothing has been typed here: a script is its own history");
     if (!target_file(lx, name, &t))
         return false;
+    if (!history)
+        fputs("# fret " FRET_VERSION "\n", t.to);
     return target_close(sh, lx, &t,
                         (history ? typed_write(sh, t.to) : scene_write(&sh->calc, &sh->set, t.to, true)) ||
                             calc_no_memory(lx->error));

@@ -136,6 +136,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     sh->record = recording = r;
     sh->out = r->both_out;
     sh->err = r->both_err;
+    put_text(r, "# fret " FRET_VERSION "\n");
     put_statements(r, beginning);
     return true;
 }

@@ -14,6 +14,11 @@ const char *terminal_name(size_t i) {
     return i < sizeof terminals / sizeof *terminals ? terminals[i] : NULL;
 }
 
+const char *switch_name(size_t i) {
+    static const char *const switches[] = {"off", "on"};
+    return i < sizeof switches / sizeof *switches ? switches[i] : NULL;
+}
+
 static bool set_plot(shell *sh, lexer *lx, const said *all) {
     enum { LEAST_WIDTH = 20, LEAST_HEIGHT = 8, SIZE = 30 };
     const heard *h = &all->list[0];
@@ -24,12 +29,16 @@ static bool set_plot(shell *sh, lexer *lx, const said *all) {
         sh->set.plot_terminal = (int)h->choice;
         return true;
     }
+    if (!strcmp(h->of->name, "caption")) {
+        sh->set.plot_caption = (int)h->choice;
+        return true;
+    }
     if (h->of->holes) {
         snprintf(text, sizeof text, "%.*s", (int)(len < SIZE ? len : SIZE), lx->text + h->hole[0].at);
         if (sscanf(text, "%4dx%4d%n", &width, &height, &used) != 2 || (size_t)used != len ||
             width < LEAST_WIDTH || height < LEAST_HEIGHT)
             return calc_fail(lx->error, h->hole[0].at, len,
-                             "expected a size such as 80x24 (at least %dx%d), auto or terminal", LEAST_WIDTH,
+                             "expected a size such as 80x24 (at least %dx%d), auto, terminal or caption", LEAST_WIDTH,
                              LEAST_HEIGHT);
     }
     sh->set.plot_width = width;
@@ -45,6 +54,8 @@ static void show_plot(const calc *c, const settings *set, FILE *to) {
         fputs("auto", to);
     if (set->plot_terminal)
         fprintf(to, "\nset plot terminal %s", terminals[set->plot_terminal]);
+    if (set->plot_caption)
+        fputs("\nset plot caption on", to);
 }
 
 /* The model belongs to the scene. */
@@ -90,7 +101,7 @@ static bool has_cores(const calc *c, const settings *set) {
 
 static bool has_plot(const calc *c, const settings *set) {
     (void)c;
-    return set->plot_width > 0;
+    return set->plot_width > 0 || set->plot_terminal || set->plot_caption;
 }
 
 const settings settings_initial = {.digits = 6};
@@ -149,9 +160,9 @@ static const setting rows[] = {
                        .apply = set_model,
                        .show = show_model},
     [SETTING_PLOT] = {.name = "plot",
-                      .takes = "SIZE | auto | terminal TERMINAL",
+                      .takes = "SIZE | auto | terminal TERMINAL | caption SWITCH",
                       .summary = "size of plots in the terminal, such as 80x24, and how they are drawn "
-                                 "there: auto, dumb, block or sixel",
+                                 "there: auto, dumb, block or sixel; caption on: the scene below figures",
                       .example = "    fret> set plot 64x18\n",
                       .apply = set_plot,
                       .show = show_plot,

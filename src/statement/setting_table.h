@@ -35,6 +35,7 @@ const setting *setting_row(size_t i); /* NULL after the last */
 const char *setting_name(size_t i);
 const grammar *setting_form(size_t i);
 const char *terminal_name(size_t i);
+const char *switch_name(size_t i);
 /* As it has been said; on error nothing has changed. */
 bool setting_apply(shell *sh, lexer *lx, const said *all);
 /* By its word. */

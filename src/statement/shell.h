@@ -35,6 +35,8 @@ typedef struct shell {
     unsigned no_half_space;  /* likewise: 1 the contact is too wide, 2 the flanks are too steep */
     bool widest_known;       /* the press from which on it is too wide: */
     fret_press widest;
+    /* The scene as statements, handed down by who can write it: see show.h. */
+    bool (*write_scene)(calc *c, const settings *set, FILE *to, bool whole);
     int nesting;            /* of `source` and `replay` */
     expr list[EXPRESSIONS]; /* of a print, table or plot statement, reused */
 } shell;

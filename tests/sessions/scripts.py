@@ -501,7 +501,24 @@ def own_words(tests):
                         not done.returncode, tests.report(done))
 
 
+def published(tests):
+    """Numbers of others agree, and one that does not is seen."""
+    env = {**tests.env, "FRET": tests.fret}
+    path = os.path.join(harness.ROOT, "scripts", "published")
+    done = subprocess.run(["sh", path], capture_output=True, text=True, env=env)
+    sources = {line[:22].strip() for line in done.stdout.splitlines()[1:]}
+    tests.check("published numbers", done.returncode == 0 and len(sources) >= 9 and "WRONG" not in done.stdout, tests.report(done))
+    where = os.path.join(tests.dir, "published")
+    os.mkdir(where)
+    shutil.copy(path, where)
+    with open(os.path.join(where, "published.txt"), "w", encoding="ascii") as f:
+        f.write("a | b | friction 0.4 | 2*mu | 0.81 | 1e-3\na | b | friction 0.4 | 2*mu in m | 0.8 | 1e-3\na | b | friction 0.4 | 2*mu | 0.8 | 1e-3\n")
+    done = subprocess.run(["sh", os.path.join(where, "published")], capture_output=True, text=True, env=env)
+    tests.check("one that is wrong, one without an answer", done.returncode == 1 and done.stdout.count("WRONG") == 1 and
+                len(done.stdout.splitlines()) == 3, tests.report(done))
+
+
 def run(tests):
     tests.each([lambda room=room: room(tests) for room in
                 (jobs, written, long_tables, gaps_in_tables, failing_tables, digits, shown_scenes, waiting_steps, taken_back, many_variables,
-                 read_tables, histories, pictures, own_words, demos)])
+                 read_tables, histories, pictures, own_words, demos, published)])
