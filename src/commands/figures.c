@@ -52,7 +52,7 @@ static const figure figures[] = {
      .without_c0 = "z against E(z)/E0 for z = 0 mm .. 1 mm flip y xrange 0 .. 2.5"},
     {.name = "regimes",
      .title = "running conditions",
-     .summary = "stick, partial and gross slip: for dxA = .. for FN = ..",
+     .summary = "stick (of flat ends alone), partial and gross slip: for dxA = .. for FN = ..",
      .takes = "RANGE LOOK [frames N:1000] [to FILE]",
      .build = figure_regimes},
     {.name = "accuracy",
@@ -253,8 +253,6 @@ static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const
     for (int i = 0; ok && i < REGIONS; i++)
         ok = add_region(&drawn, p, i, lx->error);
     const bool sticks = p->words && !strcmp(p->word[0].text, regions[STICK].name);
-    if (ok && !sticks)
-        shell_note(sh, "this contact sticks as a whole at no amplitude: its rim slips at once");
     for (int i = sticks ? STICK : HALF; ok && i < BORDERS; i++)
         ok = add_border(&drawn, p, i, lx->error);
     free(drawn.row);

@@ -58,6 +58,23 @@ def forms(tests):
     tex(tests, where)
 
 
+def captions(tests):
+    """The scene and the program below a figure, in pictures of all kinds and in the terminal."""
+    where = folder(tests, "captions")
+    plots = "set plot caption on\nplot loop | pressure to a.%s\nplot map dWd(d) for FN = 1 N .. 2 N for d = 1 um .. 2 um to m.%s\n"
+    done = tests.run("-c", SCENE + "".join(plots % (e, e) for e in ENDINGS if e != "gif") + "plot pressure", cwd=where)
+    line = re.compile(r"material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4\npress FN=100 N; cycle FA=38 N; fret [0-9.]+\n$")
+    tests.check("a caption in the terminal", done.returncode == 0 and line.search(done.stdout), tests.report(done))
+    for name in ("a", "m"):
+        lines = texts(read(os.path.join(where, name + ".svg")))
+        tests.check("a caption in " + name, all(word in lines for word in ("geometry sphere R=10 mm", "cycle FA=38 N", "fret 0.")), lines[-400:])
+        head = read(os.path.join(where, name + ".png"))[16:24]
+        tests.check("room for it in " + name, struct.unpack(">II", head)[1] > 675, str(head))
+    done = tests.run("--format=json", "-c", SCENE + "set plot caption on; plot loop", cwd=where)
+    tests.check("a caption in JSON", done.returncode == 0 and done.stdout.count("\n") == 3 and "cycle FA=38 N; fret" in done.stdout.splitlines()[-1],
+                tests.report(done))
+
+
 def tex(tests, where):
     if not shutil.which("pdflatex"):
         return
@@ -222,4 +239,4 @@ def foreign_terminal(tests):
 
 
 def run(tests):
-    tests.each([lambda one=one: one(tests) for one in (forms, points, names, targets, stopped, messages, foreign_terminal)])
+    tests.each([lambda one=one: one(tests) for one in (forms, captions, points, names, targets, stopped, messages, foreign_terminal)])
