@@ -8,7 +8,6 @@
 
 #include "commands/accuracy_command.h"
 #include "commands/range.h"
-#include "number/array.h"
 #include "statement/command.h"
 
 static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
@@ -88,180 +87,169 @@ const grammar *figure_form(size_t i) {
 
 /* ---- running conditions ------------------------------------------------------------------------- */
 
-/* The amplitude where so much still sticks, over the other name: delta = mu eta (g(a) - g(c)). At c = a a
- * flat end has a jump of g, and so a range where all sticks. */
-static const struct {
-    const char *amplitude, *title;
-    bool thin;
-} borders[] = {{"mu*eta*(dz - g(a))", "c = a", false},
-               {"mu*eta*(dz - g(a/2))", "c = a/2", true},
-               {"dxmax", "c = 0", false}};
-enum { STICK, HALF, GROSS, BORDERS };
+/* Amplitudes over the other name where c still sticks: delta = mu eta (g(a) - g(c)). Up to the first all
+ * does: at c = a a flat end has a jump of g, and other shapes nothing. */
+enum { STICK, HALF, GROSS, BORDERS, PLACES = 200 };
+static const char *const borders[] = {"mu*eta*(dz - g(a))", "mu*eta*(dz - g(a/2))", "dxmax"};
+static const char *const titles[] = {"c = a", "c = a/2", "c = 0"};
 
-/* Of a region the left border and the right one; past the last the end of the amplitudes. */
+/* Between two borders, or the ends; in blue, yellow and gray, which the colour-blind tell apart. */
 static const struct {
     const char *name;
-    int left, right, style; /* blue, yellow and gray, which the colour-blind tell apart */
+    int from, to, style;
 } regions[] = {{"stick", -1, STICK, 0}, {"partial slip", STICK, GROSS, 4}, {"gross slip", GROSS, BORDERS, 6}};
 enum { REGIONS = sizeof regions / sizeof *regions };
 
 typedef struct regimes {
-    size_t count, room;
-    double (*row)[1 + BORDERS]; /* the other name, then the amplitudes */
-    double lo, hi;              /* of amplitudes */
-    bool across;                /* these are the ordinate */
-    bool log;
+    plot_panel *p;
+    sweep_range ends;         /* of amplitudes */
+    bool across, log;         /* they are the ordinate; in ratios */
+    size_t count;             /* so far */
+    double other[PLACES + 1]; /* the other name, */
+    double amplitude[BORDERS][PLACES + 1];
+    calc_error *error;
 } regimes;
 
 static bool take_borders(void *context, const sweep *s, size_t curve, long double x,
                          const long double *values) {
     regimes *r = context;
-    double(*grown)[1 + BORDERS] = fret_array_for(r->row, &r->room, r->count + 1, sizeof *r->row);
     (void)s, (void)curve;
-    if (!grown)
-        return false;
-    r->row = grown;
-    r->row[r->count][0] = (double)x;
+    r->other[r->count] = (double)x;
     for (int i = 0; i < BORDERS; i++)
-        r->row[r->count][1 + i] = (double)values[i];
+        r->amplitude[i][r->count] = (double)values[i];
     r->count++;
     return true;
 }
 
-static double amplitude_at(const regimes *r, size_t i, int border) {
-    const double at = border < 0 ? r->lo : border == BORDERS ? r->hi : r->row[i][1 + border];
-    return fmin(fmax(at, r->lo), r->hi);
+/* At a border or an end, within the ends. */
+static double amplitude_at(const regimes *r, int border, size_t i) {
+    const double lo = (double)r->ends.lo, hi = (double)r->ends.hi;
+    return border < 0 ? lo : border == BORDERS ? hi : fmin(fmax(r->amplitude[border][i], lo), hi);
 }
 
-static bool add_place(const regimes *r, plot_series *s, size_t i, double amplitude) {
-    const double other = r->row[i][0];
-    return plot_point(s, r->across ? other : amplitude, r->across ? amplitude : other);
+static bool add_place(const regimes *r, plot_series *s, double amplitude, size_t i) {
+    return plot_point(s, r->across ? r->other[i] : amplitude, r->across ? amplitude : r->other[i]) ||
+           calc_no_memory(r->error);
 }
 
+/* Where an amplitude lies along its axis, 0 to 1. */
 static double part_of(const regimes *r, double amplitude) {
-    return r->log ? log(amplitude / r->lo) / log(r->hi / r->lo) : (amplitude - r->lo) / (r->hi - r->lo);
+    const double lo = (double)r->ends.lo, hi = (double)r->ends.hi;
+    return r->log ? log(amplitude / lo) / log(hi / lo) : (amplitude - lo) / (hi - lo);
 }
 
 /* The area, and its name where it is widest. */
-static bool add_region(const regimes *r, plot_panel *p, int region, calc_error *error) {
-    const int left = regions[region].left, right = regions[region].right;
+static bool add_region(const regimes *r, int region) {
+    const int from = regions[region].from, to = regions[region].to;
     double widest = 0.01, at[2] = {0, 0};
-    for (size_t i = r->count / 8; i < r->count - r->count / 8; i++) {
-        const double from = part_of(r, amplitude_at(r, i, left)), to = part_of(r, amplitude_at(r, i, right));
-        if (to - from > 1.001 * widest) {
-            widest = to - from;
-            at[0] = (from + to) / 2;
-            at[1] = (double)i / (double)(r->count - 1);
-        }
+    for (size_t i = PLACES / 8; i <= PLACES - PLACES / 8; i++) {
+        const double lo = part_of(r, amplitude_at(r, from, i)), hi = part_of(r, amplitude_at(r, to, i));
+        if (!(hi - lo > 1.001 * widest))
+            continue;
+        widest = hi - lo;
+        at[r->across] = (lo + hi) / 2;
+        at[!r->across] = (double)i / PLACES;
     }
     if (widest <= 0.01)
         return true;
-    plot_series *s = plot_series_add(p, PLOT_BAND, NULL, error);
+    plot_series *s = plot_series_add(r->p, PLOT_BAND, NULL, r->error);
     bool ok = s != NULL;
-    for (size_t i = 0; ok && i < r->count; i++)
-        ok = add_place(r, s, i, amplitude_at(r, i, left));
-    for (size_t i = r->count; ok && i > 0; i--)
-        ok = add_place(r, s, i - 1, amplitude_at(r, i - 1, right));
+    for (size_t i = 0; ok && i <= 2 * PLACES + 1; i++) /* there and back */
+        ok = i <= PLACES ? add_place(r, s, amplitude_at(r, from, i), i)
+                         : add_place(r, s, amplitude_at(r, to, 2 * PLACES + 1 - i), 2 * PLACES + 1 - i);
     if (!ok)
-        return calc_no_memory(error);
+        return false;
     s->style = regions[region].style;
-    p->word[p->words].text = regions[region].name;
-    for (int axis = 0; axis < 2; axis++) {
-        const double part = at[r->across ? !axis : axis];
-        p->word[p->words].at[axis] = (axis ? p->flipy : p->flipx) ? 1 - part : part;
-    }
-    p->words++;
+    plot_word *word = &r->p->word[r->p->words++];
+    *word =
+        (plot_word){regions[region].name, {r->p->flipx ? 1 - at[0] : at[0], r->p->flipy ? 1 - at[1] : at[1]}};
     return true;
 }
 
-static bool add_border(const regimes *r, plot_panel *p, int border, calc_error *error) {
-    plot_series *s = plot_series_add(p, PLOT_CURVE, borders[border].title, error);
-    if (!s)
-        return false;
-    s->thin = borders[border].thin;
-    for (size_t i = 0; i < r->count; i++)
-        if (!add_place(r, s, i, r->row[i][1 + border]))
-            return calc_no_memory(error);
+static bool draw_regimes(const regimes *r) {
+    for (int i = 0; i < REGIONS; i++)
+        if (!add_region(r, i))
+            return false;
+    const bool sticks = r->p->words && r->p->word[0].text == regions[STICK].name;
+    for (int i = sticks ? STICK : HALF; i < BORDERS; i++) {
+        plot_series *s = plot_series_add(r->p, PLOT_CURVE, titles[i], r->error);
+        if (s)
+            s->thin = i == HALF;
+        for (size_t j = 0; j <= PLACES; j++)
+            if (!s || !add_place(r, s, r->amplitude[i][j], j))
+                return false;
+    }
     return true;
 }
 
 /* Places in the formulas mean nothing in the statement. */
-static bool run_borders(shell *sh, range *over, regimes *r, calc_error *error) {
-    column columns[BORDERS];
+static bool run_borders(shell *sh, range *over, regimes *r) {
+    const column columns[BORDERS] = {{.scale = 1}, {.scale = 1}, {.scale = 1}};
     calc_error mine;
     found f;
     bool ok = true;
     error_clear(&mine);
     for (int i = 0; i < BORDERS && ok; i++) {
         lexer lx;
-        lex_start(&lx, borders[i].amplitude, strlen(borders[i].amplitude), &mine);
-        columns[i] = (column){.scale = 1};
+        lex_start(&lx, borders[i], strlen(borders[i]), &mine);
         ok = expr_parse(&sh->calc, &lx, &sh->list[i]);
     }
-    over->sweep.refine = !over->sweep.steps;
-    over->sweep.steps = over->sweep.steps ? over->sweep.steps : 100;
+    over->sweep.steps = PLACES;
     sweep_job job = range_job(sh, columns, BORDERS, &f, take_borders, r, &mine);
     ok = ok && sweep_run(&over->sweep, &job);
     if (ok)
         note_missing(sh, &job);
-    if (mine.raised)
-        calc_fail(error, 0, 0, "%s", mine.text);
-    return ok || calc_no_memory(error);
-}
-
-static bool is_amplitude(const lexer *lx, const heard *by) {
-    const lexer name = hole_lexer(lx, &by->hole[0]);
-    return lex_is(&name, "dxA");
+    if (mine.raised) {
+        *r->error = mine;
+        r->error->at = r->error->len = 0;
+    }
+    return ok;
 }
 
 /* An axis with its ends: the points come in SI. */
-static bool finish_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const knob *k,
+static bool finish_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
                         const sweep_range *ends) {
-    const axis_of axis = {k->text, k->d};
-    const axis_unit u = axis_unit_for(NULL, k->d, fmax(fabs((double)ends->lo), fabs((double)ends->hi)));
+    const axis_unit u = axis_unit_for(NULL, axis->d, fmax(fabs((double)ends->lo), fabs((double)ends->hi)));
     looks_divide(p, x_axis, u.scale);
     *(x_axis ? &p->xlo : &p->ylo) = (double)(ends->lo / u.scale);
     *(x_axis ? &p->xhi : &p->yhi) = (double)(ends->hi / u.scale);
-    return looks_axis(lx, l, p, x_axis, &axis, &u);
+    return looks_axis(lx, l, p, x_axis, axis, &u);
 }
 
 /* Where all sticks, its rim slips, or all slips, over the amplitude of displacement and an input. */
 static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     range r[2];
     sweep_range ends[2] = {{.lo = 0}, {.lo = 0}};
-    const heard *first = said_of(all, "for", 0), *second = said_of(all, "for", 1);
-    if (!first || !second || said_of(all, "for", 2) || said_of(all, "with", 0) || said_of(all, "along", 0) ||
-        is_amplitude(lx, first) == is_amplitude(lx, second))
+    axis_of axis[2];
+    bool amplitude[2] = {false, false};
+    for (size_t i = 0; i < 2 && said_of(all, "for", i); i++) {
+        const lexer name = hole_lexer(lx, &said_of(all, "for", i)->hole[0]);
+        amplitude[i] = lex_is(&name, "dxA");
+    }
+    if (amplitude[0] == amplitude[1] || !said_of(all, "for", 1) || said_of(all, "for", 2) ||
+        said_of(all, "with", 0) || said_of(all, "along", 0) || said_of(all, "steps", 0))
         return calc_fail(lx->error, 0, 0,
                          "regimes go for dxA = LO .. HI for NAME = LO .. HI, such as for FN = 1 N .. 9 N");
-    const bool across = is_amplitude(lx, second);
-    for (size_t i = 0; i < 2; i++)
-        if (!range_read_name(sh, lx, all, i, i != across, &r[i]) ||
-            !range_options(sh, lx, all, i, &r[i], 0) || !r[i].sweep.range(&r[i].sweep, &ends[i], lx->error))
+    for (size_t i = 0; i < 2; i++) {
+        sweep *s = &r[i].sweep;
+        if (!range_read_name(sh, lx, all, i, !amplitude[i], &r[i]) ||
+            !range_options(sh, lx, all, i, &r[i], 0) || !s->range(s, &ends[i], lx->error))
             return false;
-    for (size_t i = 0; i < 2; i++)
         if (!(ends[i].lo < ends[i].hi))
             return calc_fail(lx->error, r[i].own.at, r[i].own.end - r[i].own.at,
                              "an empty range: LO must be below HI");
+        axis[i] = (axis_of){s->var.text, s->var.d};
+    }
     p->logx = p->logx || r[0].sweep.log;
     p->logy = p->logy || r[1].sweep.log;
-    regimes drawn = {.across = across,
-                     .lo = (double)ends[across].lo,
-                     .hi = (double)ends[across].hi,
-                     .log = across ? p->logy : p->logx};
-    bool ok = run_borders(sh, &r[!across], &drawn, lx->error);
-    for (int i = 0; ok && i < REGIONS; i++)
-        ok = add_region(&drawn, p, i, lx->error);
-    const bool sticks = p->words && !strcmp(p->word[0].text, regions[STICK].name);
-    for (int i = sticks ? STICK : HALF; ok && i < BORDERS; i++)
-        ok = add_border(&drawn, p, i, lx->error);
-    free(drawn.row);
-    const axis_of x = {r[0].sweep.var.text, r[0].sweep.var.d}, y = {r[1].sweep.var.text, r[1].sweep.var.d};
+    regimes drawn = {.p = p, .ends = ends[amplitude[1]], .across = amplitude[1], .error = lx->error};
+    drawn.log = drawn.across ? p->logy : p->logx;
     p->title = p->title ? p->title : strdup("running conditions");
-    if (ok && !p->title)
+    if (!p->title)
         return calc_no_memory(lx->error);
-    return ok && looks_lay_over(lx, l, p, &x, &y) && finish_axis(lx, l, p, true, &r[0].sweep.var, &ends[0]) &&
-           finish_axis(lx, l, p, false, &r[1].sweep.var, &ends[1]);
+    return run_borders(sh, &r[amplitude[0]], &drawn) && draw_regimes(&drawn) &&
+           looks_lay_over(lx, l, p, &axis[0], &axis[1]) && finish_axis(lx, l, p, true, &axis[0], &ends[0]) &&
+           finish_axis(lx, l, p, false, &axis[1], &ends[1]);
 }
 
 /* Error against time, one curve a model. */

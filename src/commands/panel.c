@@ -37,10 +37,9 @@ typedef struct panel_job {
     bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
     double last[PLOTTED][2];
     found found;
-    const file_rows *over;       /* residuals of the file whose rows it goes over; or NULL */
-    const csv_values *residuals; /* its column for them; NULL: not looked for yet */
-    long double squares;
-    size_t rows, counted; /* that have come; finite residuals */
+    const file_rows *over; /* residuals of the file whose rows it goes over; or NULL */
+    comparison residuals;
+    size_t rows; /* of it that have come */
 } panel_job;
 
 /* c curve, t thin line, b an edge of a band, of two; s a curve told apart where it is at the bounds that
@@ -170,20 +169,16 @@ static bool is_over(const panel_job *job, const sweep *s, long double time) {
 /* What is measured less what the expressions say. */
 static bool subtract(panel_job *job, const long double *values, long double *left) {
     const axis_of axis = {job->columns[0].name, job->found.d[0]};
-    const size_t rows = job->over->data.rows;
-    if (!job->residuals)
-        job->residuals = rows_compared(job->over, &axis, true, job->error);
-    if (!job->residuals)
-        return job->error->raised ||
-               calc_fail(job->error, 0, 0, "no column of %.200s is as %s, to be compared",
-                         job->over->data.path, axis.name);
-    for (size_t i = 0; i < job->count; i++) {
-        left[i] = job->residuals->v[job->rows % rows] - values[i];
-        if (isfinite(left[i])) {
-            job->squares += left[i] * left[i];
-            job->counted++;
-        }
-    }
+    comparison *c = &job->residuals;
+    if (!c->with)
+        c->with = rows_compared(job->over, &axis, true, job->error);
+    if (!c->with)
+        return job->error->raised
+                   ? false
+                   : calc_fail(job->error, 0, 0, "no column of %.200s is as %s, to be compared",
+                               job->over->data.path, axis.name);
+    for (size_t i = 0; i < job->count; i++)
+        left[i] = rows_differ(c, job->rows % job->over->data.rows, values[i]);
     job->rows++;
     return true;
 }
@@ -290,12 +285,11 @@ static bool scale_axis(panel_job *job, lexer *lx, bool x_axis, const column *c, 
 
 /* The ordinate, and where there is no title their root mean square. */
 static bool name_residuals(panel_job *job, dim d, char name[TITLE]) {
+    const comparison *c = &job->residuals;
     char rms[NUMBER_TEXT + COLUMN_UNIT], title[200];
-    const long double mean = sqrtl(job->squares / (long double)(job->counted ? job->counted : 1));
-    snprintf(name, TITLE, "file %s - %.300s", job->residuals->name,
-             job->count > 1 ? "EXPR" : job->columns[0].name);
-    format_value(&job->sh->set, (value){mean, d}, rms, sizeof rms);
-    snprintf(title, sizeof title, "rms = %s over %zu rows", rms, job->counted);
+    snprintf(name, TITLE, "file %s - %.300s", c->with->name, job->columns[0].name);
+    format_value(&job->sh->set, (value){rows_rms(c), d}, rms, sizeof rms);
+    snprintf(title, sizeof title, "rms = %s over %zu rows", rms, c->rows);
     job->p->title = job->p->title ? job->p->title : strdup(title);
     return job->p->title || calc_no_memory(job->error);
 }

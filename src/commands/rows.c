@@ -2,6 +2,7 @@
 /* Reads the files of `at FILE` and of fits. Names become known; else touches nothing. */
 #include "commands/rows.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- columns ----------------------------------------------------------------------------------- */
@@ -160,4 +161,22 @@ const csv_values *rows_compared(const file_rows *r, const axis_of *expression, b
         for (size_t j = 0; j < r->at.names; j++)
             taken[i] = taken[i] || r->data.column[i].v == r->at.column[j].v;
     return looks_column(&r->data, expression, taken, error);
+}
+
+long double rows_differ(comparison *c, size_t row, long double ours) {
+    const long double theirs = c->with->v[row], difference = theirs - ours;
+    if (!isfinite(difference))
+        return difference;
+    c->rows++;
+    c->squares += difference * difference;
+    c->largest = fmaxl(c->largest, fabsl(theirs));
+    if (fabsl(difference) >= fabsl(c->worst)) {
+        c->worst = difference;
+        c->worst_row = row;
+    }
+    return difference;
+}
+
+long double rows_rms(const comparison *c) {
+    return sqrtl(c->squares / (long double)c->rows);
 }

@@ -36,6 +36,18 @@ void rows_close(file_rows *r);
 bool rows_range(shell *sh, const lexer *lx, said *all, file_rows *r, size_t count, sweep *out);
 /* The rows of a file over a range of one name, which it has a column for. */
 bool rows_over(const lexer *lx, const span *file, sweep *over, file_rows *out);
+/* An expression against a column of the file. */
+typedef struct comparison {
+    const csv_values *with; /* NULL: there is nothing to compare */
+    size_t of;              /* the expression */
+    size_t rows, worst_row;
+    long double squares, worst, largest; /* of differences; the largest value of the column */
+} comparison;
+
+/* What the file has in that row more than `ours`. */
+long double rows_differ(comparison *c, size_t row, long double ours);
+/* The root mean square; NaN: there is no difference. */
+long double rows_rms(const comparison *c);
 /* What an expression is to be compared with, or NULL: the column of its name, else, of an expression that is
  * alone in its dimension, the only one of that which is not used and has not the name of another quantity. */
 const csv_values *rows_compared(const file_rows *r, const axis_of *expression, bool alone, calc_error *error);

@@ -57,14 +57,6 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
 
 /* ---- table ------------------------------------------------------------------------------------- */
 
-/* An expression against a column of the file whose rows it goes over. */
-typedef struct comparison {
-    const csv_values *with;
-    size_t of; /* the expression */
-    size_t count, worst_row;
-    long double squares, worst, largest; /* differences, and the largest value of the column */
-} comparison;
-
 typedef struct table_job {
     answer a;
     column columns[COLUMNS]; /* the sweep's own, then those of the expressions */
@@ -92,33 +84,29 @@ static void begin_columns(table_job *job) {
     }
 }
 
-/* A column that looks as that of the expression. */
-static bool add_column(table_job *job, const column *like, const char *before, const char *with,
-                       const char *minus) {
-    char name[400];
-    snprintf(name, sizeof name, "%s%s%s%.200s", before, with, *minus ? " - " : "", minus);
-    column *c = &job->columns[job->first + job->count + job->shown++];
-    *c = *like;
-    c->name = column_name(name, strlen(name));
-    return c->name || calc_no_memory(job->error);
-}
-
 /* Two columns behind those of the expressions for each that the file has something to compare with. */
 static bool compare_columns(table_job *job) {
+    column *next = &job->columns[job->first + job->count];
     for (size_t i = 0; job->at && i < job->count; i++) {
         const column *own = &job->columns[job->first + i];
+        char name[2][400];
         bool alone = true;
         for (size_t j = 0; j < job->count; j++)
             alone = alone && (j == i || !dim_equal(own->d, job->columns[job->first + j].d));
         const csv_values *with = rows_compared(job->at, &(axis_of){own->name, own->d}, alone, job->error);
         if (job->error->raised)
             return false;
-        if (!with || job->first + job->count + job->shown + 2 > COLUMNS)
+        if (!with)
             continue;
         job->compared[job->comparisons++] = (comparison){.with = with, .of = i};
-        if (!add_column(job, own, "file ", with->name, "") ||
-            !add_column(job, own, "file ", with->name, own->name))
-            return false;
+        snprintf(name[0], sizeof name[0], "file %s", with->name);
+        snprintf(name[1], sizeof name[1], "file %s - %.200s", with->name, own->name);
+        for (int j = 0; j < 2; j++, job->shown++, next++) {
+            *next = *own;
+            next->name = column_name(name[j], strlen(name[j]));
+            if (!next->name)
+                return calc_no_memory(job->error);
+        }
     }
     return true;
 }
@@ -140,20 +128,11 @@ static void give_compared(table_job *job, const long double *values, long double
     const size_t r = job->rows % job->at->data.rows;
     for (size_t i = 0; i < at->names; i++)
         row[i] = at->column[i].v[r];
-    long double *next = row + job->first + job->count;
-    for (comparison *c = job->compared; c < job->compared + job->comparisons; c++) {
-        const long double theirs = c->with->v[r], difference = theirs - values[c->of];
-        *next++ = theirs;
-        *next++ = difference;
-        if (!isfinite(difference))
-            continue;
-        c->count++;
-        c->squares += difference * difference;
-        c->largest = fmaxl(c->largest, fabsl(theirs));
-        if (fabsl(difference) >= fabsl(c->worst)) {
-            c->worst = difference;
-            c->worst_row = r;
-        }
+    for (size_t i = 0; i < job->comparisons; i++) {
+        comparison *c = &job->compared[i];
+        long double *to = row + job->first + job->count + 2 * i;
+        to[0] = c->with->v[r];
+        to[1] = rows_differ(c, r, values[c->of]);
     }
 }
 
@@ -200,28 +179,26 @@ static void say_compared(shell *sh, const table_job *job) {
     answer a;
     answer_begin(&a, &sh->set, sh->out);
     for (const comparison *c = job->compared; c < job->compared + job->comparisons; c++) {
-        char rms[NUMBER_TEXT + COLUMN_UNIT], worst[NUMBER_TEXT + COLUMN_UNIT], part[40] = "";
-        const char *name = job->columns[job->first + c->of].name;
-        const long double mean = c->count ? sqrtl(c->squares / (long double)c->count) : (long double)NAN;
-        const dim d = job->columns[job->first + c->of].d;
+        char text[2][NUMBER_TEXT + COLUMN_UNIT];
+        const column *own = &job->columns[job->first + c->of];
+        const long double rms = rows_rms(c);
+        const size_t line = job->at->data.line[c->worst_row];
         answer_event(&a, "compare");
-        answer_string(&a, "name", name);
+        answer_string(&a, "name", own->name);
         answer_string(&a, "column", c->with->name);
-        answer_number(&a, "rows", (double)c->count);
-        answer_number(&a, "rms", (double)mean);
+        answer_number(&a, "rows", (double)c->rows);
+        answer_number(&a, "rms", (double)rms);
         answer_number(&a, "worst", (double)c->worst);
         answer_number(&a, "row", (double)c->worst_row + 1);
-        answer_number(&a, "line", (double)job->at->data.line[c->worst_row]);
+        answer_number(&a, "line", (double)line);
         answer_done(&a);
-        if (!c->count)
-            continue;
-        format_value(&sh->set, (value){mean, d}, rms, sizeof rms);
-        format_value(&sh->set, (value){c->worst, d}, worst, sizeof worst);
-        if (c->largest > 0)
-            snprintf(part, sizeof part, " (%.3Lg %% of the largest)", 100 * mean / c->largest);
-        answer_words(&a, "file %s - %s: rms = %s%s over %zu rows, worst = %s in row %zu (line %zu)\n",
-                     c->with->name, name, rms, part, c->count, worst, c->worst_row + 1,
-                     job->at->data.line[c->worst_row]);
+        format_value(&sh->set, (value){rms, own->d}, text[0], sizeof text[0]);
+        format_value(&sh->set, (value){c->worst, own->d}, text[1], sizeof text[1]);
+        answer_words(&a,
+                     "file %s - %s: rms = %s (%.3Lg %% of the largest) over %zu rows, worst = %s in row %zu "
+                     "(line %zu)\n",
+                     c->with->name, own->name, text[0], c->largest > 0 ? 100 * rms / c->largest : 0, c->rows,
+                     text[1], c->worst_row + 1, line);
     }
     answer_end(&a, true);
 }
@@ -289,7 +266,7 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
     const knob *second = g ? &g->b.var : s->curves ? &s->with : NULL;
     job->first = (at ? at->at.names : 1) + (second != NULL);
     job->at = at;
-    if (job->first + count > COLUMNS) {
+    if (job->first + (at ? 3 : 1) * count > COLUMNS) {
         free(job);
         return target_close(sh, lx, &to, calc_fail(lx->error, 0, 0, "more than %d columns", COLUMNS));
     }

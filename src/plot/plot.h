@@ -81,6 +81,12 @@ typedef struct plot_map {
     char *label;       /* of z */
 } plot_map;
 
+/* Within the frame: its middle in parts of it, from the lower left. */
+typedef struct plot_word {
+    const char *text;
+    double at[2];
+} plot_word;
+
 typedef struct plot_panel {
     char *title, *xlabel, *ylabel; /* owned; NULL: none */
     double xlo, xhi, ylo, yhi;     /* limits; NaN: from the points */
@@ -89,10 +95,7 @@ typedef struct plot_panel {
     bool points; /* marked on the lines */
     bool airy;   /* room around the points along x, too; else curves that are graphs over x fill its axis */
     plot_map map;
-    struct {
-        const char *text;
-        double at[2]; /* its middle, in parts of the frame from the lower left */
-    } word[PLOT_WORDS];
+    plot_word word[PLOT_WORDS];
     size_t words;
     size_t count;
     plot_series *series[PLOT_CURVES];
