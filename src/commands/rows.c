@@ -154,13 +154,13 @@ bool rows_over(const lexer *lx, const span *file, sweep *over, file_rows *out) {
 
 const csv_values *rows_compared(const file_rows *r, const axis_of *expression, bool alone,
                                 calc_error *error) {
-    bool taken[CSV_COLUMNS];
-    for (size_t i = 0; i < r->data.columns; i++)
-        taken[i] = !alone;
+    bool used[CSV_COLUMNS] = {false}, all[CSV_COLUMNS];
+    memset(all, true, sizeof all);
     for (size_t i = 0; i < r->data.columns; i++)
         for (size_t j = 0; j < r->at.names; j++)
-            taken[i] = taken[i] || r->data.column[i].v == r->at.column[j].v;
-    return looks_column(&r->data, expression, taken, error);
+            used[i] = used[i] || r->data.column[i].v == r->at.column[j].v;
+    const csv_values *found = looks_column(&r->data, expression, alone ? used : all, error);
+    return found && !used[found - r->data.column] ? found : NULL;
 }
 
 long double rows_differ(comparison *c, size_t row, long double ours) {

@@ -289,6 +289,7 @@ static void set_caption(scribe *s) {
         lines += *p == '\n';
     for (const char *p = s->caption, *end; !s->panel && (end = strchr(p, '\n')); p = end + 1) {
         char *text = strndup(p, (size_t)(end - p));
+        s->lost |= !text;
         fputs("set label ", s->to);
         quoted(s, text);
         fprintf(s->to, " at screen 0.02,%.4g left%s\n", s->foot * (1 - (line++ + 0.5) / lines),
