@@ -10,6 +10,7 @@
 
 #include "commands/study_commands.h"
 #include "help/manual.h"
+#include "prompt/show.h"
 #include "statement/command.h"
 #include "statement/output.h"
 #include "statement/record.h"
@@ -338,6 +339,7 @@ int main(int argc, char **argv) {
         setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     command_use(commands, holes);
     shell_init(&sh, stdout, stderr);
+    sh.write_scene = scene_write;
     int status = read_options(argc, argv, &w, &sh);
     set_signals();
     if (status == EXIT_OK && !w.done)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "prompt/show.h"
 #include "statement/output.h"
 #include "statement/record.h"
 #include "statement/text.h"
@@ -325,6 +326,7 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
     }
     replay r = {.tolerance = tolerance, .path = path, .out = t.to};
     shell_init(&r.sh, out, out);
+    r.sh.write_scene = scene_write;
     r.sh.replaying = true;
     nesting++;
     file_keep(in.fd, true);

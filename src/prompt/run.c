@@ -9,7 +9,6 @@
 
 #include "commands/expressions.h"
 #include "help/help.h"
-#include "prompt/show.h"
 #include "statement/command.h"
 #include "statement/cursor.h"
 #include "statement/progress.h"
@@ -19,7 +18,7 @@
 #include "text/lines.h"
 
 void shell_init(shell *sh, FILE *out, FILE *err) {
-    *sh = (shell){.out = out, .err = err, .set = settings_initial, .write_scene = scene_write};
+    *sh = (shell){.out = out, .err = err, .set = settings_initial};
     calc_init(&sh->calc, &shell_stop);
     sh->calc.keyword = argument_word;
     sh->calc.scene.pulse = progress_pulse;
