@@ -38,8 +38,8 @@ static bool set_plot(shell *sh, lexer *lx, const said *all) {
         if (sscanf(text, "%4dx%4d%n", &width, &height, &used) != 2 || (size_t)used != len ||
             width < LEAST_WIDTH || height < LEAST_HEIGHT)
             return calc_fail(lx->error, h->hole[0].at, len,
-                             "expected a size such as 80x24 (at least %dx%d), auto, terminal or caption", LEAST_WIDTH,
-                             LEAST_HEIGHT);
+                             "expected a size such as 80x24 (at least %dx%d), auto, terminal or caption",
+                             LEAST_WIDTH, LEAST_HEIGHT);
     }
     sh->set.plot_width = width;
     sh->set.plot_height = height;

@@ -19,7 +19,7 @@ typedef struct settings {
     int pager;
     bool pages;                  /* there is a terminal to page on */
     int plot_width, plot_height; /* 0: the terminal's, or the picture's default */
-    int plot_caption; /* scene and load below figures */
+    int plot_caption;            /* scene and load below figures */
 } settings;
 
 #endif

@@ -421,7 +421,7 @@ def no_room(tests):
     with open(os.path.join(where, "r"), encoding="ascii") as f:
         text = f.read()
     again = tests.run("--replay", "r", cwd=where)
-    tests.check("long lines, and a last one without an answer", text.startswith("fret> 1 + 1 # %s\n1 + 1 = 2\n" % ("x" * 1500)) and
+    tests.check("long lines, and a last one without an answer", text.partition("\n")[2].startswith("fret> 1 + 1 # %s\n1 + 1 = 2\n" % ("x" * 1500)) and
                 text.endswith("\nfret> mu = 0.3\n") and again.returncode == 0, text + tests.report(done))
     os.mkfifo(os.path.join(where, "pipe"))
     done = tests.run("-c", "record pipe; 1", cwd=where)
