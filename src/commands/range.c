@@ -30,13 +30,15 @@ static bool is_plain(dim d) {
 static bool read_bound(calc *c, lexer *lx, const knob *var, bounds *b, long double *out) {
     value v;
     const size_t at = lx->at;
-    if (!expr_value(c, lx, &v))
+    if (var->is_input)
+        b->d = quantity_dim(quantity_of_input(var->in), c->now);
+    if (!expr_value_as(c, lx, var->is_input || (b->known && !is_plain(b->d)) ? &b->d : NULL, &v))
         return false;
     const size_t len = lx->last - at;
     *out = v.v;
     if (var->is_input)
-        b->d = quantity_dim(quantity_of_input(var->in), c->now);
-    else if (b->known && is_plain(b->d) && !is_plain(v.d))
+        return value_dim(lx, var->text, at, len, v, b->d);
+    if (b->known && is_plain(b->d) && !is_plain(v.d))
         return value_dim(lx, var->text, b->at, b->len, b->v, v.d); /* 1 .. 3 mm */
     else if (!b->known)
         *b = (bounds){v.d, v.v != 0 || !is_plain(v.d), v, at, len};

@@ -53,7 +53,7 @@ const char *name_taken(const char *name, size_t len) {
     size_t i;
     if (quantity_find(name, len))
         return "a quantity";
-    if (unit_lookup(name, len, &u))
+    if (unit_lookup(name, len, &u) && !dim_equal(u.d, DIM_TIME))
         return "a unit";
     if (len == 3 && !memcmp(name, "ans", 3))
         return "the last value printed";

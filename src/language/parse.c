@@ -22,6 +22,7 @@ typedef struct parser {
     expr *e;
     const definition *within; /* its parameters are names */
     int depth;
+    bool bare; /* a unit behind the number at the cursor belongs to more than that */
 } parser;
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
@@ -95,7 +96,8 @@ static bool split_tail(parser *p, size_t first, expr *body) {
                    .room = count,
                    .argument_count = e->argument_count - arguments,
                    .argument_room = e->argument_count - arguments,
-                   .text = e->text};
+                   .text = e->text,
+                   .unclear = e->unclear};
     body->nodes = malloc(count * sizeof *body->nodes);
     body->arguments = body->argument_count ? malloc(body->argument_count * sizeof *body->arguments) : NULL;
     if (!body->nodes || (body->argument_count && !body->arguments))
@@ -238,6 +240,7 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
     lex_next(lx);
     if (!function) {
         node.kind = N_NUMBER;
+        node.index = 0;
         node.v = (value){3.14159265358979323846264338327950288L, DIM_NONE};
         return add_node(p, &node, out);
     }
@@ -342,7 +345,70 @@ static bool parse_name(parser *p, size_t *out) {
     return names_find(&p->c->names, word, len, &i) ? parse_own(p, i, out) : unknown_name(p);
 }
 
-/* ---- operators --------------------------------------------------------------------------------- */
+/* ---- numbers and units ------------------------------------------------------------------------- */
+
+/* Are the nodes from `first` on numbers without units? Most of those that are not end with one. */
+static bool numbers_alone(const parser *p, size_t first) {
+    const expr_node *n = p->e->nodes + p->e->count;
+    while (n-- > p->e->nodes + first)
+        if (n->kind == N_NUMBER ? n->index : n->kind != N_NEGATE && n->kind != N_BINARY && n->kind != N_BUILTIN)
+            return false;
+    return true;
+}
+
+/* `5 N*s` where s is a name: the user's, or the second? */
+static bool is_free_name(parser *p, size_t from) {
+    lexer *lx = p->lx, own = *lx;
+    size_t i;
+    unsigned j;
+    unit u;
+    own.end = lx->last;
+    for (lex_seek(&own, from); own.kind != T_END; lex_next(&own)) {
+        parser of = {.lx = &own, .within = p->within};
+        if (own.kind == T_NAME && own.at > from && unit_lookup(own.text + own.at, own.len, &u) &&
+            (find_parameter(&of, &j) || names_find(&p->c->names, own.text + own.at, own.len, &i)))
+            return !calc_fail(lx->error, own.at, own.len,
+                              "%.*s is a name here, and a unit: write its product with ( ), as (5 N)*%.*s or 5 "
+                              "N*(1 %.*s)",
+                              LEX_WORD(&own), LEX_WORD(&own), LEX_WORD(&own));
+    }
+    return false;
+}
+
+static bool read_unit(parser *p, unit *u) {
+    const size_t from = p->lx->at;
+    return unit_parse(p->lx, u) && (u->d.s == 0 || !is_free_name(p, from));
+}
+
+/* The unit at the cursor, and op of *out and that. */
+static bool add_unit(parser *p, char op, size_t at, size_t *out) {
+    expr_node node = {.kind = N_BINARY, .op = op, .at = at, .left = *out, .index = p->lx->at},
+              number = {.kind = N_NUMBER, .at = p->lx->at, .index = 1};
+    unit u;
+    if (!read_unit(p, &u))
+        return false;
+    number.v = (value){unit_scale(&u), u.d};
+    p->e->unclear = p->e->unclear || op == '?';
+    return add_node(p, &number, &node.right) && add_node(p, &node, out);
+}
+
+/* Behind a number that is no literal. */
+static bool unit_behind(parser *p, size_t at, size_t *out) {
+    return p->bare || !unit_at(p->lx) || add_unit(p, 'U', at, out);
+}
+
+/* `0.5 in`, and no unit behind it. */
+static bool means_inch(const parser *p) {
+    lexer next = *p->lx;
+    calc_error unused;
+    error_clear(&unused);
+    next.error = &unused;
+    if (!lex_is(&next, "in"))
+        return false;
+    lex_next(&next);
+    return next.kind != T_NAME || lex_is(&next, "in") || lex_is(&next, "at") || lex_peek(&next) == T_ASSIGN ||
+           (p->c->keyword && p->c->keyword(&next));
+}
 
 /* A value or a unit right behind a number, and no keyword or argument of a command. */
 static bool at_factor(const parser *p) {
@@ -375,8 +441,9 @@ static bool parse_number(parser *p, size_t *out) {
     node.v = (value){lx->number, DIM_NONE};
     unit u;
     lex_next(lx);
-    if (unit_at(lx)) {
-        if (!unit_parse(lx, &u))
+    if (!p->bare && unit_at(lx)) {
+        node.index = 1;
+        if (!read_unit(p, &u))
             return false;
         const bool zero = node.v.v == 0;
         node.v = (value){unit_literal(lx, at, len, &u), u.d};
@@ -386,7 +453,10 @@ static bool parse_number(parser *p, size_t *out) {
     }
     if (lx->error->raised)
         return false;
-    if (lx->kind == T_OPEN || (lx->kind == T_NAME && at_factor(p)))
+    if (means_inch(p))
+        return calc_fail(lx->error, lx->at, lx->len, "`in` asks for a unit: an inch is called inch (%.*s inch)",
+                         LEX_SHOWN(len), lx->text + at);
+    if (lx->kind == T_OPEN || (lx->kind == T_NAME && !(p->bare && unit_at(lx)) && at_factor(p)))
         return lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
     return add_node(p, &node, out);
 }
@@ -416,15 +486,16 @@ static bool no_unit(lexer *lx) {
 
 static bool parse_primary(parser *p, size_t *out) {
     lexer *lx = p->lx;
+    const size_t at = lx->at, first = p->e->count;
     if (lx->error->raised)
         return false;
     switch (lx->kind) {
     case T_NUMBER:
         return parse_number(p, out);
     case T_OPEN:
-        return parse_parenthesis(p, out) && no_unit(lx);
+        return parse_parenthesis(p, out) && unit_behind(p, at, out);
     case T_NAME:
-        return parse_name(p, out) && no_unit(lx);
+        return parse_name(p, out) && (numbers_alone(p, first) ? unit_behind(p, at, out) : no_unit(lx));
     case T_END:
         return lex_fail(lx, "expected a value here");
     default:
@@ -435,14 +506,24 @@ static bool parse_primary(parser *p, size_t *out) {
 static bool parse_unary(parser *p, size_t *out);
 
 static bool parse_power(parser *p, size_t *out) {
-    const size_t at = p->lx->at;
+    const size_t at = p->lx->at, first = p->e->count;
+    const bool bare = p->bare;
+    unit u;
     if (!parse_primary(p, out))
         return false;
     if (p->lx->kind != T_POWER)
         return true;
     expr_node node = {.kind = N_BINARY, .op = '^', .at = at, .left = *out};
     lex_next(p->lx);
-    return parse_unary(p, &node.right) && add_node(p, &node, out);
+    const size_t exponent = p->lx->at;
+    p->bare = true;
+    bool ok = parse_unary(p, &node.right);
+    p->bare = bare;
+    lexer ahead = *p->lx;
+    ahead.error = error_quiet();
+    if (ok && unit_at(&ahead) && unit_parse(&ahead, &u) && dim_equal(u.d, DIM_NONE)) /* 2^50 % */
+        ok = add_unit(p, 'U', exponent, &node.right);
+    return ok && add_node(p, &node, out) && (numbers_alone(p, first) ? unit_behind(p, at, out) : no_unit(p->lx));
 }
 
 static bool parse_unary(parser *p, size_t *out) {
@@ -463,14 +544,25 @@ static bool parse_unary(parser *p, size_t *out) {
     return ok;
 }
 
+/* Behind a division of numbers a unit may belong to the divisor, or to all of it. */
 static bool parse_product(parser *p, size_t *out) {
-    size_t at = p->lx->at;
+    size_t at = p->lx->at, seen = p->e->count;
+    bool numbers = true; /* the nodes before `seen` */
     if (!parse_unary(p, out))
         return false;
     while (p->lx->kind == T_TIMES || p->lx->kind == T_DIVIDE) {
-        expr_node node = {.kind = N_BINARY, .op = (char)p->lx->kind, .at = at, .left = *out};
+        expr_node node = {
+            .kind = N_BINARY, .op = (char)p->lx->kind, .at = at, .left = *out, .index = p->lx->at};
+        if (node.op == '/') {
+            p->bare = numbers = numbers && numbers_alone(p, seen);
+            seen = p->e->count;
+        }
         lex_next(p->lx);
-        if (!parse_unary(p, &node.right) || !add_node(p, &node, out))
+        bool ok = parse_unary(p, &node.right) && add_node(p, &node, out);
+        if (ok && p->bare && unit_at(p->lx))
+            ok = add_unit(p, '?', at, out);
+        p->bare = false;
+        if (!ok)
             return false;
     }
     return true;
@@ -478,6 +570,8 @@ static bool parse_product(parser *p, size_t *out) {
 
 static bool parse_sum(parser *p, size_t *out) {
     size_t at = p->lx->at;
+    const bool bare = p->bare;
+    p->bare = false;
     if (!parse_product(p, out))
         return false;
     while (p->lx->kind == T_PLUS || p->lx->kind == T_MINUS) {
@@ -486,6 +580,7 @@ static bool parse_sum(parser *p, size_t *out) {
         if (!parse_product(p, &node.right) || !add_node(p, &node, out))
             return false;
     }
+    p->bare = bare;
     return true;
 }
 
@@ -496,6 +591,7 @@ static bool parse_whole(parser *p) {
     expr *e = p->e;
     drop_ats(e);
     e->count = e->argument_count = 0;
+    e->unclear = false;
     e->text = p->lx->text;
     e->at = p->lx->at;
     if (!parse_sum(p, &root))

@@ -21,11 +21,11 @@ typedef enum node_kind {
 
 struct expr_node {
     unsigned char kind; /* node_kind */
-    char op;
+    char op; /* + - * / ^, U: a number and its unit, ?: one that may belong to the divisor alone */
     unsigned len;
     size_t at;          /* its place in the statement */
     size_t left, right; /* N_APPLY: first of the arguments, and how many */
-    size_t index;       /* of a name, parameter or builtin */
+    size_t index;       /* of a name, parameter or builtin; number: has it a unit? operator: where it stands */
     union {
         const quantity *q;
         expr_at *changed; /* N_AT */

@@ -198,7 +198,7 @@ static void reset(live *l) {
         const char *name;
         dim d;
     } kinds[] = {
-        {BY_FORCE, "FN", {1, 0, 0}}, {BY_DISPLACEMENT, "dz", {0, 1, 0}}, {BY_RADIUS, "a", {0, 1, 0}}};
+        {BY_FORCE, "FN", {1, 0, 0, 0}}, {BY_DISPLACEMENT, "dz", {0, 1, 0, 0}}, {BY_RADIUS, "a", {0, 1, 0, 0}}};
     if (!s->end.steps) {
         live_begin(l);
         return;

@@ -17,17 +17,17 @@
 #define GETTER(function) .of = OF_GETTER, .get = get_##function
 #define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
 #define FORCE                                                                                                \
-    { 1, 0, 0 }
+    { 1, 0, 0, 0 }
 #define LENGTH                                                                                               \
-    { 0, 1, 0 }
+    { 0, 1, 0, 0 }
 #define PRESSURE                                                                                             \
-    { 1, -2, 0 }
+    { 1, -2, 0, 0 }
 #define ENERGY                                                                                               \
-    { 1, 1, 0 }
+    { 1, 1, 0, 0 }
 #define STIFFNESS                                                                                            \
-    { 1, -1, 0 }
+    { 1, -1, 0, 0 }
 #define ANGLE                                                                                                \
-    { 0, 0, 1 }
+    { 0, 0, 1, 0 }
 
 /* clang-format off */
 static const quantity quantities[] = {
@@ -271,7 +271,7 @@ bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *err
 
 dim quantity_dim(const quantity *q, const scene *s) {
     if (q->in == 1 + IN_A)
-        return (dim){0, 1 - (s->in.geometry && s->in.geometry->n > 0 ? s->in.geometry->n : s->in.v[IN_N]), 0};
+        return (dim){0, 1 - (s->in.geometry && s->in.geometry->n > 0 ? s->in.geometry->n : s->in.v[IN_N]), 0, 0};
     return q->d;
 }
 

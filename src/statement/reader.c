@@ -200,16 +200,16 @@ static bool in_range(lexer *lx, const heard *h) {
     return a->must != POSITIVE || h->v.v > 0 || calc_status(lx->error, &st) || heard_place(lx->error, h);
 }
 
-static bool read_operand(shell *sh, lexer *lx, heard *h) {
+static bool read_operand(shell *sh, lexer *lx, const dim *want, heard *h) {
     h->hole[0].at = lx->at;
-    const bool ok = expr_value(&sh->calc, lx, &h->v) && !stray_unit(lx);
+    const bool ok = expr_value_as(&sh->calc, lx, want, &h->v) && !stray_unit(lx);
     h->hole[0].len = lx->last - h->hole[0].at;
     return ok;
 }
 
 /* name: as messages call it. */
 static bool read_value(shell *sh, lexer *lx, const char *name, dim d, heard *h) {
-    return read_operand(sh, lx, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
+    return read_operand(sh, lx, &d, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
            in_range(lx, h);
 }
 
@@ -222,7 +222,7 @@ static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d)
     if (n && n->live && !definition_value(&sh->calc, (definition *)n->live, &n->v, lx->error))
         return heard_place(lx->error, n);
     if (n)
-        *d = (dim){0, 1 - (double)n->v.v, 0};
+        *d = (dim){0, 1 - (double)n->v.v, 0, 0};
     return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
 }
 
@@ -253,7 +253,7 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
 }
 
 static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
-    return read_operand(sh, lx, h) && ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
+    return read_operand(sh, lx, NULL, h) && ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
                                        calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
                                                  "the seconds must be a positive number up to %u", of->most));
 }

@@ -9,6 +9,8 @@
 static bool unit_word(const lexer *lx, unit *u) {
     if (lx->kind == T_PERCENT)
         return unit_lookup("%", 1, u);
+    if (lx->header && lex_is(lx, "in"))
+        return unit_lookup("inch", 4, u);
     return lx->kind == T_NAME && unit_lookup(lx->text + lx->at, lx->len, u);
 }
 
@@ -89,6 +91,17 @@ bool unit_parse(lexer *lx, unit *out) {
         out->exp10 += sign * u.exp10;
         out->factor = sign > 0 ? out->factor * u.factor : out->factor / u.factor;
     }
+    return true;
+}
+
+bool unit_of_header(lexer *lx, unit *out) {
+    const double times = lx->kind == T_NUMBER ? lx->number : 1;
+    lx->header = true;
+    if (lx->kind == T_NUMBER)
+        lex_next(lx);
+    if (!(times > 0) || !unit_parse(lx, out) || lx->error->raised || lx->kind != T_END)
+        return false;
+    out->factor *= times;
     return true;
 }
 
