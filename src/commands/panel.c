@@ -28,7 +28,8 @@ typedef struct panel_job {
     motion *m;
     size_t index; /* of the panel */
     size_t count; /* expressions that are drawn */
-    bool against; /* the one after them is the abscissa */
+    size_t against; /* expressions behind them that are abscissas; 0: the range is */
+    size_t over[PLOTTED]; /* which of these, for each that is drawn */
     const column *columns;
     const char *statement;
     calc_error *error;
@@ -164,7 +165,6 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
     panel_job *job = context;
     const size_t at = curve * job->each;
     progress_pulse();
-    const double abscissa = (double)(job->against ? values[job->count] : x);
     if (at >= job->p->count && !add_curve(job, curve))
         return false;
     if (is_over(job, s, x))
@@ -172,6 +172,7 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
     for (size_t i = 0, j = at; i < job->count; i++, j++) {
         const char role = role_of(job, i);
         plot_series *to = job->p->series[j];
+        const double abscissa = (double)(job->against ? values[job->count + job->over[i]] : x);
         if (role == 'b')
             job->lost = !plot_band(to, abscissa, (double)values[i], (double)values[i + 1]) || job->lost;
         else if (role == 's')
@@ -242,12 +243,12 @@ static void divide(plot_panel *p, bool x_axis, long double scale) {
     }
 }
 
-/* The ordinate by the expressions that share it, as far as there is room for them. */
-static void ordinate_name(const panel_job *job, char *name, size_t size) {
+/* An axis by the expressions that share it, as far as there is room for them. */
+static void shared_name(const panel_job *job, size_t first, size_t end, char *name, size_t size) {
     *name = 0;
-    for (size_t i = 0; i < job->count; i++) {
+    for (size_t i = first; i < end; i++) {
         const size_t n = strlen(name);
-        if (!is_main(job, i))
+        if (i < job->count && !is_main(job, i))
             continue;
         if (n + strlen(job->columns[i].name) + 3 > size) {
             *name = 0;
@@ -267,21 +268,35 @@ static bool scale_axis(panel_job *job, lexer *lx, bool x_axis, const column *c, 
     return looks_axis(lx, l, job->p, x_axis, axis, u);
 }
 
-static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
-    const sweep *s = job->s;
-    char name[40];
-    const bool shared = main_count(job) > 1;
-    const column *c = job->columns, *x = job->against ? &c[job->count] : NULL;
-    size_t first = 0; /* whose dimension is known: there may be no value that tells of it */
-    while (first + 1 < job->count && !f->known[first])
+/* Of the expressions from `first` on the one whose dimension is the axis': there may be no value that tells of
+ * the others. False: two differ. */
+static bool share_axis(const panel_job *job, const found *f, size_t first, size_t end, size_t *known) {
+    const column *c = job->columns;
+    while (first + 1 < end && !f->known[first])
         first++;
-    for (size_t i = first + 1; i < job->count; i++)
+    *known = first;
+    for (size_t i = first + 1; i < end; i++)
         if (f->known[i] && !dim_equal(f->d[i], f->d[first]))
             return calc_fail(job->error, job->sh->list[i].at, job->sh->list[i].len,
                              "%s and %s cannot share an axis", c[first].name, c[i].name);
-    ordinate_name(job, name, sizeof name);
-    const axis_of ax = {x ? x->name : s->var.text, x ? f->d[job->count] : s->var.d},
-                  ay = {shared ? name : c[0].name, f->d[first]};
+    return true;
+}
+
+static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
+    const sweep *s = job->s;
+    char name[40], abscissas[40];
+    const size_t count = job->count, all = count + job->against;
+    const column *c = job->columns, *x = job->against ? &c[count] : NULL;
+    size_t first, across;
+    if (!share_axis(job, f, 0, count, &first) || !share_axis(job, f, count, all, &across))
+        return false;
+    shared_name(job, 0, count, name, sizeof name);
+    shared_name(job, count, all, abscissas, sizeof abscissas);
+    const axis_of ax = {!x                 ? s->var.text
+                        : job->against > 1 ? abscissas
+                                           : x->name,
+                        x ? f->d[across] : s->var.d},
+                  ay = {main_count(job) > 1 ? name : c[0].name, f->d[first]};
     job->p->logx = job->p->logx || s->log;
     if (!job->p->title && job->figure)
         job->p->title = strdup(job->figure->title);
@@ -369,25 +384,54 @@ static const heard *range_of(said *all) {
     return by ? by : said_of(all, "along", 0);
 }
 
+/* EXPR, ... against EXPR, and such again behind commas: what is drawn, then the abscissas. */
+static bool read_curves(panel_job *job, const written *of, column columns[2 * PLOTTED]) {
+    shell *sh = job->sh;
+    const heard *h = &of->all->list[0];
+    lexer own = hole_lexer(&of->lx, &h->hole[0]);
+    size_t drawn = 0;
+    bool ok = read_expressions(sh, &own, columns, PLOTTED, &job->count);
+    while (ok && at_end(&own) && (h = said_of(of->all, "against", job->against))) {
+        const size_t i = PLOTTED + job->against;
+        if (drawn == job->count)
+            return calc_fail(own.error, h->at, h->len, "expected EXPR before against");
+        while (drawn < job->count)
+            job->over[drawn++] = job->against;
+        job->against++;
+        own = hole_lexer(&of->lx, &h->hole[0]);
+        ok = read_expression(sh, &own, i, &columns[i]);
+        if (ok && own.kind == T_COMMA) {
+            lex_next(&own);
+            ok = read_expressions(sh, &own, columns, PLOTTED, &job->count);
+        }
+    }
+    if (!ok || own.error->raised)
+        return false;
+    if (job->against && drawn < job->count)
+        return calc_fail(own.error, sh->list[drawn].at, sh->list[drawn].len, "expected %s against EXPR",
+                         columns[drawn].name);
+    for (size_t i = job->count, from = PLOTTED; i < job->count + job->against; i++, from++) {
+        const expr e = sh->list[i];
+        const column c = columns[i];
+        sh->list[i] = sh->list[from];
+        sh->list[from] = e;
+        columns[i] = columns[from];
+        columns[from] = c;
+    }
+    job->p->airy = job->p->airy || job->against;
+    return true;
+}
+
 /* of: where the expressions stand, and the range unless the statement has one; all else stands there. */
 static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     shell *sh = job->sh;
-    column columns[PLOTTED + 1];
+    column columns[2 * PLOTTED] = {{.name = NULL}};
     written own = {*lx, all}, *over = range_of(of->all) ? of : &own;
-    const heard *against = said_of(of->all, "against", 0);
     range r;
-    bool ok = read_expressions_in(sh, &of->lx, &of->all->list[0].hole[0], columns, PLOTTED, &job->count);
-    size_t count = job->count;
-    if (ok && against) {
-        lexer abscissa = hole_lexer(&of->lx, &against->hole[0]);
-        ok = read_one_expression(sh, &abscissa, count, &columns[count]);
-        count++;
-        job->against = job->p->airy = true;
-    }
     job->columns = columns;
-    ok = ok && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
+    const bool ok = read_curves(job, of, columns) && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
          range_options(sh, lx, all, 0, &r, 0) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
-    columns_free(columns, count);
+    columns_free(columns, 2 * PLOTTED);
     return ok;
 }
 

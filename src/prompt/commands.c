@@ -263,7 +263,7 @@ const command commands[] = {
      .run = do_plot,
      .group = "results",
      .keywords = "figure loop hysteresis png svg pdf tex export contour map measured",
-     .takes = "FIGURE | EXPR, ... [against EXPR] RANGE LOOK [to FILE.png|svg|pdf|tex|html|gif|gp]",
+     .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [to FILE.png|svg|pdf|tex|html|gif|gp]",
      .summary = "figures, in the terminal or to a file",
      .print = figures_list,
      .help = "A FIGURE of the list above stands alone or with another RANGE; a | puts one\n"
@@ -295,7 +295,7 @@ const command commands[] = {
      .run = do_animate,
      .group = "results",
      .keywords = "video movie gif springs",
-     .takes = "FIGURE | EXPR, ... [against EXPR] RANGE LOOK [frames N:1000] [to FILE.gif]",
+     .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [frames N:1000] [to FILE.gif]",
      .summary = "figures in motion along a load",
      .help = "Figures as of `plot`. Those `along` a load, all along the same one, are drawn up\n"
              "to a moving instant; `springs`, `pressure`, `traction` and what else goes over\n"
