@@ -28,6 +28,9 @@ static const builtin builtins[] = {
     {"min", NULL, fminl, DIM_SHARED, "the smallest of two or more"},
     {"max", NULL, fmaxl, DIM_SHARED, "the largest of two or more"},
     {"beta", NULL, real_beta, DIM_NUMBER, "beta function B(x,y), x, y > 0"},
+    {"integral", NULL, NULL, DIM_RANGE, "(integral EXPR for x = LO .. HI)"},
+    {"maximum", NULL, NULL, DIM_RANGE, "the largest: (maximum EXPR along cycle), (maximum EXPR for x = LO .. HI)"},
+    {"minimum", NULL, NULL, DIM_RANGE, "the smallest, likewise"},
 };
 enum { BUILTINS = sizeof builtins / sizeof *builtins };
 

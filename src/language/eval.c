@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "language/tree.h"
-#include "language/trial.h"
+#include "language/over.h"
 #include "number/real.h"
 
 typedef struct machine {
@@ -293,6 +293,92 @@ static bool changed_value(machine *m, const expr_node *n, value *out) {
     return ok || calc_place(m->error, n->at, n->len);
 }
 
+/* ---- over a range ------------------------------------------------------------------------------ */
+
+/* The expression of a range, as the machine around it sees it. */
+typedef struct over_body {
+    machine m;
+    over o;
+} over_body;
+
+static bool body_value(void *context, value *out) {
+    over_body *b = context;
+    b->m.error = b->o.error;
+    return run_nodes(&b->m, out);
+}
+
+/* Both of one dimension, that of the name where it is an input. */
+static bool range_ends(machine *m, const expr_at *at, knob *name, over *o) {
+    value end[2];
+    dim want = name->is_input ? quantity_dim(quantity_of_input(name->in), m->c->now) : DIM_NONE;
+    for (int i = 0; i < 2; i++) {
+        machine outside = *m;
+        outside.e = &at->change[i].value;
+        outside.want = name->is_input ? &want : NULL;
+        if (!run_nodes(&outside, &end[i]))
+            return false;
+    }
+    const int tells = end[0].v == 0 && dim_equal(end[0].d, DIM_NONE); /* of a bare 0 the other one */
+    name->d = name->is_input ? want : end[tells].d;
+    o->lo = end[0].v;
+    o->hi = end[1].v;
+    return dim_fits(m, &at->change[0].value, name, end[0], name->d) &&
+           dim_fits(m, &at->change[1].value, name, end[1], name->d);
+}
+
+static bool over_times(over *o, along_what what) {
+    double first, last;
+    o->t->scene.now = NULL;
+    scene_moved(&o->t->scene);
+    const bool ok = trial_along_span(o->t, what, o->t->scene.end, &first, &last, o->error);
+    o->lo = first;
+    o->hi = last;
+    return ok;
+}
+
+/* In a dry run one value tells the dimension. */
+static bool over_run(machine *m, const expr_node *n, over_body *b, value *out) {
+    const char *word = builtin_row(n->index)->name;
+    over *o = &b->o;
+    size_t wrong;
+    long double error = 0;
+    *out = (value){1, DIM_NONE};
+    if (m->dry) {
+        if (o->name && !o->name->is_input &&
+            !trial_change(o->t, &(knob_value){*o->name, o->lo}, 1, &wrong, m->error))
+            return false;
+        value v;
+        const bool ok = body_value(b, &v);
+        o->d = v.d;
+        return ok;
+    }
+    if (!o->name && !over_times(o, n->changed->what))
+        return false;
+    const bool ok = *word == 'i' ? over_integral(o, &out->v, &error) : over_extreme(o, word[1] == 'a', &out->v);
+    m->c->over_error = fmax(m->c->over_error, (double)error);
+    return ok;
+}
+
+static bool over_value(machine *m, const expr_node *n, value *out) {
+    enum { DEEPEST = 8 }; /* each takes some stack, and hundreds of values of the one within */
+    const expr_at *at = n->changed;
+    knob name = at->change[0].p;
+    over_body b = {.m = *m, .o = {.name = at->along ? NULL : &name, .context = &b, .value = body_value, .error = m->error}};
+    b.m.e = &at->body;
+    b.m.want = NULL;
+    if (m->c->over_depth == DEEPEST)
+        return calc_fail(m->error, n->at, n->len, "ranges are nested more than %d deep", DEEPEST);
+    m->c->over_depth++;
+    bool ok = at->along || range_ends(m, at, &name, &b.o);
+    b.o.t = ok ? trial_open(m->c, m->error) : NULL;
+    ok = b.o.t && over_run(m, n, &b, out);
+    if (b.o.t)
+        trial_close(b.o.t);
+    m->c->over_depth--;
+    out->d = *builtin_row(n->index)->name == 'i' ? dim_product(b.o.d, name.d) : b.o.d;
+    return ok || calc_place(m->error, n->at, n->len);
+}
+
 /* ---- nodes ------------------------------------------------------------------------------------- */
 
 /* What the scene is asked for may be an approximation, by its row. */
@@ -353,6 +439,10 @@ static bool eval(machine *m, const expr_node *n, value *out) {
         return apply(m, n, out);
     case N_AT:
         return changed_value(m, n, out);
+    case N_OVER:
+        if (!over_value(m, n, out))
+            return false;
+        break;
     case N_BUILTIN:
         if (!call_builtin(m, n, out))
             return false;
@@ -399,14 +489,14 @@ static bool run_read(machine *m, value *out) {
 
 static bool two_readings(machine *m, const expr_node *n) {
     const char *text = m->e->text + n->at;
-    const size_t over = m->e->nodes[n->left].index + 1 - n->at, len = n->len;
+    const size_t divisor = m->e->nodes[n->left].index + 1 - n->at, len = n->len;
     size_t numbers = n->index - n->at;
     while (text[numbers - 1] == ' ')
         numbers--;
     m->error->strange = true;
     return calc_fail(m->error, n->at, len, "%.*s has two readings: write (%.*s) %.*s, or %.*s(%.*s)",
                      LEX_SHOWN(len), text, LEX_SHOWN(numbers), text, LEX_SHOWN(len - (n->index - n->at)),
-                     m->e->text + n->index, LEX_SHOWN(over), text, LEX_SHOWN(len - over), text + over);
+                     m->e->text + n->index, LEX_SHOWN(divisor), text, LEX_SHOWN(len - divisor), text + divisor);
 }
 
 /* Of numbers with a division and a unit the one reading that holds, by dimensions alone. */
@@ -415,15 +505,15 @@ static bool choose_reading(machine *m) {
     bool holds[2] = {false, false};
     while (n < end && !(n->kind == N_BINARY && n->op == '?'))
         n++;
-    for (int over = 0; over < 2 && n < end; over++) {
+    for (int i = 0; i < 2 && n < end; i++) {
         calc_error unused;
         machine probe = *m;
         value v;
         error_clear(&unused);
         probe.error = &unused;
         probe.dry = true;
-        probe.over = over;
-        holds[over] = run_read(&probe, &v) && (!m->want || (dim_equal(v.d, *m->want) && v.d.rad == m->want->rad));
+        probe.over = i;
+        holds[i] = run_read(&probe, &v) && (!m->want || (dim_equal(v.d, *m->want) && v.d.rad == m->want->rad));
     }
     m->over = holds[1];
     return !(holds[0] && holds[1]) || two_readings(m, n);

@@ -16,12 +16,19 @@ enum {
     LOOK = 4096           /* nodes after which the stop flag is looked at */
 };
 
+/* The name of a range that is gone over. */
+typedef struct bound {
+    const char *name;
+    const struct bound *outer;
+} bound;
+
 typedef struct parser {
     calc *c;
     lexer *lx;
     expr *e;
     const definition *within; /* its parameters are names */
     int depth;
+    const struct bound *bound; /* names of the ranges around it */
     bool bare; /* a unit behind the number at the cursor belongs to more than that */
 } parser;
 
@@ -139,6 +146,23 @@ static bool unknown_name(parser *p) {
     return lex_fail(lx, near ? "unknown name '%s': did you mean %s?" : "unknown name '%s'", word, near);
 }
 
+/* An expression of its own within this one. */
+static bool parse_inner(const parser *p, expr *e, const bound *names) {
+    parser inner = {.c = p->c, .lx = p->lx, .e = e, .within = p->within, .depth = p->depth, .bound = names};
+    return parse_whole(&inner);
+}
+
+static expr_at *add_changed(parser *p) {
+    expr_at *at = calloc(1, sizeof *at);
+    if (at) {
+        at->next = p->e->ats;
+        p->e->ats = at;
+    } else {
+        calc_no_memory(p->lx->error);
+    }
+    return at;
+}
+
 static bool at_change(const lexer *lx) {
     return lx->kind == T_NAME && lex_peek(lx) == T_ASSIGN;
 }
@@ -162,21 +186,15 @@ static bool parse_change(parser *p, expr_at *at) {
             return calc_fail(lx->error, at->change[at->count].at, strlen(q->text), "%s is given twice",
                              q->text);
     lex_next(lx);
-    parser inner = {
-        .c = p->c, .lx = lx, .e = &at->change[at->count++].value, .within = p->within, .depth = p->depth};
-    return parse_whole(&inner);
+    return parse_inner(p, &at->change[at->count++].value, p->bound);
 }
 
 /* The cursor is after `at`; what it applies to are the nodes from `first` on, in the text from `begin`. */
 static bool parse_at(parser *p, size_t first, size_t begin, size_t *out) {
     lexer *lx = p->lx;
     expr_node node = {.kind = N_AT, .at = begin};
-    expr_at *at = calloc(1, sizeof *at);
-    if (!at)
-        return calc_no_memory(lx->error);
-    at->next = p->e->ats;
-    p->e->ats = node.changed = at;
-    if (!split_tail(p, first, &at->body))
+    expr_at *at = node.changed = add_changed(p);
+    if (!at || !split_tail(p, first, &at->body))
         return false;
     size_t end = lx->last - strlen("at");
     while (lx->text[end - 1] == ' ' || lx->text[end - 1] == '\t')
@@ -244,6 +262,8 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
         node.v = (value){3.14159265358979323846264338327950288L, DIM_NONE};
         return add_node(p, &node, out);
     }
+    if (function->d == DIM_RANGE)
+        return calc_fail(lx->error, node.at, strlen(function->name), "write %s", function->summary);
     if (lx->kind != T_OPEN)
         return lex_fail(lx, "expected ( after %s%s", function->name,
                         node.at > 0 && lx->text[node.at - 1] == '/' ? ", a function: no unit is called so"
@@ -461,10 +481,115 @@ static bool parse_number(parser *p, size_t *out) {
     return add_node(p, &node, out);
 }
 
+/* ---- (integral EXPR for NAME = LO .. HI) ------------------------------------------------------- */
+
+/* The `for` or `along` within this parenthesis. */
+static bool find_range(const lexer *lx, lexer *out) {
+    int depth = 0;
+    *out = *lx;
+    out->error = error_quiet();
+    while (out->kind != T_END && depth >= 0 && (depth > 0 || !(lex_is(out, "for") || lex_is(out, "along")))) {
+        lex_next(out);
+        depth += (out->kind == T_OPEN) - (out->kind == T_CLOSE);
+    }
+    out->error = lx->error;
+    return out->kind != T_END && depth == 0;
+}
+
+/* The name that goes over the range, and, as long as the expression is parsed, is known. */
+static bool read_bound(parser *p, lexer *lx, knob *out) {
+    unsigned j;
+    parser of = {.lx = lx, .within = p->within};
+    if (find_parameter(&of, &j))
+        return lex_fail(lx, "%.*s is an argument already", LEX_WORD(lx));
+    for (const bound *b = p->bound; b; b = b->outer)
+        if (lex_is(lx, b->name))
+            return lex_fail(lx, "%s is given twice", b->name);
+    return knob_name(p->c, lx, out);
+}
+
+static bool parse_body_of(parser *p, expr *e, const bound *names) {
+    parser inner = {.c = p->c, .lx = p->lx, .e = e, .within = p->within, .depth = p->depth, .bound = names};
+    size_t root;
+    return parse_whole(&inner) && (!lex_accept(p->lx, "at") || parse_at(&inner, 0, e->at, &root));
+}
+
+/* EXPR for NAME: the cursor is on EXPR, the range begins at `range`. */
+static bool parse_varied(parser *p, lexer *range, expr_at *at) {
+    lexer *lx = p->lx;
+    knob *name = &at->change[0].p;
+    size_t i;
+    lex_next(range);
+    const bool known = names_find(&p->c->names, lx->text + range->at, range->len, &i);
+    if (!read_bound(p, range, name))
+        return false;
+    const bound here = {name->text, p->bound};
+    const bool ok = parse_body_of(p, &at->body, &here);
+    if (!name->is_input)
+        p->c->names.row[name->name].known = known;
+    return ok;
+}
+
+static bool parse_ends(parser *p, expr_at *at) {
+    lexer *lx = p->lx;
+    for (token_kind before = T_ASSIGN; at->count < 2; before = T_RANGE) {
+        if (lx->kind != before)
+            return lex_fail(lx, at->count ? "expected .. between the two ends" : "expected = LO .. HI after the name");
+        lex_next(lx);
+        at->change[at->count].at = lx->at;
+        if (!parse_inner(p, &at->change[at->count++].value, p->bound))
+            return false;
+    }
+    return true;
+}
+
+static bool parse_load(lexer *lx, expr_at *at) {
+    at->what = lex_is(lx, "cycle") ? ALONG_CYCLE : ALONG_PROGRAM;
+    return lex_accept(lx, "cycle") || lex_accept(lx, "program") ||
+           lex_fail(lx, "expected along cycle or along program");
+}
+
+/* The cursor is on the word, of that row. */
+static bool parse_over(parser *p, size_t word, size_t *out) {
+    lexer *lx = p->lx, range;
+    expr_node node = {.kind = N_OVER, .at = lx->at, .index = word};
+    expr_at *at = node.changed = add_changed(p);
+    const char *usage = builtin_row(word)->summary;
+    if (!at)
+        return false;
+    if (!find_range(lx, &range))
+        return calc_fail(lx->error, lx->at, lx->len, "expected a range behind the expression: %s", usage);
+    const size_t begins = range.at;
+    at->along = lex_is(&range, "along");
+    if (at->along && lex_is(lx, "integral"))
+        return lex_fail(&range, "an integral goes over a name: %s", usage);
+    lex_next(lx);
+    if (!(at->along ? parse_body_of(p, &at->body, p->bound) : parse_varied(p, &range, at)))
+        return false;
+    if (lx->at != begins)
+        return lex_fail(lx, "unexpected '%.*s': %s", LEX_WORD(lx), usage);
+    if (at->along)
+        lex_next(lx);
+    else
+        lex_seek(lx, range.at);
+    if (!(at->along ? parse_load(lx, at) : parse_ends(p, at)))
+        return false;
+    if (lx->kind != T_CLOSE)
+        return lex_fail(lx, "expected ) after the range");
+    lex_next(lx);
+    return add_node(p, &node, out);
+}
+
+/* ---- parentheses ------------------------------------------------------------------------------- */
+
 static bool parse_parenthesis(parser *p, size_t *out) {
     lexer *lx = p->lx;
     const size_t first = p->e->count;
+    size_t word;
     lex_next(lx);
+    if (lx->kind == T_NAME && builtin_find(lx->text + lx->at, lx->len, &word) && builtin_row(word) &&
+        builtin_row(word)->d == DIM_RANGE)
+        return parse_over(p, word, out);
     const size_t begin = lx->at;
     if (!parse_sum(p, out))
         return false;

@@ -3,7 +3,7 @@
 #ifndef LANGUAGE_TREE_H
 #define LANGUAGE_TREE_H
 
-#include "language/calc.h"
+#include "language/trial.h"
 
 typedef enum node_kind {
     N_NUMBER,
@@ -16,7 +16,8 @@ typedef enum node_kind {
     N_NEGATE,
     N_BINARY,
     N_BUILTIN,
-    N_AT
+    N_AT,
+    N_OVER /* integral, maximum, minimum */
 } node_kind;
 
 struct expr_node {
@@ -28,15 +29,17 @@ struct expr_node {
     size_t index;       /* of a name, parameter or builtin; number: has it a unit? operator: where it stands */
     union {
         const quantity *q;
-        expr_at *changed; /* N_AT */
+        expr_at *changed; /* N_AT, N_OVER */
     };
     value v;
 };
 
-/* EXPR at NAME = EXPR, ... */
+/* EXPR at NAME = EXPR, ...; EXPR for NAME = LO .. HI, as two changes of one name, or along a load, as none. */
 struct expr_at {
     expr_at *next; /* of the expression that it is a part of */
     expr body;
+    bool along;
+    along_what what;
     size_t count;
     struct {
         size_t at; /* of its name */
@@ -53,7 +56,7 @@ typedef struct builtin {
     const char *name;
     long double (*f)(long double);
     long double (*f2)(long double, long double);
-    enum { DIM_NUMBER, DIM_TO_ANGLE, DIM_KEPT, DIM_HALVED, DIM_SHARED } d;
+    enum { DIM_NUMBER, DIM_TO_ANGLE, DIM_KEPT, DIM_HALVED, DIM_SHARED, DIM_RANGE } d; /* the last: over a range */
     const char *summary;
 } builtin;
 
