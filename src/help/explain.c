@@ -163,6 +163,8 @@ static bool explain_whole(const page *p, const expr *e, value v) {
         return false;
     answer_page(p->out, "explain");
     explain_value(p, e->text + e->at, e->len, v);
+    if (p->sh->calc.over_error > 0)
+        explain_error(p, fmax(p->sh->calc.over_error, DBL_EPSILON), "integral of the magnitude");
     if (p->conditioning)
         explain_conditioning(p, "it", &study);
     answer_done(p->out);
@@ -228,6 +230,7 @@ static bool read_explained(shell *sh, lexer *lx, const expr **e, const expr **as
     *asked = meant == whole ? *e : whole;
     if (!expr_quantity(*e, 0, &call, &first) && !expr_definition(&sh->calc, *e, 0) && !(*e)->ats)
         return calc_fail(lx->error, at, whole->len, "explain which quantity? try: explain dW");
+    sh->calc.over_error = 0;
     return expr_eval(&sh->calc, *e, v, lx->error) || calc_place(lx->error, at, whole->len);
 }
 

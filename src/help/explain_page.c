@@ -262,6 +262,11 @@ static void put_difference(const page *p, const expr *e, value v) {
     }
 }
 
+void explain_error(const page *p, double good, const char *of) {
+    answer_words(p->out, "    error: below %.0e of the %s\n", round_up(good), of);
+    say_error(p, round_up(good), of);
+}
+
 /* What the value is good to, as README says under `How exact`. */
 static void put_error(const page *p, const quantity *q, bool call, model_id model, double sine) {
     const scene *s = p->sh->calc.now;
@@ -271,8 +276,7 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
     good = fmax(good, sine);
     if (s->used & USED(MODEL_PIECES))
         good = fmax(good, s->pieces_error);
-    answer_words(p->out, "    error: below %.0e of the %s\n", round_up(good), of);
-    say_error(p, round_up(good), of);
+    explain_error(p, good, of);
 }
 
 /* ---- inputs and conditioning ------------------------------------------------------------------- */

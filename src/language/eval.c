@@ -336,22 +336,32 @@ static bool over_times(over *o, along_what what) {
     return ok;
 }
 
-/* In a dry run one value tells the dimension. */
+/* The dimension of the expression, which over no range at all no value tells. */
+static bool over_dim(over_body *b, calc_error *error) {
+    over *o = &b->o;
+    size_t wrong;
+    value v;
+    const bool dry = b->m.dry;
+    b->m.dry = true;
+    o->error = error;
+    const bool ok = (!o->name || o->name->is_input ||
+                     trial_change(o->t, &(knob_value){*o->name, o->lo}, 1, &wrong, error)) &&
+                    body_value(b, &v);
+    b->m.dry = dry;
+    if (ok)
+        o->d = v.d;
+    return ok;
+}
+
 static bool over_run(machine *m, const expr_node *n, over_body *b, value *out) {
     const char *word = builtin_row(n->index)->name;
     over *o = &b->o;
-    size_t wrong;
     long double error = 0;
     *out = (value){1, DIM_NONE};
-    if (m->dry) {
-        if (o->name && !o->name->is_input &&
-            !trial_change(o->t, &(knob_value){*o->name, o->lo}, 1, &wrong, m->error))
-            return false;
-        value v;
-        const bool ok = body_value(b, &v);
-        o->d = v.d;
-        return ok;
-    }
+    if (m->dry)
+        return over_dim(b, m->error);
+    over_dim(b, error_quiet());
+    o->error = m->error;
     if (!o->name && !over_times(o, n->changed->what))
         return false;
     const bool ok = *word == 'i' ? over_integral(o, &out->v, &error) : over_extreme(o, word[1] == 'a', &out->v);

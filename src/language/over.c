@@ -28,6 +28,14 @@ static bool look(over *o, long double *v) {
            calc_fail(o->error, 0, 0, "the expression has no dimension of its own: it changes on the way");
 }
 
+/* An error at a place tells it. */
+static void over_where(const over *o, long double x) {
+    char at[CALC_VALUE_TEXT];
+    calc_value_text(o->name ? o->name->d : DIM_NONE, (double)x, at);
+    if (!o->error->stop)
+        calc_append(o->t->c, o->error, " (at %s = %s)", o->name ? o->name->text : "time", at);
+}
+
 static bool look_at(over *o, long double x, long double *v) {
     const knob_value by = {*o->name, x};
     size_t wrong;
@@ -37,50 +45,61 @@ static bool look_at(over *o, long double x, long double *v) {
 
 /* ---- the integral ------------------------------------------------------------------------------ */
 
-/* A part of it. */
+/* A part of it, between places where it may be singular. */
 typedef struct part {
     over *o;
     long double lo, hi;
     bool magnitude;
+    bool lost; /* a value at an end */
+    size_t seen;
 } part;
 
-/* At an end itself it need have no value. */
+/* Where x cannot be told from an end there need be no value. The rule is of no use then, and soon left. */
 static fret_real integrand(fret_real t, fret_real rest, void *context) {
-    const part *p = context;
+    enum { ENOUGH = 2000 };
+    part *p = context;
     over *o = p->o;
     const long double width = p->hi - p->lo, x = t < 0.5L ? p->lo + width * t : p->hi - width * rest;
     long double v = 0;
     calc_error mine, *error = o->error;
-    if (error->raised)
+    if (error->raised || (p->lost && p->seen++ > ENOUGH))
         return 0;
     error_clear(&mine);
     o->error = &mine;
-    if (!look_at(o, x, &v) && (mine.stop || (x != o->lo && x != o->hi)))
+    const bool had = look_at(o, x, &v),
+               at_end = x == p->lo || x == p->hi || t < LDBL_EPSILON || rest < LDBL_EPSILON;
+    p->lost = p->lost || !had;
+    if (!had && (mine.stop || mine.strange || !at_end)) {
+        over_where(o, x);
         *error = mine;
+    }
     o->error = error;
     return p->magnitude ? fabsl(v) : v;
 }
 
-static fret_estimate integral(over *o, long double lo, long double hi, long double tolerance, bool magnitude) {
-    part p = {o, lo, hi, magnitude};
-    const long double width = hi - lo;
+/* A lost value leaves the error unknown. */
+static fret_estimate between(over *o, long double lo, long double hi, long double tolerance, bool magnitude) {
+    part p = {.o = o, .lo = lo, .hi = hi, .magnitude = magnitude};
     const fret_estimate whole = fret_integral(integrand, &p, tolerance);
-    return (fret_estimate){whole.value * width, whole.error * fabsl(width)};
+    const long double error = p.lost ? INFINITY : whole.error * fabsl(hi - lo);
+    return (fret_estimate){whole.value * (hi - lo), error};
 }
 
-/* From `far` to a singular end: what lies between halves of the distance, whose sums go on as their limit does
- * (Wynn's epsilon, exact for powers of the distance). x keeps its digits there, which at the end itself it
- * loses. */
+/* From `far` to a singular end: between halves of the distance, whose sums go on as their limit does (Wynn's
+ * epsilon, exact for sums of powers of the distance). There x keeps its digits, which next to the end it loses.
+ * Where the last of them do not shrink there is no limit. */
 static fret_estimate to_end(over *o, long double far, long double end) {
     enum { HALVES = 24 };
-    long double row[HALVES + 1], sum = 0, from = far, rounding = 0, last = NAN;
+    long double row[HALVES + 1], sum = 0, from = far, rounding = 0, last = NAN, before = 0, shrinks = 0;
     fret_estimate best = {0, INFINITY};
     for (int n = 0; n <= HALVES && !o->error->raised; n++) {
-        const long double to = end - (end - from) / 2;
-        const fret_estimate piece = integral(o, from, to, 1e-15L, false);
+        const long double to = end - (end - from) / 2, digits = LDBL_EPSILON * fabsl(end / (end - to));
+        const fret_estimate piece = between(o, from, to, 1e-15L + 4 * digits, false);
         long double above = 0;
         row[n] = sum += piece.value;
         rounding += piece.error;
+        shrinks = fabsl(piece.value / before);
+        before = piece.value;
         from = to;
         for (int j = n; j > 0; j--) {
             const long double old = row[j - 1];
@@ -92,26 +111,66 @@ static fret_estimate to_end(over *o, long double far, long double end) {
             best = (fret_estimate){row[n % 2], off};
         last = row[n % 2];
     }
-    return best;
+    return shrinks < 0.999L || before == 0 ? best : (fret_estimate){sum, INFINITY};
+}
+
+/* *size: of its magnitude. */
+static fret_estimate of_part(over *o, long double lo, long double hi, long double *size) {
+    static const long double good = 1e-14L;
+    fret_estimate all = between(o, lo, hi, 1e-16L, false);
+    *size = fabsl(all.value);
+    if (isfinite(all.error) && all.error > good * *size)
+        *size = between(o, lo, hi, 1e-3L, true).value;
+    if (all.error <= good * *size || o->error->raised)
+        return all;
+    const long double mid = lo + (hi - lo) / 2;
+    const fret_estimate left = to_end(o, mid, lo), right = to_end(o, mid, hi);
+    const fret_estimate both = {right.value - left.value, left.error + right.error};
+    if (both.error < all.error || !isfinite(all.error))
+        all = both;
+    if (!isfinite(all.error)) /* all of it is unsure: little, where it is a sliver of the whole */
+        all.error = fabsl(left.value) + fabsl(right.value);
+    *size = fmaxl(*size, fmaxl(fabsl(all.value), isfinite(both.error) ? 0 : all.error));
+    return all;
+}
+
+/* Where parts end: of a place, where the scene has an edge, and pressure may be singular there. The first lets
+ * no rule lie evenly about a pole, whose sides would take each other away. */
+enum { EDGES = 5 };
+static size_t edges(const over *o, long double at[EDGES]) {
+    static const char *const names[] = {"b", "a"};
+    size_t count = 0;
+    at[count++] = o->lo + 0.381966L * (o->hi - o->lo);
+    for (size_t i = 0; i < 2 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++) {
+        long double v;
+        if (!quantity_get(quantity_find(names[i], 1), &o->t->scene, &v, error_quiet()))
+            continue;
+        at[count++] = v;
+        at[count++] = -v;
+    }
+    return count;
 }
 
 bool over_integral(over *o, long double *out, long double *error) {
-    static const long double good = 1e-14L, poor = 1e-6L;
-    fret_estimate all = integral(o, o->lo, o->hi, 1e-16L, false);
-    long double size = fabsl(all.value);
-    if (all.error > good * size && !o->error->raised)
-        size = integral(o, o->lo, o->hi, 1e-3L, true).value;
-    if (all.error > good * size && !o->error->raised) {
-        const long double mid = o->lo + (o->hi - o->lo) / 2;
-        fret_estimate left = to_end(o, mid, o->lo), right = to_end(o, mid, o->hi);
-        const fret_estimate both = {right.value - left.value, left.error + right.error};
-        if (both.error < all.error)
-            all = both;
+    static const long double poor = 1e-6L;
+    long double edge[EDGES], size = 0, off = 0, sum = 0;
+    const size_t count = edges(o, edge);
+    const int way = o->lo < o->hi ? 1 : -1;
+    for (long double lo = o->lo, hi; lo != o->hi && !o->error->raised; lo = hi) {
+        long double own;
+        hi = o->hi;
+        for (size_t i = 0; i < count; i++)
+            if (way * edge[i] > way * lo && way * edge[i] < way * hi)
+                hi = edge[i];
+        const fret_estimate here = of_part(o, lo, hi, &own);
+        sum += here.value;
+        off += here.error;
+        size += fabsl(own);
     }
-    *out = all.value;
-    *error = size > 0 ? all.error / size : 0;
+    *out = sum;
+    *error = size > 0 ? off / size : 0;
     return !o->error->raised &&
-           (*error <= poor || calc_fail(o->error, 0, 0, "the integral does not converge"));
+           (off <= poor * size || calc_fail(o->error, 0, 0, "the integral does not converge: what is integrated may be infinite, or swing without end"));
 }
 
 /* ---- the largest and the smallest -------------------------------------------------------------- */
@@ -164,8 +223,13 @@ static bool scan_along(search *s, long double lo, long double hi, size_t points)
     long double v;
     if (!trial_along_between(&a, o->t, (double)lo, (double)hi, points, o->error))
         return false;
-    while (trial_along_next(&a, o->error) && look(o, &v))
+    while (trial_along_next(&a, o->error)) {
+        if (!look(o, &v)) {
+            over_where(o, (long double)scene_time(&o->t->scene));
+            break;
+        }
         take(s, (long double)scene_time(&o->t->scene), v);
+    }
     trial_along_end(&a);
     return !o->error->raised;
 }
@@ -177,8 +241,10 @@ static bool scan(search *s, long double lo, long double hi, size_t points) {
         return false;
     for (size_t i = 0; s->o->name && i <= points; i++) {
         const long double t = (long double)i / (long double)points, x = lo * (1 - t) + hi * t;
-        if (!look_at(s->o, x, &v))
+        if (!look_at(s->o, x, &v)) {
+            over_where(s->o, x);
             return false;
+        }
         take(s, x, v);
     }
     take(s, s->x[2], s->sign * s->v[2]);
