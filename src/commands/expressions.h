@@ -6,7 +6,8 @@
 #include "statement/answer.h"
 #include "statement/reader.h"
 
-/* Behind the first *count of sh->list and columns, which are to be freed whatever comes; at most limit in all. */
+/* Behind the first *count of sh->list and columns, which are to be freed whatever comes; at most limit in
+ * all. */
 bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_t *count);
 /* The same of a part of the statement, and nothing else may stand there. */
 bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *columns, size_t limit,

@@ -26,9 +26,9 @@ typedef struct panel_job {
     const figure *figure; /* or NULL */
     const sweep *s;
     motion *m;
-    size_t index; /* of the panel */
-    size_t count; /* expressions that are drawn */
-    size_t against; /* expressions behind them that are abscissas; 0: the range is */
+    size_t index;         /* of the panel */
+    size_t count;         /* expressions that are drawn */
+    size_t against;       /* expressions behind them that are abscissas; 0: the range is */
     size_t over[PLOTTED]; /* which of these, for each that is drawn */
     const column *columns;
     const char *statement;
@@ -268,8 +268,8 @@ static bool scale_axis(panel_job *job, lexer *lx, bool x_axis, const column *c, 
     return looks_axis(lx, l, job->p, x_axis, axis, u);
 }
 
-/* Of the expressions from `first` on the one whose dimension is the axis': there may be no value that tells of
- * the others. False: two differ. */
+/* Of the expressions from `first` on the one whose dimension is the axis': there may be no value that tells
+ * of the others. False: two differ. */
 static bool share_axis(const panel_job *job, const found *f, size_t first, size_t end, size_t *known) {
     const column *c = job->columns;
     while (first + 1 < end && !f->known[first])
@@ -429,8 +429,9 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     written own = {*lx, all}, *over = range_of(of->all) ? of : &own;
     range r;
     job->columns = columns;
-    const bool ok = read_curves(job, of, columns) && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
-         range_options(sh, lx, all, 0, &r, 0) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
+    const bool ok = read_curves(job, of, columns) && no_second_range(lx, all) &&
+                    range_read(sh, &over->lx, over->all, 0, &r) && range_options(sh, lx, all, 0, &r, 0) &&
+                    follow(job->m, &r) && make_curves(job, lx, &r.sweep);
     columns_free(columns, 2 * PLOTTED);
     return ok;
 }

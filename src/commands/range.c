@@ -159,8 +159,8 @@ bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *o
         if ((ranges ? ranges - 1 : 0) != which)
             continue;
         if (out->listed && (!strcmp(word, "steps") || (!strcmp(word, "log") && !h->of->holes)))
-            return calc_fail(lx->error, h->at, h->len, "%s goes with for NAME = LO .. HI, not with a list of values",
-                             word);
+            return calc_fail(lx->error, h->at, h->len,
+                             "%s goes with for NAME = LO .. HI, not with a list of values", word);
         if (!strcmp(word, "steps")) {
             if (given)
                 return calc_fail(lx->error, h->at, h->len, "steps is given twice");

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command `explain`: the quantities that an expression is made of, a page each. Changes nothing. */
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -18,9 +18,11 @@ typedef struct trial_along {
 bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from, size_t points, bool turns,
                        calc_error *error);
 /* The same between two times of its load, turning points too. */
-bool trial_along_between(trial_along *a, trial *t, double first, double last, size_t points, calc_error *error);
+bool trial_along_between(trial_along *a, trial *t, double first, double last, size_t points,
+                         calc_error *error);
 /* The times that `what` goes from and to. */
-bool trial_along_span(trial *t, along_what what, load_mark from, double *first, double *last, calc_error *error);
+bool trial_along_span(trial *t, along_what what, load_mark from, double *first, double *last,
+                      calc_error *error);
 /* On to the next instant; false: the end, or the error. */
 bool trial_along_next(trial_along *a, calc_error *error);
 void trial_along_end(trial_along *a);

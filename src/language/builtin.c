@@ -29,8 +29,8 @@ static const builtin builtins[] = {
     {"max", NULL, fmaxl, DIM_SHARED, "the largest of two or more"},
     {"beta", NULL, real_beta, DIM_NUMBER, "beta function B(x,y), x, y > 0"},
     {"integral", NULL, NULL, DIM_RANGE, "(integral EXPR for x = LO .. HI)"},
-    {"maximum", NULL, NULL, DIM_RANGE, "the largest: (maximum EXPR along cycle), (maximum EXPR for x = LO .. HI)"},
-    {"minimum", NULL, NULL, DIM_RANGE, "the smallest, likewise"},
+    {"maximum", NULL, NULL, DIM_RANGE, "(maximum EXPR along cycle), (maximum EXPR for x = LO .. HI)"},
+    {"minimum", NULL, NULL, DIM_RANGE, "(minimum EXPR along program), (minimum EXPR for x = LO .. HI)"},
 };
 enum { BUILTINS = sizeof builtins / sizeof *builtins };
 

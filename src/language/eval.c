@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "language/tree.h"
 #include "language/over.h"
+#include "language/tree.h"
 #include "number/real.h"
 
 typedef struct machine {
@@ -364,7 +364,8 @@ static bool over_run(machine *m, const expr_node *n, over_body *b, value *out) {
     o->error = m->error;
     if (!o->name && !over_times(o, n->changed->what))
         return false;
-    const bool ok = *word == 'i' ? over_integral(o, &out->v, &error) : over_extreme(o, word[1] == 'a', &out->v);
+    const bool ok =
+        *word == 'i' ? over_integral(o, &out->v, &error) : over_extreme(o, word[1] == 'a', &out->v);
     m->c->over_error = fmax(m->c->over_error, (double)error);
     return ok;
 }
@@ -373,7 +374,9 @@ static bool over_value(machine *m, const expr_node *n, value *out) {
     enum { DEEPEST = 8 }; /* each takes some stack, and hundreds of values of the one within */
     const expr_at *at = n->changed;
     knob name = at->change[0].p;
-    over_body b = {.m = *m, .o = {.name = at->along ? NULL : &name, .context = &b, .value = body_value, .error = m->error}};
+    over_body b = {
+        .m = *m,
+        .o = {.name = at->along ? NULL : &name, .context = &b, .value = body_value, .error = m->error}};
     b.m.e = &at->body;
     b.m.want = NULL;
     if (m->c->over_depth == DEEPEST)
@@ -506,7 +509,8 @@ static bool two_readings(machine *m, const expr_node *n) {
     m->error->strange = true;
     return calc_fail(m->error, n->at, len, "%.*s has two readings: write (%.*s) %.*s, or %.*s(%.*s)",
                      LEX_SHOWN(len), text, LEX_SHOWN(numbers), text, LEX_SHOWN(len - (n->index - n->at)),
-                     m->e->text + n->index, LEX_SHOWN(divisor), text, LEX_SHOWN(len - divisor), text + divisor);
+                     m->e->text + n->index, LEX_SHOWN(divisor), text, LEX_SHOWN(len - divisor),
+                     text + divisor);
 }
 
 /* Of numbers with a division and a unit the one reading that holds, by dimensions alone. */
@@ -523,7 +527,8 @@ static bool choose_reading(machine *m) {
         probe.error = &unused;
         probe.dry = true;
         probe.over = i;
-        holds[i] = run_read(&probe, &v) && (!m->want || (dim_equal(v.d, *m->want) && v.d.rad == m->want->rad));
+        holds[i] =
+            run_read(&probe, &v) && (!m->want || (dim_equal(v.d, *m->want) && v.d.rad == m->want->rad));
     }
     m->over = holds[1];
     return !(holds[0] && holds[1]) || two_readings(m, n);

@@ -86,11 +86,12 @@ static fret_estimate between(over *o, long double lo, long double hi, long doubl
 }
 
 /* From `far` to a singular end: between halves of the distance, whose sums go on as their limit does (Wynn's
- * epsilon, exact for sums of powers of the distance). There x keeps its digits, which next to the end it loses.
- * Where the last of them do not shrink there is no limit. */
+ * epsilon, exact for sums of powers of the distance). There x keeps its digits, which next to the end it
+ * loses. Where the last of them do not shrink there is no limit. */
 static fret_estimate to_end(over *o, long double far, long double end) {
-    enum { HALVES = 24 };
-    long double row[HALVES + 1], sum = 0, from = far, rounding = 0, last = NAN, before = 0, shrinks = 0;
+    enum { HALVES = 40 };
+    long double row[HALVES + 1], sum = 0, from = far, rounding = 0, last = NAN, before = 0, shrinks = 0,
+                                 off = INFINITY;
     fret_estimate best = {0, INFINITY};
     for (int n = 0; n <= HALVES && !o->error->raised; n++) {
         const long double to = end - (end - from) / 2, digits = LDBL_EPSILON * fabsl(end / (end - to));
@@ -106,10 +107,11 @@ static fret_estimate to_end(over *o, long double far, long double end) {
             row[j - 1] = above + 1 / (row[j] - old);
             above = old;
         }
-        const long double off = fabsl(row[n % 2] - last) + rounding;
-        if (off < best.error)
-            best = (fret_estimate){row[n % 2], off};
-        last = row[n % 2];
+        const long double earlier = off, now = row[n % 2];
+        off = fabsl(now - last);
+        if (off + earlier + rounding < best.error) /* agrees with two before it; is a number */
+            best = (fret_estimate){now, off + earlier + rounding};
+        last = now;
     }
     return shrinks < 0.999L || before == 0 ? best : (fret_estimate){sum, INFINITY};
 }
@@ -134,8 +136,8 @@ static fret_estimate of_part(over *o, long double lo, long double hi, long doubl
     return all;
 }
 
-/* Where parts end: of a place, where the scene has an edge, and pressure may be singular there. The first lets
- * no rule lie evenly about a pole, whose sides would take each other away. */
+/* Where parts end: of a place, where the scene has an edge, and pressure may be singular there. The first
+ * lets no rule lie evenly about a pole, whose sides would take each other away. */
 enum { EDGES = 5 };
 static size_t edges(const over *o, long double at[EDGES]) {
     static const char *const names[] = {"b", "a"};
@@ -170,7 +172,10 @@ bool over_integral(over *o, long double *out, long double *error) {
     *out = sum;
     *error = size > 0 ? off / size : 0;
     return !o->error->raised &&
-           (off <= poor * size || calc_fail(o->error, 0, 0, "the integral does not converge: what is integrated may be infinite, or swing without end"));
+           (off <= poor * size ||
+            calc_fail(
+                o->error, 0, 0,
+                "the integral does not converge: what is integrated may be infinite, or swing without end"));
 }
 
 /* ---- the largest and the smallest -------------------------------------------------------------- */

@@ -29,7 +29,7 @@ typedef struct parser {
     const definition *within; /* its parameters are names */
     int depth;
     const struct bound *bound; /* names of the ranges around it */
-    bool bare; /* a unit behind the number at the cursor belongs to more than that */
+    bool bare;                 /* a unit behind the number at the cursor belongs to more than that */
 } parser;
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
@@ -371,7 +371,8 @@ static bool parse_name(parser *p, size_t *out) {
 static bool numbers_alone(const parser *p, size_t first) {
     const expr_node *n = p->e->nodes + p->e->count;
     while (n-- > p->e->nodes + first)
-        if (n->kind == N_NUMBER ? n->index : n->kind != N_NEGATE && n->kind != N_BINARY && n->kind != N_BUILTIN)
+        if (n->kind == N_NUMBER ? n->index
+                                : n->kind != N_NEGATE && n->kind != N_BINARY && n->kind != N_BUILTIN)
             return false;
     return true;
 }
@@ -387,10 +388,11 @@ static bool is_free_name(parser *p, size_t from) {
         parser of = {.lx = &own, .within = p->within};
         if (own.kind == T_NAME && own.at > from && unit_lookup(own.text + own.at, own.len, &u) &&
             (find_parameter(&of, &j) || names_find(&p->c->names, own.text + own.at, own.len, &i)))
-            return !calc_fail(lx->error, own.at, own.len,
-                              "%.*s is a name here, and a unit: write its product with ( ), as (5 N)*%.*s or 5 "
-                              "N*(1 %.*s)",
-                              LEX_WORD(&own), LEX_WORD(&own), LEX_WORD(&own));
+            return !calc_fail(
+                lx->error, own.at, own.len,
+                "%.*s is a name here, and a unit: write its product with ( ), as (5 N)*%.*s or 5 "
+                "N*(1 %.*s)",
+                LEX_WORD(&own), LEX_WORD(&own), LEX_WORD(&own));
     }
     return false;
 }
@@ -426,8 +428,8 @@ static bool means_inch(const parser *p) {
     if (!lex_is(&next, "in"))
         return false;
     lex_next(&next);
-    return next.kind != T_NAME || lex_is(&next, "in") || lex_is(&next, "at") || lex_peek(&next) == T_ASSIGN ||
-           (p->c->keyword && p->c->keyword(&next));
+    return (next.kind != T_NAME && !unit_at(&next)) || lex_is(&next, "in") || lex_is(&next, "at") ||
+           lex_peek(&next) == T_ASSIGN || (p->c->keyword && p->c->keyword(&next));
 }
 
 /* A value or a unit right behind a number, and no keyword or argument of a command. */
@@ -473,9 +475,10 @@ static bool parse_number(parser *p, size_t *out) {
     }
     if (lx->error->raised)
         return false;
-    if (means_inch(p))
-        return calc_fail(lx->error, lx->at, lx->len, "`in` asks for a unit: an inch is called inch (%.*s inch)",
-                         LEX_SHOWN(len), lx->text + at);
+    if (!node.index && means_inch(p))
+        return calc_fail(lx->error, lx->at, lx->len,
+                         "`in` asks for a unit: an inch is called inch (%.*s inch)", LEX_SHOWN(len),
+                         lx->text + at);
     if (lx->kind == T_OPEN || (lx->kind == T_NAME && !(p->bare && unit_at(lx)) && at_factor(p)))
         return lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
     return add_node(p, &node, out);
@@ -534,7 +537,8 @@ static bool parse_ends(parser *p, expr_at *at) {
     lexer *lx = p->lx;
     for (token_kind before = T_ASSIGN; at->count < 2; before = T_RANGE) {
         if (lx->kind != before)
-            return lex_fail(lx, at->count ? "expected .. between the two ends" : "expected = LO .. HI after the name");
+            return lex_fail(lx, at->count ? "expected .. between the two ends"
+                                          : "expected = LO .. HI after the name");
         lex_next(lx);
         at->change[at->count].at = lx->at;
         if (!parse_inner(p, &at->change[at->count++].value, p->bound))
@@ -648,7 +652,8 @@ static bool parse_power(parser *p, size_t *out) {
     ahead.error = error_quiet();
     if (ok && unit_at(&ahead) && unit_parse(&ahead, &u) && dim_equal(u.d, DIM_NONE)) /* 2^50 % */
         ok = add_unit(p, 'U', exponent, &node.right);
-    return ok && add_node(p, &node, out) && (numbers_alone(p, first) ? unit_behind(p, at, out) : no_unit(p->lx));
+    return ok && add_node(p, &node, out) &&
+           (numbers_alone(p, first) ? unit_behind(p, at, out) : no_unit(p->lx));
 }
 
 static bool parse_unary(parser *p, size_t *out) {

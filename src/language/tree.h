@@ -22,11 +22,11 @@ typedef enum node_kind {
 
 struct expr_node {
     unsigned char kind; /* node_kind */
-    char op; /* + - * / ^, U: a number and its unit, ?: one that may belong to the divisor alone */
+    char op;            /* + - * / ^, U: a number and its unit, ?: one that may belong to the divisor alone */
     unsigned len;
     size_t at;          /* its place in the statement */
     size_t left, right; /* N_APPLY: first of the arguments, and how many */
-    size_t index;       /* of a name, parameter or builtin; number: has it a unit? operator: where it stands */
+    size_t index; /* of a name, parameter or builtin; number: has it a unit? operator: where it stands */
     union {
         const quantity *q;
         expr_at *changed; /* N_AT, N_OVER */
@@ -34,7 +34,8 @@ struct expr_node {
     value v;
 };
 
-/* EXPR at NAME = EXPR, ...; EXPR for NAME = LO .. HI, as two changes of one name, or along a load, as none. */
+/* EXPR at NAME = EXPR, ...; EXPR for NAME = LO .. HI, as two changes of one name, or along a load, as none.
+ */
 struct expr_at {
     expr_at *next; /* of the expression that it is a part of */
     expr body;
@@ -56,7 +57,14 @@ typedef struct builtin {
     const char *name;
     long double (*f)(long double);
     long double (*f2)(long double, long double);
-    enum { DIM_NUMBER, DIM_TO_ANGLE, DIM_KEPT, DIM_HALVED, DIM_SHARED, DIM_RANGE } d; /* the last: over a range */
+    enum {
+        DIM_NUMBER,
+        DIM_TO_ANGLE,
+        DIM_KEPT,
+        DIM_HALVED,
+        DIM_SHARED,
+        DIM_RANGE
+    } d; /* the last: over a range */
     const char *summary;
 } builtin;
 

@@ -250,6 +250,7 @@ const command commands[] = {
      .takes = "EXPR, ... RANGE [to FILE]",
      .summary = "a table over a range",
      .help = "NAME is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
+             "A list, `for FN = 1 N, 2 N, 5 N`, may stand for LO .. HI, here and in figures.\n"
              "Two ranges make a matrix, as CSV and JSON a row for each pair. `along program`,\n"
              "`along cycle` and `along cycle FA=...` go along a load.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
@@ -267,8 +268,9 @@ const command commands[] = {
      .summary = "figures, in the terminal or to a file",
      .print = figures_list,
      .help = "A FIGURE of the list above stands alone or with another RANGE; a | puts one\n"
-             "beside it. `map EXPR for A = LO .. HI for B = LO .. HI` draws contours. Where no\n"
-             "steps are given there are more points where the curve bends. LOAD is program,\n"
+             "beside it. `map EXPR for A = LO .. HI for B = LO .. HI` draws contours. A comma\n"
+             "parts curves over expressions of their own: `Fx against dx, FN against dz`.\n"
+             "Without steps there are more points where the curve bends. LOAD is program,\n"
              "cycle, or one that is only tried: `step ...`, `cycle FA=...`. AXES are x, y or\n"
              "xy, TEXT stands in quotation marks, `key off` hides the key, and `over` adds\n"
              "measured points. FILE.gp is the gnuplot script itself. `set plot 80x24` fixes\n"

@@ -271,7 +271,8 @@ bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *err
 
 dim quantity_dim(const quantity *q, const scene *s) {
     if (q->in == 1 + IN_A)
-        return (dim){0, 1 - (s->in.geometry && s->in.geometry->n > 0 ? s->in.geometry->n : s->in.v[IN_N]), 0, 0};
+        return (dim){0, 1 - (s->in.geometry && s->in.geometry->n > 0 ? s->in.geometry->n : s->in.v[IN_N]), 0,
+                     0};
     return q->d;
 }
 

@@ -253,9 +253,10 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
 }
 
 static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
-    return read_operand(sh, lx, NULL, h) && ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
-                                       calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
-                                                 "the seconds must be a positive number up to %u", of->most));
+    return read_operand(sh, lx, NULL, h) &&
+           ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
+            calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
+                      "the seconds must be a positive number up to %u", of->most));
 }
 
 /* A word of a table, in which no word has a comma or an `=`. */

@@ -24,7 +24,11 @@ static const struct {
     {"dyn", 3, false, {{1, 0, 0, 0}, -5, 1}, "dyne, force"},
     {"Pa", 2, true, {{1, -2, 0, 0}, 0, 1}, "pascal, pressure"},
     {"bar", 3, false, {{1, -2, 0, 0}, 5, 1}, "bar, pressure"},
-    {"psi", 3, false, {{1, -2, 0, 0}, 0, 4.4482216152605L / (0.0254L * 0.0254L)}, "pound-force per square inch"},
+    {"psi",
+     3,
+     false,
+     {{1, -2, 0, 0}, 0, 4.4482216152605L / (0.0254L * 0.0254L)},
+     "pound-force per square inch"},
     {"ksi", 3, false, {{1, -2, 0, 0}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
     {"m", 1, true, {{0, 1, 0, 0}, 0, 1}, "metre, length"},
     {"inch", 4, false, {{0, 1, 0, 0}, -4, 254}, "inch, length"},
@@ -90,19 +94,21 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
 }
 
 static const char *prefixed_name(size_t i) {
-    static const char *const common[] = {"N",    "kN",  "mN",  "uN",  "MN",  "lbf", "kgf", "dyn", "Pa", "kPa",
-                                         "MPa",  "GPa", "bar", "psi", "ksi", "m",   "mm",  "um",  "nm", "cm",
-                                         "inch", "J",   "mJ",  "uJ",  "nJ",  "kJ",  "rad", "deg", "kip", "gf",
-                                         "kg", "Hz"};
+    static const char *const common[] = {"N",  "kN",  "mN",  "uN",  "MN",   "lbf", "kgf", "dyn",
+                                         "Pa", "kPa", "MPa", "GPa", "bar",  "psi", "ksi", "m",
+                                         "mm", "um",  "nm",  "cm",  "inch", "J",   "mJ",  "uJ",
+                                         "nJ", "kJ",  "rad", "deg", "kip",  "gf",  "kg",  "Hz"};
     return i < sizeof common / sizeof *common ? common[i] : NULL;
 }
 
 const char *unit_suggest(const char *word) {
     static const char *const other_names[][2] = {
-        {"in", "inch"},  {"newton", "N"},     {"pascal", "Pa"},  {"metre", "m"},    {"meter", "m"},
-        {"joule", "J"},  {"micron", "um"},    {"degree", "deg"}, {"radian", "rad"}, {"percent", "%"},
-        {"angstrom", "\xc3\x85"}, {"lb", "lbf"}, {"lbs", "lbf"}, {"kips", "kip"}, {"kilogram", "kg"}, {"hertz", "Hz"}, {"second", "s"}, {"sec", "s"},      {"kpsi", "ksi"},   {"Nm", "N*m"},     {"kNm", "kN*m"},
-        {"Nmm", "N*mm"}, {"millimetre", "mm"}};
+        {"in", "inch"},    {"newton", "N"},  {"pascal", "Pa"},         {"metre", "m"},
+        {"meter", "m"},    {"joule", "J"},   {"micron", "um"},         {"degree", "deg"},
+        {"radian", "rad"}, {"percent", "%"}, {"angstrom", "\xc3\x85"}, {"lb", "lbf"},
+        {"lbs", "lbf"},    {"kips", "kip"},  {"kilogram", "kg"},       {"hertz", "Hz"},
+        {"second", "s"},   {"sec", "s"},     {"kpsi", "ksi"},          {"Nm", "N*m"},
+        {"kNm", "kN*m"},   {"Nmm", "N*mm"},  {"millimetre", "mm"}};
     for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++) {
         const bool letters_tell = strchr(other_names[i][1], '*') != NULL; /* nM is no moment */
         if (letters_tell ? !strcmp(word, other_names[i][0]) : same_but_case(word, other_names[i][0]))
@@ -128,20 +134,13 @@ static const struct {
     const char *unit, *phrase;
     bool prefixes;
 } named[] = {
-    {{0, 0, 0, 0}, "", "a number", false},
-    {{1, 0, 0, 0}, "N", "a force", true},
-    {{0, 1, 0, 0}, "m", "a length", true},
-    {{1, -2, 0, 0}, "Pa", "a pressure", true},
-    {{1, 1, 0, 0}, "J", "an energy", true},
-    {{1, -1, 0, 0}, "N/m", "a stiffness", true},
-    {{0, 2, 0, 0}, "m^2", "an area", false},
-    {{0, -1, 0, 0}, "m^-1", "an inverse length", false},
-    {{1, -1, 0, 2}, "kg", "a mass", false},
-    {{1, -4, 0, 2}, "kg/m^3", "a density", false},
-    {{0, 0, 0, 1}, "s", "a time", true},
-    {{0, 0, 0, -1}, "Hz", "a frequency", true},
-    {{0, 1, 0, -1}, "m/s", "a speed", true},
-    {{0, 1, 0, -2}, "m/s^2", "an acceleration", false},
+    {{0, 0, 0, 0}, "", "a number", false},   {{1, 0, 0, 0}, "N", "a force", true},
+    {{0, 1, 0, 0}, "m", "a length", true},   {{1, -2, 0, 0}, "Pa", "a pressure", true},
+    {{1, 1, 0, 0}, "J", "an energy", true},  {{1, -1, 0, 0}, "N/m", "a stiffness", true},
+    {{0, 2, 0, 0}, "m^2", "an area", false}, {{0, -1, 0, 0}, "m^-1", "an inverse length", false},
+    {{1, -1, 0, 2}, "kg", "a mass", false},  {{1, -4, 0, 2}, "kg/m^3", "a density", false},
+    {{0, 0, 0, 1}, "s", "a time", true},     {{0, 0, 0, -1}, "Hz", "a frequency", true},
+    {{0, 1, 0, -1}, "m/s", "a speed", true}, {{0, 1, 0, -2}, "m/s^2", "an acceleration", false},
     {{1, 1, 0, -1}, "J/s", "a power", true},
 };
 enum { NAMED = sizeof named / sizeof *named };
@@ -178,7 +177,11 @@ void dim_unit(dim d, char *buf, size_t size) {
         const double power = n && base[i].power < 0 ? -base[i].power : base[i].power;
         if (!(fabs(power) > 1e-9) || n >= size)
             continue;
-        n += (size_t)snprintf(buf + n, size - n, "%s%s", !n ? "" : base[i].power < 0 ? "/" : "*", base[i].name);
+        n += (size_t)snprintf(buf + n, size - n, "%s%s",
+                              !n                  ? ""
+                              : base[i].power < 0 ? "/"
+                                                  : "*",
+                              base[i].name);
         if (fabs(power - 1) > 1e-9 && n < size)
             n += (size_t)snprintf(buf + n, size - n, "^%.10g", power);
     }

@@ -5,8 +5,9 @@
 
 #include "text/words.h"
 
-/* Powers of newton, metre and second, of which a kilogram is N s^2/m; exponents are real, since A of a gap A r^n is in m^(1-n). An angle is a number,
- * but one that remembers its unit: where an angle is wanted, 90 is not 90 deg. */
+/* Powers of newton, metre and second, of which a kilogram is N s^2/m; exponents are real, since A of a gap A
+ * r^n is in m^(1-n). An angle is a number, but one that remembers its unit: where an angle is wanted, 90 is
+ * not 90 deg. */
 typedef struct dim {
     double N, m, rad, s;
 } dim;

@@ -95,13 +95,19 @@ bool unit_parse(lexer *lx, unit *out) {
 }
 
 bool unit_of_header(lexer *lx, unit *out) {
-    const double times = lx->kind == T_NUMBER ? lx->number : 1;
+    const double times = lx->kind == T_NUMBER ? lx->number : 1, places = round(log10(times));
+    double power = 0;
     lx->header = true;
     if (lx->kind == T_NUMBER)
         lex_next(lx);
     if (!(times > 0) || !unit_parse(lx, out) || lx->error->raised || lx->kind != T_END)
         return false;
-    out->factor *= times;
+    if (fabs(places) < 100)
+        lex_decimal("1", 1, '.', (int)places, &power);
+    if (times == power) /* numbers in it are rounded once */
+        out->exp10 += (int)places;
+    else
+        out->factor *= times;
     return true;
 }
 
