@@ -29,6 +29,7 @@ static bool read_column(shell *sh, lexer *lx, expr *e, column *c) {
     if (!expr_parse(&sh->calc, lx, e))
         return false;
     c->name = column_name(lx->text + e->at, e->len);
+    c->row = expr_unit(e);
     if (!c->name)
         return calc_no_memory(lx->error);
     for (;;) {

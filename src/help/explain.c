@@ -132,7 +132,7 @@ static void explain_call(const page *p, const part *of, bool title) {
         answer_page(p->out, "explain");
         if (title)
             explain_title(p, of->q);
-        explain_value(p, of->text, of->len, v);
+        explain_value(p, of->text, of->len, v, of->q->unit);
         answer_done(p->out);
     }
     expr_free(&e);
@@ -164,7 +164,7 @@ static bool explain_whole(const page *p, const expr *e, value v) {
     if (p->conditioning && !influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, p->error))
         return false;
     answer_page(p->out, "explain");
-    explain_value(p, e->text + e->at, e->len, v);
+    explain_value(p, e->text + e->at, e->len, v, expr_unit(e));
     if (p->sh->calc.over_error > 0)
         explain_error(p, fmax(p->sh->calc.over_error, DBL_EPSILON), "integral of the magnitude");
     if (p->conditioning)

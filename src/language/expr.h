@@ -60,6 +60,8 @@ bool expr_way(const struct calc *c, const expr *e, const char *name, char *way, 
 /* The quantities of an expression in the order of their appearance, and each call of one: i = 0, 1, ... call:
  * as a function; at: where, first. NULL after the last. */
 const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at);
+/* The unit of its row, if it is one quantity and nothing else, perhaps `at` something; or NULL. */
+const char *expr_unit(const expr *e);
 /* The live definitions and functions that it names, likewise. */
 const definition *expr_definition(const struct calc *c, const expr *e, size_t i);
 /* What it stands for, if it is the name of a live definition and nothing else: down to the last of them. */

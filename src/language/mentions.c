@@ -120,6 +120,13 @@ const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at) {
     return NULL;
 }
 
+const char *expr_unit(const expr *e) {
+    const expr_node *root = &e->nodes[e->count - 1];
+    if (root->kind == N_AT)
+        return expr_unit(&root->changed->body);
+    return root->kind == N_QUANTITY || root->kind == N_CALL ? root->q->unit : NULL;
+}
+
 const definition *expr_definition(const calc *c, const expr *e, size_t i) {
     for (size_t j = 0; j < e->count; j++) {
         const expr_node *n = &e->nodes[j];

@@ -425,8 +425,6 @@ static bool means_inch(const parser *p) {
     calc_error unused;
     error_clear(&unused);
     next.error = &unused;
-    if (!lex_is(&next, "in"))
-        return false;
     lex_next(&next);
     return (next.kind != T_NAME && !unit_at(&next)) || lex_is(&next, "in") || lex_is(&next, "at") ||
            lex_peek(&next) == T_ASSIGN || (p->c->keyword && p->c->keyword(&next));
@@ -475,7 +473,7 @@ static bool parse_number(parser *p, size_t *out) {
     }
     if (lx->error->raised)
         return false;
-    if (!node.index && means_inch(p))
+    if (lx->kind == T_NAME && !node.index && lex_is(lx, "in") && means_inch(p))
         return calc_fail(lx->error, lx->at, lx->len,
                          "`in` asks for a unit: an inch is called inch (%.*s inch)", LEX_SHOWN(len),
                          lx->text + at);
