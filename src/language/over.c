@@ -210,7 +210,7 @@ static void close_peak(search *s) {
     s->peak[i] = (peak){v, v - fminl(s->v[0], s->v[2]), s->x[0], s->x[2]};
 }
 
-/* The first and the last are their own neighbours. */
+/* The first one is its own neighbour. */
 static void take(search *s, long double x, long double v) {
     for (int i = 0; i < 2; i++) {
         s->x[i] = s->seen ? s->x[i + 1] : x;
@@ -252,7 +252,8 @@ static bool scan(search *s, long double lo, long double hi, size_t points) {
         }
         take(s, x, v);
     }
-    take(s, s->x[2], s->sign * s->v[2]);
+    if (s->seen) /* the last one is its own neighbour */
+        take(s, s->x[2], s->sign * s->v[2]);
     return true;
 }
 
@@ -265,6 +266,8 @@ static bool climb(search *s, peak p, long double *most) {
         const long double width = p.right - p.left;
         if (!scan(s, p.left, p.right, PLACES))
             return false;
+        if (!s->peaks) /* no time between them */
+            return true;
         p = s->peak[0];
         *most = fmaxl(*most, p.v);
         if (p.right - p.left > width / 2) /* steps of time end */
@@ -279,6 +282,8 @@ bool over_extreme(over *o, bool largest, long double *out) {
     const long double many = o->name ? 0 : PER_TIME * (o->hi - o->lo);
     if (!scan(&s, o->lo, o->hi, (size_t)fminl(fmaxl(many, PLACES), AT_MOST)))
         return false;
+    if (!s.peaks)
+        return calc_fail(o->error, 0, 0, "there is no instant to look at");
     peak found[PEAKS];
     const size_t count = s.peaks;
     long double most = s.peak[0].v;
