@@ -19,13 +19,12 @@ bool trial_along_span(trial *t, along_what what, load_mark from, double *first, 
     return true;
 }
 
-static bool begin(trial_along *a, trial *t, double first, double last, size_t points, bool turns,
-                  calc_error *error) {
+bool trial_along_between(trial_along *a, trial *t, double first, double last, size_t points, bool turns,
+                         calc_error *error) {
     const bool lasts = last > first;
     *a = (trial_along){.t = t, .first = first, .last = last};
     a->beside.looks =
         watch_times(first, lasts ? (last - first) / (double)points : 1, lasts ? points : 0, turns);
-    a->little = 1e-9 * a->beside.looks.every;
     return trace_begin(&a->trace, &t->scene, a->beside.looks, true, error);
 }
 
@@ -34,12 +33,7 @@ bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from
     double first, last;
     *a = (trial_along){.t = t};
     return trial_along_span(t, what, from, &first, &last, error) &&
-           begin(a, t, first, last, points, turns, error);
-}
-
-bool trial_along_between(trial_along *a, trial *t, double first, double last, size_t points,
-                         calc_error *error) {
-    return begin(a, t, first, last, points, true, error);
+           trial_along_between(a, t, first, last, points, turns, error);
 }
 
 bool trial_along_next(trial_along *a, calc_error *error) {

@@ -17,8 +17,8 @@ typedef struct trial_along {
  * on it (ALONG_LOAD, scene_append) begins. False: it need not be ended. */
 bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from, size_t points, bool turns,
                        calc_error *error);
-/* The same between two times of its load, turning points too. */
-bool trial_along_between(trial_along *a, trial *t, double first, double last, size_t points,
+/* The same between two times of its load. */
+bool trial_along_between(trial_along *a, trial *t, double first, double last, size_t points, bool turns,
                          calc_error *error);
 /* The times that `what` goes from and to. */
 bool trial_along_span(trial *t, along_what what, load_mark from, double *first, double *last,

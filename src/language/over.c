@@ -32,7 +32,7 @@ static bool look(over *o, long double *v) {
 static void over_where(const over *o, long double x) {
     char at[CALC_VALUE_TEXT];
     calc_value_text(o->name ? o->name->d : DIM_NONE, (double)x, at);
-    if (!o->error->stop)
+    if (!o->error->stop && o->error->kind != ERROR_MISSING)
         calc_append(o->t->c, o->error, " (at %s = %s)", o->name ? o->name->text : "time", at);
 }
 
@@ -226,7 +226,7 @@ static bool scan_along(search *s, long double lo, long double hi, size_t points)
     over *o = s->o;
     trial_along a;
     long double v;
-    if (!trial_along_between(&a, o->t, (double)lo, (double)hi, points, o->error))
+    if (!trial_along_between(&a, o->t, (double)lo, (double)hi, points, true, o->error))
         return false;
     while (trial_along_next(&a, o->error)) {
         if (!look(o, &v)) {
