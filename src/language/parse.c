@@ -765,10 +765,8 @@ static char *copy_of(const char *text, size_t len) {
 
 /* The body of a definition at the cursor. */
 static bool parse_body(calc *c, lexer *lx, definition *d) {
-    parser p = {.c = c, .lx = lx, .e = &d->body, .within = d};
-    const size_t at = lx->at;
-    size_t root;
-    return parse_whole(&p) && (!lex_accept(lx, "at") || parse_at(&p, 0, at, &root));
+    parser p = {.c = c, .lx = lx, .within = d};
+    return parse_body_of(&p, &d->body, NULL);
 }
 
 /* Parsed twice: where it stands, for its errors and its end, and then as its own. */
