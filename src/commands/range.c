@@ -196,8 +196,8 @@ bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
         return lex_fail(lx, "expected for VAR = LO .. HI");
     start_range(sh, lx, &by->hole[1], out);
     lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
-    if (!knob_read(&sh->calc, &name, &s->var) ||
-        !read_interval_or_list(&sh->calc, &own, &s->var, &ends) || !at_end(&own))
+    if (!knob_read(&sh->calc, &name, &s->var) || !read_interval_or_list(&sh->calc, &own, &s->var, &ends) ||
+        !at_end(&own))
         return false;
     s->var.d = ends.d;
     out->listed = ends.listed > 0;

@@ -32,7 +32,8 @@ bool explain_had(const page *p, bool ok, const calc_error *why);
 
 /* ---- of a page that is begun ---- */
 
-/* An expression and its value, in the scene as it stands; row: the unit that readers are shown it in, or NULL. */
+/* An expression and its value, in the scene as it stands; row: the unit that readers are shown it in, or
+ * NULL. */
 void explain_value(const page *p, const char *name, size_t len, value v, const char *row);
 void explain_title(const page *p, const quantity *q);
 /* With the title. */

@@ -367,16 +367,18 @@ static void skip_part(lexer *lx, const grammar *f, const clause *a, unsigned i) 
     const size_t head = titled ? lx->at + lx->len : 0;
     int depth = 0;
     bool operand = false, number = false;        /* it ends before the token, and is that */
+    bool whole = false;                          /* or what a unit may follow, too: (1/3) N, pi N */
     bool word = false;                           /* that of a clause stands for it */
     bool changing = false;                       /* there has been an `at` */
     enum { NOTHING, PLACE, NAMED } at = NOTHING; /* where `at` wants a name, and behind that name */
     for (lx->error = strange; lx->kind != T_END || strange->raised; lex_next(lx)) {
-        const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
+        const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in") ||
+                                                                  (kind == HOLE_SPAN && lex_is(lx, "to")));
         const clause *next = name ? clause_at(lx, f) : NULL;
         const bool figure = lx->last == head && !(clause_near(lx, f) && lex_peek(lx) != T_END);
         const bool ends = name && operand &&
                           (next || !(joins || word || figure || kind == HOLE_LOAD ||
-                                     (number && is_unit(lx, f)) || (kind == HOLE_SPAN && lex_is(lx, "to"))));
+                                     (number && is_unit(lx, f)) || (whole && unit_at(lx))));
         if (depth == 0 && (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
                            (equals_ends && at != NAMED && is_equals(lx)) || ends))
             break;
@@ -387,6 +389,7 @@ static void skip_part(lexer *lx, const grammar *f, const clause *a, unsigned i) 
         at = name && at == PLACE ? NAMED : place ? PLACE : NOTHING;
         word = next && !operand;
         number = lx->kind == T_NUMBER;
+        whole = lx->kind == T_CLOSE || lex_is(lx, "pi");
         operand = !joins &&
                   (name || number || lx->kind == T_CLOSE || lx->kind == T_PERCENT || lx->kind == T_STRING);
     }
