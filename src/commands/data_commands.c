@@ -233,7 +233,7 @@ static bool read_deviation(shell *sh, const lexer *of, const span *part, const k
     value v;
     double now = 0;
     const size_t at = lx->at;
-    if (!expr_value(&sh->calc, lx, &v))
+    if (!expr_value_as(&sh->calc, lx, &k->d, &v))
         return false;
     if (lx->text[lx->last - 1] == '%') {
         if (!ask_present(&sh->calc, k, &now))

@@ -29,6 +29,7 @@ static bool read_column(shell *sh, lexer *lx, expr *e, column *c) {
     if (!expr_parse(&sh->calc, lx, e))
         return false;
     c->name = column_name(lx->text + e->at, e->len);
+    c->row = expr_unit(e);
     if (!c->name)
         return calc_no_memory(lx->error);
     for (;;) {
@@ -41,6 +42,13 @@ static bool read_column(shell *sh, lexer *lx, expr *e, column *c) {
             return false;
         }
     }
+}
+
+bool read_expression(shell *sh, lexer *lx, size_t i, column *c) {
+    lx->list = true; /* another may follow */
+    const bool ok = read_column(sh, lx, &sh->list[i], c);
+    lx->list = false;
+    return ok;
 }
 
 bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c) {
@@ -60,14 +68,11 @@ static void note_comma(shell *sh, const lexer *lx) {
 }
 
 bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_t *count) {
-    for (*count = 0;;) {
+    for (;;) {
         if (*count == limit)
             return lex_fail(lx, "more than %zu expressions", limit);
         const size_t i = (*count)++;
-        lx->list = true;
-        const bool ok = read_column(sh, lx, &sh->list[i], &columns[i]);
-        lx->list = false;
-        if (!ok)
+        if (!read_expression(sh, lx, i, &columns[i]))
             return false;
         if (lx->kind != T_COMMA)
             return !lx->error->raised;
@@ -79,6 +84,7 @@ bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_
 bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *columns, size_t limit,
                          size_t *count) {
     lexer own = hole_lexer(lx, part);
+    *count = 0;
     return read_expressions(sh, &own, columns, limit, count) && at_end(&own);
 }
 

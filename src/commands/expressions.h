@@ -6,12 +6,14 @@
 #include "statement/answer.h"
 #include "statement/reader.h"
 
-/* Into sh->list and columns, which are to be freed whatever comes; at most limit. */
+/* Behind the first *count of sh->list and columns, which are to be freed whatever comes; at most limit in
+ * all. */
 bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_t *count);
 /* The same of a part of the statement, and nothing else may stand there. */
 bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *columns, size_t limit,
                          size_t *count);
-/* One of them, at place i of the list, and nothing else. */
+/* One of them, at place i of the list; and nothing else. */
+bool read_expression(shell *sh, lexer *lx, size_t i, column *c);
 bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c);
 /* Can the value be shown so? Its dimension goes into the column, which may ask for another one. */
 bool column_fits(const expr *e, column *c, value v, calc_error *error);

@@ -235,9 +235,9 @@ static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const
         if (!range_read_name(sh, lx, all, i, !amplitude[i], &r[i]) ||
             !range_options(sh, lx, all, i, &r[i], 0) || !s->range(s, &ends[i], lx->error))
             return false;
-        if (!(ends[i].lo < ends[i].hi))
+        if (r[i].listed || !(ends[i].lo < ends[i].hi))
             return calc_fail(lx->error, r[i].own.at, r[i].own.end - r[i].own.at,
-                             "an empty range: LO must be below HI");
+                             "expected LO .. HI, LO below HI");
         axis[i] = (axis_of){s->var.text, s->var.d};
     }
     p->logx = p->logx || r[0].sweep.log;

@@ -21,7 +21,7 @@ typedef struct model {
 /* ---- forms ------------------------------------------------------------------------------------- */
 
 static bool write_csv(const settings *set, const model *m, FILE *to) {
-    static const dim stiffness = {1, -1, 0};
+    static const dim stiffness = {1, -1, 0, 0};
     answer a;
     column columns[2] = {{.name = NULL}};
     const bool ok = column_si(&columns[0], "k", stiffness) && column_si(&columns[1], "slip", DIM_FORCE);

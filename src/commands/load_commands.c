@@ -220,8 +220,8 @@ typedef struct followed {
     const char *example;
 } followed;
 
-static const followed kinds[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0}, "FN [N],Fx [N]"},
-                                 {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0}, "dz [um],dx [um]"}};
+static const followed kinds[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0, 0}, "FN [N],Fx [N]"},
+                                 {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0, 0}, "dz [um],dx [um]"}};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 enum { AT_ONCE = 4096 }; /* rows; then it is told how far it has come */
@@ -402,7 +402,7 @@ static bool read_pair(const csv *data, const followed *kind, rows *w, calc_error
 }
 
 static bool read_loss(const csv *data, rows *w, calc_error *error) {
-    static const followed energy = {.d = {1, 1, 0}, .example = "W [J]"};
+    static const followed energy = {.d = {1, 1, 0, 0}, .example = "W [J]"};
     const csv_values *loss = csv_column(data, "W", error);
     if (!loss || !of_dimension(data, loss, &energy, error))
         return false;

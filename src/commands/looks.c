@@ -245,12 +245,9 @@ bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, 
 
 axis_unit axis_unit_for(const column *c, dim d, double size) {
     axis_unit u;
-    if (c && c->chosen) {
-        u.scale = c->scale;
-        memcpy(u.text, c->unit, sizeof u.text);
-    } else {
-        u.scale = unit_choose(d, size, 6, u.text, sizeof u.text);
-    }
+    column own = c ? *c : (column){.row = NULL};
+    own.d = d;
+    u.scale = column_unit(&own, size, 6, u.text);
     return u;
 }
 

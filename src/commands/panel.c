@@ -26,9 +26,10 @@ typedef struct panel_job {
     const figure *figure; /* or NULL */
     const sweep *s;
     motion *m;
-    size_t index; /* of the panel */
-    size_t count; /* expressions that are drawn */
-    bool against; /* the one after them is the abscissa */
+    size_t index;         /* of the panel */
+    size_t count;         /* expressions that are drawn */
+    size_t against;       /* expressions behind them that are abscissas; 0: the range is */
+    size_t over[PLOTTED]; /* which of these, for each that is drawn */
     const column *columns;
     const char *statement;
     calc_error *error;
@@ -37,7 +38,7 @@ typedef struct panel_job {
     bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
     double last[PLOTTED][2];
     found found;
-    const file_rows *over; /* residuals of the file whose rows it goes over; or NULL */
+    const file_rows *measured; /* residuals of the file whose rows it goes over; or NULL */
     comparison residuals;
     size_t rows; /* of it that have come */
 } panel_job;
@@ -123,9 +124,9 @@ static bool add_curve(panel_job *job, size_t curve) {
             stick->style = (int)(2 * curve);
             slip->style = (int)(2 * curve + 1);
         } else if (!add_series(job,
-                               role == 'b' ? PLOT_BAND
-                               : job->over ? PLOT_MEASURED
-                                           : PLOT_CURVE,
+                               role == 'b'     ? PLOT_BAND
+                               : job->measured ? PLOT_MEASURED
+                                               : PLOT_CURVE,
                                title_of(job, curve, i, NULL, title), role != 'c')) {
             return false;
         }
@@ -171,14 +172,14 @@ static bool subtract(panel_job *job, const long double *values, long double *lef
     const axis_of axis = {job->columns[0].name, job->found.d[0]};
     comparison *c = &job->residuals;
     if (!c->with)
-        c->with = rows_compared(job->over, &axis, true, job->error);
+        c->with = rows_compared(job->measured, &axis, true, job->error);
     if (!c->with)
         return job->error->raised
                    ? false
                    : calc_fail(job->error, 0, 0, "no column of %.200s is as %s, to be compared",
-                               job->over->data.path, axis.name);
+                               job->measured->data.path, axis.name);
     for (size_t i = 0; i < job->count; i++)
-        left[i] = rows_differ(c, job->rows % job->over->data.rows, values[i]);
+        left[i] = rows_differ(c, job->rows % job->measured->data.rows, values[i]);
     job->rows++;
     return true;
 }
@@ -189,10 +190,9 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
     const size_t at = curve * job->each;
     long double left[PLOTTED];
     progress_pulse();
-    if (job->over && !subtract(job, values, left))
+    if (job->measured && !subtract(job, values, left))
         return false;
-    values = job->over ? left : values;
-    const double abscissa = (double)(job->against ? values[job->count] : x);
+    values = job->measured ? left : values;
     if (at >= job->p->count && !add_curve(job, curve))
         return false;
     if (is_over(job, s, x))
@@ -200,6 +200,7 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
     for (size_t i = 0, j = at; i < job->count; i++, j++) {
         const char role = role_of(job, i);
         plot_series *to = job->p->series[j];
+        const double abscissa = (double)(job->against ? values[job->count + job->over[i]] : x);
         if (role == 'b')
             job->lost = !plot_band(to, abscissa, (double)values[i], (double)values[i + 1]) || job->lost;
         else if (role == 's')
@@ -258,12 +259,12 @@ static void note_logarithms(shell *sh, const plot_panel *p) {
         shell_note(sh, "a logarithmic axis has no place for what is not above 0");
 }
 
-/* The ordinate by the expressions that share it, as far as there is room for them. */
-static void ordinate_name(const panel_job *job, char *name, size_t size) {
+/* An axis by the expressions that share it, as far as there is room for them. */
+static void shared_name(const panel_job *job, size_t first, size_t end, char *name, size_t size) {
     *name = 0;
-    for (size_t i = 0; i < job->count; i++) {
+    for (size_t i = first; i < end; i++) {
         const size_t n = strlen(name);
-        if (!is_main(job, i))
+        if (i < job->count && !is_main(job, i))
             continue;
         if (n + strlen(job->columns[i].name) + 3 > size) {
             *name = 0;
@@ -294,30 +295,44 @@ static bool name_residuals(panel_job *job, dim d, char name[TITLE]) {
     return job->p->title || calc_no_memory(job->error);
 }
 
-static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
-    const sweep *s = job->s;
-    char name[40], residuals[TITLE];
-    const bool shared = main_count(job) > 1;
-    const column *c = job->columns, *x = job->against ? &c[job->count] : NULL;
-    size_t first = 0; /* whose dimension is known: there may be no value that tells of it */
-    while (first + 1 < job->count && !f->known[first])
+/* Of the expressions from `first` on the one whose dimension is the axis': there may be no value that tells
+ * of the others. False: two differ. */
+static bool share_axis(const panel_job *job, const found *f, size_t first, size_t end, size_t *known) {
+    const column *c = job->columns;
+    while (first + 1 < end && !f->known[first])
         first++;
-    for (size_t i = first + 1; i < job->count; i++)
+    *known = first;
+    for (size_t i = first + 1; i < end; i++)
         if (f->known[i] && !dim_equal(f->d[i], f->d[first]))
             return calc_fail(job->error, job->sh->list[i].at, job->sh->list[i].len,
                              "%s and %s cannot share an axis", c[first].name, c[i].name);
-    ordinate_name(job, name, sizeof name);
-    const axis_of ax = {x ? x->name : s->var.text, x ? f->d[job->count] : s->var.d},
-                  ay = {shared ? name : c[0].name, f->d[first]};
+    return true;
+}
+
+static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
+    const sweep *s = job->s;
+    char name[40], abscissas[40], residuals[TITLE];
+    const size_t count = job->count, all = count + job->against;
+    const column *c = job->columns, *x = job->against ? &c[count] : NULL;
+    size_t first, across;
+    if (!share_axis(job, f, 0, count, &first) || !share_axis(job, f, count, all, &across))
+        return false;
+    shared_name(job, 0, count, name, sizeof name);
+    shared_name(job, count, all, abscissas, sizeof abscissas);
+    const axis_of ax = {!x                 ? s->var.text
+                        : job->against > 1 ? abscissas
+                                           : x->name,
+                        x ? f->d[across] : s->var.d},
+                  ay = {main_count(job) > 1 ? name : c[0].name, f->d[first]};
     job->p->logx = job->p->logx || s->log;
     if (!job->p->title && job->figure)
         job->p->title = strdup(job->figure->title);
     if (!job->p->title && job->figure)
         return calc_no_memory(lx->error);
-    return (job->over ? name_residuals(job, ay.d, residuals)
-                      : looks_lay_over(lx, job->looks, job->p, &ax, &ay)) &&
+    return (job->measured ? name_residuals(job, ay.d, residuals)
+                          : looks_lay_over(lx, job->looks, job->p, &ax, &ay)) &&
            scale_axis(job, lx, true, x, &ax) &&
-           scale_axis(job, lx, false, &c[0], job->over ? &(axis_of){residuals, ay.d} : &ay);
+           scale_axis(job, lx, false, &c[0], job->measured ? &(axis_of){residuals, ay.d} : &ay);
 }
 
 /* ---- motion ------------------------------------------------------------------------------------ */
@@ -409,40 +424,69 @@ static bool take_residuals(panel_job *job, const lexer *lx, range *r, file_rows 
     if (l->files != 1 || r->sweep.along || r->sweep.at || job->against)
         return calc_fail(lx->error, l->over[0].at, l->over[0].len,
                          "residuals are of EXPR, ... for NAME = LO .. HI over one FILE.csv");
-    job->over = from;
+    job->measured = from;
     return rows_over(lx, &l->over[0], &r->sweep, from);
+}
+
+/* EXPR, ... against EXPR, and such again behind commas: what is drawn, then the abscissas. */
+static bool read_curves(panel_job *job, const written *of, column columns[2 * PLOTTED]) {
+    shell *sh = job->sh;
+    const heard *h = &of->all->list[0];
+    lexer own = hole_lexer(&of->lx, &h->hole[0]);
+    size_t drawn = 0;
+    bool ok = read_expressions(sh, &own, columns, PLOTTED, &job->count);
+    while (ok && at_end(&own) && (h = said_of(of->all, "against", job->against))) {
+        const size_t i = PLOTTED + job->against;
+        if (drawn == job->count)
+            return calc_fail(own.error, h->at, h->len, "expected EXPR before against");
+        while (drawn < job->count)
+            job->over[drawn++] = job->against;
+        job->against++;
+        own = hole_lexer(&of->lx, &h->hole[0]);
+        ok = read_expression(sh, &own, i, &columns[i]);
+        if (ok && own.kind == T_COMMA) {
+            lex_next(&own);
+            ok = read_expressions(sh, &own, columns, PLOTTED, &job->count);
+        }
+    }
+    if (!ok || own.error->raised)
+        return false;
+    if (job->against && drawn < job->count)
+        return calc_fail(own.error, sh->list[drawn].at, sh->list[drawn].len, "expected %s against EXPR",
+                         columns[drawn].name);
+    for (size_t i = job->count, from = PLOTTED; i < job->count + job->against; i++, from++) {
+        const expr e = sh->list[i];
+        const column c = columns[i];
+        sh->list[i] = sh->list[from];
+        sh->list[from] = e;
+        columns[i] = columns[from];
+        columns[from] = c;
+    }
+    job->p->airy = job->p->airy || job->against;
+    return true;
 }
 
 /* of: where the expressions stand, and the range unless the statement has one; all else stands there. */
 static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     shell *sh = job->sh;
-    column columns[PLOTTED + 1];
+    column columns[2 * PLOTTED] = {{.name = NULL}};
     written own = {*lx, all}, *over = range_of(of->all) ? of : &own;
-    const heard *against = said_of(of->all, "against", 0);
     range r;
     file_rows at;
-    bool ok = rows_open(sh, &over->lx, over->all, &at) &&
-              read_expressions_in(sh, &of->lx, &of->all->list[0].hole[0], columns, PLOTTED, &job->count);
-    size_t count = job->count;
-    if (ok && against) {
-        lexer abscissa = hole_lexer(&of->lx, &against->hole[0]);
-        ok = read_one_expression(sh, &abscissa, count, &columns[count]);
-        count++;
-        job->against = job->p->airy = true;
-    }
     job->columns = columns;
+    bool ok = rows_open(sh, &over->lx, over->all, &at) && read_curves(job, of, columns);
     if (!ok && at.given)
         columns_missed(sh, lx, &at.data);
     else if (ok && at.given)
-        ok = range_read_rows(sh, &over->lx, over->all, &at, count, &r);
+        ok = range_read_rows(sh, &over->lx, over->all, &at, job->count + job->against, &r);
     else
         ok = ok && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
              range_options(sh, lx, all, 0, &r, 0);
     ok = ok && take_residuals(job, lx, &r, &at) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
-    if (!ok && job->over)
+    if (!ok && job->measured)
         calc_place(lx->error, job->looks->over[0].at, job->looks->over[0].len);
     rows_close(&at);
-    columns_free(columns, count);
+    columns_free(columns, 2 * PLOTTED);
     return ok;
 }
 

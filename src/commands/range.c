@@ -32,13 +32,15 @@ static bool is_plain(dim d) {
 static bool read_bound(calc *c, lexer *lx, const knob *var, bounds *b, long double *out) {
     value v;
     const size_t at = lx->at;
-    if (!expr_value(c, lx, &v))
+    if (var->is_input)
+        b->d = quantity_dim(quantity_of_input(var->in), c->now);
+    if (!expr_value_as(c, lx, var->is_input || (b->known && !is_plain(b->d)) ? &b->d : NULL, &v))
         return false;
     const size_t len = lx->last - at;
     *out = v.v;
     if (var->is_input)
-        b->d = quantity_dim(quantity_of_input(var->in), c->now);
-    else if (b->known && is_plain(b->d) && !is_plain(v.d))
+        return value_dim(lx, var->text, at, len, v, b->d);
+    if (b->known && is_plain(b->d) && !is_plain(v.d))
         return value_dim(lx, var->text, b->at, b->len, b->v, v.d); /* 1 .. 3 mm */
     else if (!b->known)
         *b = (bounds){v.d, v.v != 0 || !is_plain(v.d), v, at, len};
@@ -58,6 +60,33 @@ bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, 
     return ok;
 }
 
+/* The same, or v1, v2, ...: no `..` stands there then. */
+static bool read_interval_or_list(calc *c, lexer *lx, const knob *var, sweep_range *out) {
+    bounds b = {.known = false};
+    lexer ahead = *lx;
+    ahead.error = error_quiet();
+    while (ahead.kind != T_END && ahead.kind != T_RANGE && ahead.kind != T_COMMA)
+        lex_next(&ahead);
+    const bool list = ahead.kind == T_COMMA;
+    while (ahead.kind != T_END && ahead.kind != T_RANGE)
+        lex_next(&ahead);
+    if (!list || ahead.kind == T_RANGE)
+        return range_read_interval(c, lx, var, NULL, out);
+    lx->list = true;
+    for (out->listed = 0; out->listed == 0 || lx->kind == T_COMMA;) {
+        if (out->listed == SWEEP_LISTED)
+            return lex_fail(lx, "more than %d values", SWEEP_LISTED);
+        if (out->listed)
+            lex_next(lx);
+        if (!read_bound(c, lx, var, &b, &out->list[out->listed++]))
+            return false;
+    }
+    lx->list = false;
+    out->d = b.d;
+    out->lo = out->list[0];
+    return true;
+}
+
 /* The range where a curve sees it. */
 static bool evaluate_range(const sweep *s, sweep_range *out, calc_error *error) {
     const range *r = s->context;
@@ -68,7 +97,7 @@ static bool evaluate_range(const sweep *s, sweep_range *out, calc_error *error) 
         return true;
     }
     if (!s->along)
-        return range_read_interval(&r->sh->calc, &lx, &s->var, NULL, out);
+        return read_interval_or_list(&r->sh->calc, &lx, &s->var, out);
     return s->what != ALONG_LOAD || read_load(r->sh, &lx, &out->step, &out->extra, out->bound);
 }
 
@@ -144,12 +173,15 @@ bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *o
     sweep *s = &out->sweep;
     size_t ranges = 0;
     bool given = false;
-    s->steps = steps;
+    s->steps = out->listed ? s->steps : steps;
     for (const heard *h = all->list; h < all->list + all->count; h++) {
         const char *word = h->of->name;
         ranges += !strcmp(word, "for");
         if ((ranges ? ranges - 1 : 0) != which)
             continue;
+        if (out->listed && (!strcmp(word, "steps") || (!strcmp(word, "log") && !h->of->holes)))
+            return calc_fail(lx->error, h->at, h->len,
+                             "%s goes with for NAME = LO .. HI, not with a list of values", word);
         if (!strcmp(word, "steps")) {
             if (given)
                 return calc_fail(lx->error, h->at, h->len, "steps is given twice");
@@ -177,9 +209,11 @@ bool range_read_name(shell *sh, lexer *lx, said *all, size_t which, bool takes, 
     start_range(sh, lx, &by->hole[1], out);
     lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
     if (!(takes ? knob_read : knob_name)(&sh->calc, &name, &s->var) ||
-        !range_read_interval(&sh->calc, &own, &s->var, NULL, &ends) || !at_end(&own))
+        !read_interval_or_list(&sh->calc, &own, &s->var, &ends) || !at_end(&own))
         return false;
     s->var.d = ends.d;
+    out->listed = ends.listed > 0;
+    s->steps = out->listed ? ends.listed - 1 : 0;
     out->positive = ends.lo > 0 && ends.hi > 0;
     return true;
 }

@@ -24,7 +24,8 @@ const char *range_line(size_t i);
 typedef struct range {
     sweep sweep;
     shell *sh;
-    lexer own;     /* over LO .. HI, or the load */
+    lexer own; /* over LO .. HI, a list, or the load */
+    bool listed;
     bool positive; /* both ends */
 } range;
 

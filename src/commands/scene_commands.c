@@ -178,9 +178,10 @@ static bool read_term(shell *sh, lexer *lx, fret_gap *sum) {
     lex_next(lx);
     at = lx->at;
     lx->list = true; /* another term may follow */
-    const bool ok = expr_value(&sh->calc, lx, &A);
+    const dim d = {0, (double)(1 - n.v), 0, 0};
+    const bool ok = expr_value_as(&sh->calc, lx, &d, &A);
     lx->list = false;
-    if (!ok || !value_dim(lx, "the coefficient", at, lx->last - at, A, (dim){0, (double)(1 - n.v), 0}))
+    if (!ok || !value_dim(lx, "the coefficient", at, lx->last - at, A, d))
         return false;
     sum->power[sum->terms++] = (fret_power){(double)n.v, (double)A.v, 1};
     return true;

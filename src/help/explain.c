@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command `explain`: the quantities that an expression is made of, a page each. Changes nothing. */
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -130,7 +132,7 @@ static void explain_call(const page *p, const part *of, bool title) {
         answer_page(p->out, "explain");
         if (title)
             explain_title(p, of->q);
-        explain_value(p, of->text, of->len, v);
+        explain_value(p, of->text, of->len, v, of->q->unit);
         answer_done(p->out);
     }
     expr_free(&e);
@@ -162,7 +164,9 @@ static bool explain_whole(const page *p, const expr *e, value v) {
     if (p->conditioning && !influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, p->error))
         return false;
     answer_page(p->out, "explain");
-    explain_value(p, e->text + e->at, e->len, v);
+    explain_value(p, e->text + e->at, e->len, v, expr_unit(e));
+    if (p->sh->calc.over_error > 0)
+        explain_error(p, fmax(p->sh->calc.over_error, DBL_EPSILON), "integral of the magnitude");
     if (p->conditioning)
         explain_conditioning(p, "it", &study);
     answer_done(p->out);
@@ -228,6 +232,7 @@ static bool read_explained(shell *sh, lexer *lx, const expr **e, const expr **as
     *asked = meant == whole ? *e : whole;
     if (!expr_quantity(*e, 0, &call, &first) && !expr_definition(&sh->calc, *e, 0) && !(*e)->ats)
         return calc_fail(lx->error, at, whole->len, "explain which quantity? try: explain dW");
+    sh->calc.over_error = 0;
     return expr_eval(&sh->calc, *e, v, lx->error) || calc_place(lx->error, at, whole->len);
 }
 

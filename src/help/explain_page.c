@@ -19,13 +19,13 @@ bool explain_had(const page *p, bool ok, const calc_error *why) {
 
 /* ---- lines ------------------------------------------------------------------------------------- */
 
-void explain_value(const page *p, const char *name, size_t len, value v) {
+void explain_value(const page *p, const char *name, size_t len, value v, const char *row) {
     char text[160], unit_text[COLUMN_UNIT], *whole = column_name(name, len);
     if (!whole) {
         calc_raise_memory(p->error);
         return;
     }
-    format_value(&p->sh->set, v, text, sizeof text);
+    format_row(&p->sh->set, v, row, text, sizeof text);
     dim_unit(v.d, unit_text, sizeof unit_text);
     answer_words(p->out, "    %s = %s\n", whole, text);
     answer_string(p->out, "expression", whole);
@@ -262,6 +262,11 @@ static void put_difference(const page *p, const expr *e, value v) {
     }
 }
 
+void explain_error(const page *p, double good, const char *of) {
+    answer_words(p->out, "    error: below %.0e of the %s\n", round_up(good), of);
+    say_error(p, round_up(good), of);
+}
+
 /* What the value is good to, as README says under `How exact`. */
 static void put_error(const page *p, const quantity *q, bool call, model_id model, double sine) {
     const scene *s = p->sh->calc.now;
@@ -271,8 +276,7 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
     good = fmax(good, sine);
     if (s->used & USED(MODEL_PIECES))
         good = fmax(good, s->pieces_error);
-    answer_words(p->out, "    error: below %.0e of the %s\n", round_up(good), of);
-    say_error(p, round_up(good), of);
+    explain_error(p, good, of);
 }
 
 /* ---- inputs and conditioning ------------------------------------------------------------------- */
@@ -418,7 +422,7 @@ void explain_input(const page *p, const quantity *q) {
     const bool got = explain_had(p, quantity_get(q, c->now, &v.v, why), why);
     v.d = quantity_dim(q, c->now); /* which may follow from what is live */
     if (got)
-        explain_value(p, q->name, strlen(q->name), v);
+        explain_value(p, q->name, strlen(q->name), v, q->unit);
     answer_done(p->out);
 }
 
@@ -444,7 +448,7 @@ void explain_quantity(const page *p, const part *of, const expr *e, value v, con
     answer_up(p->out);
     const model_id model = put_model(p, q, of->call, e, &sine);
     if (e)
-        explain_value(p, of->text, of->len, v);
+        explain_value(p, of->text, of->len, v, of->q->unit);
     if (e && model == MODEL_SPRINGS)
         put_difference(p, e, v);
     else if (e)

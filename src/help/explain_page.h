@@ -32,11 +32,14 @@ bool explain_had(const page *p, bool ok, const calc_error *why);
 
 /* ---- of a page that is begun ---- */
 
-/* An expression and its value, in the scene as it stands. */
-void explain_value(const page *p, const char *name, size_t len, value v);
+/* An expression and its value, in the scene as it stands; row: the unit that readers are shown it in, or
+ * NULL. */
+void explain_value(const page *p, const char *name, size_t len, value v, const char *row);
 void explain_title(const page *p, const quantity *q);
 /* With the title. */
 void explain_formula(const page *p, const quantity *q, bool call);
+/* What the value is good to, as a part of what. */
+void explain_error(const page *p, double good, const char *of);
 /* name: what is moved. */
 void explain_conditioning(const page *p, const char *name, const influence_study *study);
 

@@ -70,7 +70,7 @@ static bool holds_else(const quantity *q, size_t row) {
 }
 
 /* What values it takes, where they have a unit. */
-static void dim_line(FILE *to, const char *what, dim d) {
+static void dim_line(FILE *to, const char *what, dim d, const char *row) {
     char unit_text[128], described[128];
     if (dim_equal(d, DIM_NONE)) {
         if (d.rad != 0)
@@ -79,7 +79,7 @@ static void dim_line(FILE *to, const char *what, dim d) {
     }
     dim_unit(d, unit_text, sizeof unit_text);
     dim_describe(d, described, sizeof described);
-    fprintf(to, "    %s%s, in %s\n", what, described, unit_text);
+    fprintf(to, "    %s%s, in %s\n", what, described, row ? row : unit_text);
 }
 
 static void quantity_help(FILE *to, size_t row) {
@@ -98,16 +98,16 @@ static void quantity_help(FILE *to, size_t row) {
         fputs("    ", to);
         help_wrapped(to, text, 4, 8);
     }
-    dim_line(to, "", quantity_is_input(q) && quantity_input(q) == IN_A ? DIM_NONE : q->d);
+    dim_line(to, "", quantity_is_input(q) && quantity_input(q) == IN_A ? DIM_NONE : q->d, q->unit);
     if (quantity_is_input(q))
         fprintf(to, "    an input: %s = EXPR sets it, %s := EXPR binds it\n", q->name, q->name);
     if (!q->call)
         return;
     fprintf(to, "    as a function: %s(%s)\n", q->name, q->argument);
     snprintf(when, sizeof when, "%s is ", q->argument);
-    dim_line(to, when, q->argument_d);
+    dim_line(to, when, q->argument_d, NULL);
     if (!dim_equal(q->argument_or, DIM_NONE))
-        dim_line(to, "or ", q->argument_or);
+        dim_line(to, "or ", q->argument_or, NULL);
 }
 
 /* ---- commands, settings, models ---------------------------------------------------------------- */

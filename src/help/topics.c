@@ -5,16 +5,22 @@
 #include <string.h>
 
 #include "language/expr.h"
+#include "text/characters.h"
 #include "text/lines.h"
 
 /* ---- from tables ------------------------------------------------------------------------------- */
 
 void help_units(FILE *to) {
     fputs("After a number, with or without a space (210 GPa, 0.3N/mm^2), and after `in`.\n"
+          "A unit belongs to all of the numbers before it (60*pi N, (1/3) N); behind a\n"
+          "division, as in 1/2 inch, that or 1/(2 inch) is meant: the one that fits where\n"
+          "it stands, and an error where both would.\n"
           "Those marked * take the prefixes n u \xc2\xb5 m k M G; c goes with m alone.\n",
           to);
-    for (size_t i = 0; unit_name(i); i++)
-        fprintf(to, "    %-5s%c  %s\n", unit_name(i), unit_prefixed(i) ? '*' : ' ', unit_meaning(i));
+    const char *name;
+    for (size_t i = 0; (name = unit_name(i)); i++)
+        fprintf(to, "    %s%*s%c  %s\n", name, 5 - (int)text_columns(name, strlen(name)), "",
+                unit_prefixed(i) ? '*' : ' ', unit_meaning(i));
 }
 
 static void functions(FILE *to) {
@@ -159,6 +165,10 @@ static const char expressions_text[] =
     "    EXPR in UNIT           the value in that unit\n"
     "    EXPR at NAME = EXPR    the value in the scene with that input changed;\n"
     "                           along a load, at the same instant of it\n"
+    "    (integral EXPR for x = LO .. HI)   over a free name or an input; ends where EXPR\n"
+    "                           is infinite do no harm if the integral is finite\n"
+    "    (maximum EXPR along cycle), (minimum EXPR along program), (maximum EXPR for\n"
+    "        x = LO .. HI)      the largest, the smallest, also between points\n"
     "    ans                    the last value printed\n\n"
     "`;` parts the statements of a line. `#` begins a comment, but not within a word\n"
     "such as a#b.csv. A line goes on after `\\`.\n\n";
@@ -273,12 +283,22 @@ static const topic topics[] = {
                 "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
                 "    fret> a, (a at FN=200 N)/a\n"
                 "    a = 186.626 um\n"
-                "    (a at FN=200 N)/a = 1.25992\n"},
+                "    (a at FN=200 N)/a = 1.25992\n"
+                "    fret> (integral 2*pi*r*p(r) for r = 0 m .. a)\n"
+                "    (integral 2*pi*r*p(r) for r = 0 m .. a) = 100 N\n"
+                "    fret> cycle FA=20 N\n"
+                "    fret> (maximum qx(0.15 mm) along cycle) in MPa\n"
+                "    (maximum qx(0.15 mm) along cycle) = 326.252 MPa\n"},
     {.name = "units",
      .summary = "units and their prefixes",
      .keywords = "dimension SI prefix",
      .print = help_units,
-     .example = "    fret> 1 ksi in MPa, 0.3N/mm^2, 90 deg, 5 %\n"
+     .example = "    fret> geometry sphere R=1/2 inch; R\n"
+                "    R = 12.7 mm\n"
+                "    fret> 3 kg*(2 m/(1 s))^2/2, 60*pi N\n"
+                "    3 kg*(2 m/(1 s))^2/2 = 6 J\n"
+                "    60*pi N = 188.496 N\n"
+                "    fret> 1 ksi in MPa, 0.3N/mm^2, 90 deg, 5 %\n"
                 "    1 ksi = 6.89476 MPa\n"
                 "    0.3N/mm^2 = 300 kPa\n"
                 "    90 deg = 90 deg\n"

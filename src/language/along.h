@@ -11,12 +11,18 @@ typedef struct trial_along {
     scene_trace trace;
     instant now;
     beside beside;
-    double first, last; /* times that count */
+    double first, last, little; /* times that count, and what is no difference between them */
 } trial_along;
 /* At `points`+1 instants, evenly in time; turns: at the turning points too. from: the mark where a load tried
  * on it (ALONG_LOAD, scene_append) begins. False: it need not be ended. */
 bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from, size_t points, bool turns,
                        calc_error *error);
+/* The same between two times of its load. */
+bool trial_along_between(trial_along *a, trial *t, double first, double last, size_t points, bool turns,
+                         calc_error *error);
+/* The times that `what` goes from and to. */
+bool trial_along_span(trial *t, along_what what, load_mark from, double *first, double *last,
+                      calc_error *error);
 /* On to the next instant; false: the end, or the error. */
 bool trial_along_next(trial_along *a, calc_error *error);
 void trial_along_end(trial_along *a);

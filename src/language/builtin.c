@@ -28,6 +28,9 @@ static const builtin builtins[] = {
     {"min", NULL, fminl, DIM_SHARED, "the smallest of two or more"},
     {"max", NULL, fmaxl, DIM_SHARED, "the largest of two or more"},
     {"beta", NULL, real_beta, DIM_NUMBER, "beta function B(x,y), x, y > 0"},
+    {"integral", NULL, NULL, DIM_RANGE, "(integral EXPR for x = LO .. HI)"},
+    {"maximum", NULL, NULL, DIM_RANGE, "(maximum EXPR along cycle), (maximum EXPR for x = LO .. HI)"},
+    {"minimum", NULL, NULL, DIM_RANGE, "(minimum EXPR along program), (minimum EXPR for x = LO .. HI)"},
 };
 enum { BUILTINS = sizeof builtins / sizeof *builtins };
 
@@ -53,7 +56,7 @@ const char *name_taken(const char *name, size_t len) {
     size_t i;
     if (quantity_find(name, len))
         return "a quantity";
-    if (unit_lookup(name, len, &u))
+    if (unit_lookup(name, len, &u) && !dim_equal(u.d, DIM_TIME))
         return "a unit";
     if (len == 3 && !memcmp(name, "ans", 3))
         return "the last value printed";

@@ -153,12 +153,14 @@ static dim wanted_dim(const calc *c, const quantity *q, const assignment *all, s
 static bool read_value(calc *c, lexer *lx, assignment *all, size_t count) {
     assignment *a = &all[count];
     a->value_at = lx->at;
-    if (!expr_parse_at(c, lx, &c->scratch) || !expr_eval(c, &c->scratch, &a->v, lx->error))
+    /* without a shape that of A is not known; that there is none is told by who asked */
+    const bool any = !a->q || (quantity_input(a->q) == IN_A && !c->scene.in.geometry);
+    const dim want = any ? DIM_NONE : wanted_dim(c, a->q, all, count);
+    if (!expr_parse_at(c, lx, &c->scratch) ||
+        !expr_eval_as(c, &c->scratch, any ? NULL : &want, &a->v, lx->error))
         return false;
     a->value_len = lx->last - a->value_at;
-    /* without a shape that of A is not known; that there is none is told by who asked */
-    return !a->q || (quantity_input(a->q) == IN_A && !c->scene.in.geometry) ||
-           value_dim(lx, a->q->name, a->value_at, a->value_len, a->v, wanted_dim(c, a->q, all, count));
+    return any || value_dim(lx, a->q->name, a->value_at, a->value_len, a->v, want);
 }
 
 static bool read_assignment(calc *c, lexer *lx, assignment *all, size_t count) {

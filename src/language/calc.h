@@ -39,6 +39,8 @@ typedef struct calc {
     expr scratch;                   /* storage of expr_value */
     const definition *chain[CHAIN]; /* being evaluated */
     size_t chain_length;
+    unsigned over_depth;              /* ranges that are gone over, one within the other */
+    double over_error;                /* the largest of integrals since somebody cleared it, relative */
     bool (*keyword)(const lexer *lx); /* a word that may follow a number; NULL: any may */
 } calc;
 

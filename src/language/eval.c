@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "language/over.h"
 #include "language/tree.h"
-#include "language/trial.h"
 #include "number/real.h"
 
 typedef struct machine {
@@ -15,6 +15,8 @@ typedef struct machine {
     calc_error *error;
     const value *arguments; /* of the user's function */
     bool dry;               /* dimensions alone: values that cannot be had count as 1 */
+    const dim *want;        /* of the whole; NULL: any */
+    bool over;              /* 1/2 mm is 1/(2 mm) */
 } machine;
 
 static bool run_nodes(machine *m, value *out);
@@ -70,6 +72,7 @@ static long double real_value(const expr_node *n, long double a, long double b) 
     case '-':
         return a - b;
     case '*':
+    case 'U':
         return a * b;
     case '/':
         return a / b;
@@ -102,6 +105,12 @@ static bool binary(machine *m, const expr_node *n, value *out) {
         break;
     case '*':
         out->d = dim_product(a.d, b.d);
+        break;
+    case 'U':
+    case '?':
+        if (!dim_equal(a.d, DIM_NONE) || a.d.rad != 0)
+            return dim_wrong(m, l, a.d, "a unit follows numbers alone");
+        *out = n->op == '?' && m->over ? (value){a.v / b.v, dim_power(b.d, -1)} : (value){a.v * b.v, b.d};
         break;
     case '/':
         if (b.v == 0 && !bad_value(m, r, "division by zero"))
@@ -185,7 +194,7 @@ static bool evaluate_definition(calc *c, const definition *d, const value *argum
                                 calc_error *error) {
     calc_error mine;
     error_clear(&mine);
-    machine m = {c, &d->body, &mine, arguments, dry};
+    machine m = {c, &d->body, &mine, arguments, dry, NULL, false};
     if (!enter(c, d, error))
         return false;
     bool ok = run_nodes(&m, out);
@@ -244,12 +253,15 @@ static trial *open_changed(machine *m, const expr_at *at) {
     size_t count = 0, wrong;
     for (size_t i = 0; i < at->count; i++) {
         machine outside = *m;
+        const knob *p = &at->change[i].p;
+        dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : DIM_NONE;
         outside.e = &at->change[i].value;
+        outside.want = p->is_input ? &want : NULL;
         value v;
         if (!run_nodes(&outside, &v))
             return NULL;
-        const knob *p = &at->change[i].p;
-        const dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : v.d;
+        if (!p->is_input)
+            want = v.d;
         if (!dim_fits(m, outside.e, p, v, want))
             return NULL;
         if (m->dry && p->is_input)
@@ -278,6 +290,105 @@ static bool changed_value(machine *m, const expr_node *n, value *out) {
     const bool ok = t && run_nodes(&inside, out);
     if (t)
         trial_close(t);
+    return ok || calc_place(m->error, n->at, n->len);
+}
+
+/* ---- over a range ------------------------------------------------------------------------------ */
+
+/* The expression of a range, as the machine around it sees it. */
+typedef struct over_body {
+    machine m;
+    over o;
+} over_body;
+
+static bool body_value(void *context, value *out) {
+    over_body *b = context;
+    b->m.error = b->o.error;
+    return run_nodes(&b->m, out);
+}
+
+/* Both of one dimension, that of the name where it is an input. */
+static bool range_ends(machine *m, const expr_at *at, knob *name, over *o) {
+    value end[2];
+    dim want = name->is_input ? quantity_dim(quantity_of_input(name->in), m->c->now) : DIM_NONE;
+    for (int i = 0; i < 2; i++) {
+        machine outside = *m;
+        outside.e = &at->change[i].value;
+        outside.want = name->is_input ? &want : NULL;
+        if (!run_nodes(&outside, &end[i]))
+            return false;
+    }
+    const int tells = end[0].v == 0 && dim_equal(end[0].d, DIM_NONE); /* of a bare 0 the other one */
+    name->d = name->is_input ? want : end[tells].d;
+    o->lo = end[0].v;
+    o->hi = end[1].v;
+    return dim_fits(m, &at->change[0].value, name, end[0], name->d) &&
+           dim_fits(m, &at->change[1].value, name, end[1], name->d);
+}
+
+static bool over_times(over *o, along_what what) {
+    double first, last;
+    o->t->scene.now = NULL;
+    scene_moved(&o->t->scene);
+    const bool ok = trial_along_span(o->t, what, o->t->scene.end, &first, &last, o->error);
+    o->lo = first;
+    o->hi = last;
+    return ok;
+}
+
+/* The dimension of the expression, which over no range at all no value tells. */
+static bool over_dim(over_body *b, calc_error *error) {
+    over *o = &b->o;
+    size_t wrong;
+    value v;
+    const bool dry = b->m.dry;
+    b->m.dry = true;
+    o->error = error;
+    const bool ok = (!o->name || o->name->is_input ||
+                     trial_change(o->t, &(knob_value){*o->name, o->lo}, 1, &wrong, error)) &&
+                    body_value(b, &v);
+    b->m.dry = dry;
+    if (ok)
+        o->d = v.d;
+    return ok;
+}
+
+static bool over_run(machine *m, const expr_node *n, over_body *b, value *out) {
+    const char *word = builtin_row(n->index)->name;
+    over *o = &b->o;
+    long double error = 0;
+    *out = (value){1, DIM_NONE};
+    if (m->dry)
+        return over_dim(b, m->error);
+    over_dim(b, error_quiet());
+    o->error = m->error;
+    if (!o->name && !over_times(o, n->changed->what))
+        return false;
+    const bool ok =
+        *word == 'i' ? over_integral(o, &out->v, &error) : over_extreme(o, word[1] == 'a', &out->v);
+    m->c->over_error = fmax(m->c->over_error, (double)error);
+    return ok;
+}
+
+static bool over_value(machine *m, const expr_node *n, value *out) {
+    enum { DEEPEST = 8 }; /* each takes some stack, and hundreds of values of the one within */
+    const expr_at *at = n->changed;
+    knob name = at->change[0].p;
+    over_body b = {
+        .m = *m,
+        .o = {.name = at->along ? NULL : &name, .context = &b, .value = body_value, .error = m->error}};
+    b.m.e = &at->body;
+    b.m.want = NULL;
+    if (m->c->over_depth == DEEPEST)
+        return calc_fail(m->error, n->at, n->len, "ranges are nested more than %d deep", DEEPEST);
+    m->c->over_depth++;
+    bool ok = at->along || range_ends(m, at, &name, &b.o);
+    b.o.t = ok ? trial_open(m->c, m->error) : NULL;
+    ok = b.o.t && over_run(m, n, &b, out);
+    if (b.o.t)
+        trial_close(b.o.t);
+    m->c->over_depth--;
+    out->d = *builtin_row(n->index)->name == 'i' ? dim_product(b.o.d, name.d) : b.o.d;
     return ok || calc_place(m->error, n->at, n->len);
 }
 
@@ -341,6 +452,10 @@ static bool eval(machine *m, const expr_node *n, value *out) {
         return apply(m, n, out);
     case N_AT:
         return changed_value(m, n, out);
+    case N_OVER:
+        if (!over_value(m, n, out))
+            return false;
+        break;
     case N_BUILTIN:
         if (!call_builtin(m, n, out))
             return false;
@@ -374,7 +489,7 @@ static void prefer_mismatch(const machine *m) {
 }
 
 /* Children come before their parents: a loop, so that no input can exhaust the stack. */
-static bool run_nodes(machine *m, value *out) {
+static bool run_read(machine *m, value *out) {
     for (size_t i = 0; i < m->e->count; i++)
         if (!eval(m, &m->e->nodes[i], &m->e->nodes[i].v)) {
             if (!m->dry && !m->error->stop && !m->error->circle)
@@ -385,15 +500,57 @@ static bool run_nodes(machine *m, value *out) {
     return true;
 }
 
+static bool two_readings(machine *m, const expr_node *n) {
+    const char *text = m->e->text + n->at;
+    const size_t divisor = m->e->nodes[n->left].index + 1 - n->at, len = n->len;
+    size_t numbers = n->index - n->at;
+    while (text[numbers - 1] == ' ')
+        numbers--;
+    m->error->strange = true;
+    return calc_fail(m->error, n->at, len, "%.*s has two readings: write (%.*s) %.*s, or %.*s(%.*s)",
+                     LEX_SHOWN(len), text, LEX_SHOWN(numbers), text, LEX_SHOWN(len - (n->index - n->at)),
+                     m->e->text + n->index, LEX_SHOWN(divisor), text, LEX_SHOWN(len - divisor),
+                     text + divisor);
+}
+
+/* Of numbers with a division and a unit the one reading that holds, by dimensions alone. */
+static bool choose_reading(machine *m) {
+    const expr_node *n = m->e->nodes, *end = n + m->e->count;
+    bool holds[2] = {false, false};
+    while (n < end && !(n->kind == N_BINARY && n->op == '?'))
+        n++;
+    for (int i = 0; i < 2 && n < end; i++) {
+        calc_error unused;
+        machine probe = *m;
+        value v;
+        error_clear(&unused);
+        probe.error = &unused;
+        probe.dry = true;
+        probe.over = i;
+        holds[i] =
+            run_read(&probe, &v) && (!m->want || (dim_equal(v.d, *m->want) && v.d.rad == m->want->rad));
+    }
+    m->over = holds[1];
+    return !(holds[0] && holds[1]) || two_readings(m, n);
+}
+
+static bool run_nodes(machine *m, value *out) {
+    return (!m->e->unclear || choose_reading(m)) && run_read(m, out);
+}
+
 bool expr_eval(calc *c, const expr *e, value *out, calc_error *error) {
-    machine m = {c, e, error, NULL, false};
+    return expr_eval_as(c, e, NULL, out, error);
+}
+
+bool expr_eval_as(calc *c, const expr *e, const dim *want, value *out, calc_error *error) {
+    machine m = {c, e, error, NULL, false, want, false};
     const bool ok = run_nodes(&m, out);
     return !calc_stopped(c->scene.stop, error) && ok;
 }
 
 bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_error *error) {
     const expr_node *root = &e->nodes[e->count - 1];
-    machine m = {c, e, error, NULL, false};
+    machine m = {c, e, error, NULL, false, NULL, false};
     *t = NULL;
     *body = e;
     if (root->kind != N_AT)
@@ -405,13 +562,17 @@ bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_err
 
 bool expr_dim(calc *c, const expr *e, dim *d) {
     value v;
-    machine m = {c, e, error_quiet(), NULL, true};
-    if (!run_nodes(&m, &v) || isnan(v.d.N + v.d.m)) /* a power by what has no value */
+    machine m = {c, e, error_quiet(), NULL, true, NULL, false};
+    if (!run_nodes(&m, &v) || isnan(v.d.N + v.d.m + v.d.s)) /* a power by what has no value */
         return false;
     *d = v.d;
     return true;
 }
 
 bool expr_value(calc *c, lexer *lx, value *out) {
-    return expr_parse(c, lx, &c->scratch) && expr_eval(c, &c->scratch, out, lx->error);
+    return expr_value_as(c, lx, NULL, out);
+}
+
+bool expr_value_as(calc *c, lexer *lx, const dim *want, value *out) {
+    return expr_parse(c, lx, &c->scratch) && expr_eval_as(c, &c->scratch, want, out, lx->error);
 }

@@ -19,6 +19,7 @@ typedef struct expr {
     expr_at *ats;     /* its parts `... at NAME = EXPR`, a list */
     const char *text; /* the statement it was parsed from: borrowed */
     size_t at, len;   /* its place there */
+    bool unclear;     /* there may be a unit in it that has two readings */
 } expr;
 
 enum { PARAMETERS = 4 };
@@ -42,12 +43,15 @@ bool expr_parse_at(struct calc *c, lexer *lx, expr *e);
 /* `at ...` at the cursor, for an expression that has been parsed. */
 bool expr_read_at(struct calc *c, lexer *lx, expr *e);
 bool expr_eval(struct calc *c, const expr *e, value *out, calc_error *error);
+/* The same where that dimension is wanted, which tells 1/2 mm from 1/(2 mm); NULL: any. */
+bool expr_eval_as(struct calc *c, const expr *e, const dim *want, value *out, calc_error *error);
 /* The dimension alone, also where a value is missing. */
 bool expr_dim(struct calc *c, const expr *e, dim *d);
 void expr_free(expr *e);
 
 /* Parse and evaluate in one go. */
 bool expr_value(struct calc *c, lexer *lx, value *out);
+bool expr_value_as(struct calc *c, lexer *lx, const dim *want, value *out);
 
 /* Does the expression depend on this quantity or own name, directly or by live definitions? */
 bool expr_mentions(const struct calc *c, const expr *e, const quantity *q, const char *name);
@@ -56,6 +60,8 @@ bool expr_way(const struct calc *c, const expr *e, const char *name, char *way, 
 /* The quantities of an expression in the order of their appearance, and each call of one: i = 0, 1, ... call:
  * as a function; at: where, first. NULL after the last. */
 const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at);
+/* The unit of its row, if it is one quantity and nothing else, perhaps `at` something; or NULL. */
+const char *expr_unit(const expr *e);
 /* The live definitions and functions that it names, likewise. */
 const definition *expr_definition(const struct calc *c, const expr *e, size_t i);
 /* What it stands for, if it is the name of a live definition and nothing else: down to the last of them. */

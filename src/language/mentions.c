@@ -31,9 +31,10 @@ static bool mentions(const calc *c, const expr *e, const quantity *q, const char
         const expr_node *n = &e->nodes[i];
         if (q && (n->kind == N_QUANTITY || n->kind == N_CALL) && n->q == q)
             return true;
-        if (n->kind == N_AT && mentions(c, &n->changed->body, q, name, way, size))
+        const bool holds = n->kind == N_AT || n->kind == N_OVER;
+        if (holds && mentions(c, &n->changed->body, q, name, way, size))
             return true;
-        for (size_t j = 0; n->kind == N_AT && j < n->changed->count; j++)
+        for (size_t j = 0; holds && j < n->changed->count; j++)
             if (mentions(c, &n->changed->change[j].value, q, name, way, size))
                 return true;
         if (n->kind != N_NAME && n->kind != N_APPLY)
@@ -71,7 +72,7 @@ static int levels_below(const calc *c, const expr *e) {
     for (size_t i = 0; i < e->count; i++) {
         const expr_node *n = &e->nodes[i];
         int here = 0;
-        if (n->kind == N_AT) {
+        if (n->kind == N_AT || n->kind == N_OVER) {
             here = levels_below(c, &n->changed->body);
             for (size_t j = 0; j < n->changed->count; j++) {
                 const int more = levels_below(c, &n->changed->change[j].value);
@@ -117,6 +118,13 @@ const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at) {
         }
     }
     return NULL;
+}
+
+const char *expr_unit(const expr *e) {
+    const expr_node *root = &e->nodes[e->count - 1];
+    if (root->kind == N_AT)
+        return expr_unit(&root->changed->body);
+    return root->kind == N_QUANTITY || root->kind == N_CALL ? root->q->unit : NULL;
 }
 
 const definition *expr_definition(const calc *c, const expr *e, size_t i) {

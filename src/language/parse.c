@@ -16,12 +16,20 @@ enum {
     LOOK = 4096           /* nodes after which the stop flag is looked at */
 };
 
+/* The name of a range that is gone over. */
+typedef struct bound {
+    const char *name;
+    const struct bound *outer;
+} bound;
+
 typedef struct parser {
     calc *c;
     lexer *lx;
     expr *e;
     const definition *within; /* its parameters are names */
     int depth;
+    const struct bound *bound; /* names of the ranges around it */
+    bool bare;                 /* a unit behind the number at the cursor belongs to more than that */
 } parser;
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
@@ -95,7 +103,8 @@ static bool split_tail(parser *p, size_t first, expr *body) {
                    .room = count,
                    .argument_count = e->argument_count - arguments,
                    .argument_room = e->argument_count - arguments,
-                   .text = e->text};
+                   .text = e->text,
+                   .unclear = e->unclear};
     body->nodes = malloc(count * sizeof *body->nodes);
     body->arguments = body->argument_count ? malloc(body->argument_count * sizeof *body->arguments) : NULL;
     if (!body->nodes || (body->argument_count && !body->arguments))
@@ -137,6 +146,23 @@ static bool unknown_name(parser *p) {
     return lex_fail(lx, near ? "unknown name '%s': did you mean %s?" : "unknown name '%s'", word, near);
 }
 
+/* An expression of its own within this one. */
+static bool parse_inner(const parser *p, expr *e, const bound *names) {
+    parser inner = {.c = p->c, .lx = p->lx, .e = e, .within = p->within, .depth = p->depth, .bound = names};
+    return parse_whole(&inner);
+}
+
+static expr_at *add_changed(parser *p) {
+    expr_at *at = calloc(1, sizeof *at);
+    if (at) {
+        at->next = p->e->ats;
+        p->e->ats = at;
+    } else {
+        calc_no_memory(p->lx->error);
+    }
+    return at;
+}
+
 static bool at_change(const lexer *lx) {
     return lx->kind == T_NAME && lex_peek(lx) == T_ASSIGN;
 }
@@ -160,21 +186,15 @@ static bool parse_change(parser *p, expr_at *at) {
             return calc_fail(lx->error, at->change[at->count].at, strlen(q->text), "%s is given twice",
                              q->text);
     lex_next(lx);
-    parser inner = {
-        .c = p->c, .lx = lx, .e = &at->change[at->count++].value, .within = p->within, .depth = p->depth};
-    return parse_whole(&inner);
+    return parse_inner(p, &at->change[at->count++].value, p->bound);
 }
 
 /* The cursor is after `at`; what it applies to are the nodes from `first` on, in the text from `begin`. */
 static bool parse_at(parser *p, size_t first, size_t begin, size_t *out) {
     lexer *lx = p->lx;
     expr_node node = {.kind = N_AT, .at = begin};
-    expr_at *at = calloc(1, sizeof *at);
-    if (!at)
-        return calc_no_memory(lx->error);
-    at->next = p->e->ats;
-    p->e->ats = node.changed = at;
-    if (!split_tail(p, first, &at->body))
+    expr_at *at = node.changed = add_changed(p);
+    if (!at || !split_tail(p, first, &at->body))
         return false;
     size_t end = lx->last - strlen("at");
     while (lx->text[end - 1] == ' ' || lx->text[end - 1] == '\t')
@@ -238,9 +258,12 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
     lex_next(lx);
     if (!function) {
         node.kind = N_NUMBER;
+        node.index = 0;
         node.v = (value){3.14159265358979323846264338327950288L, DIM_NONE};
         return add_node(p, &node, out);
     }
+    if (function->d == DIM_RANGE)
+        return calc_fail(lx->error, node.at, strlen(function->name), "write %s", function->summary);
     if (lx->kind != T_OPEN)
         return lex_fail(lx, "expected ( after %s%s", function->name,
                         node.at > 0 && lx->text[node.at - 1] == '/' ? ", a function: no unit is called so"
@@ -342,7 +365,70 @@ static bool parse_name(parser *p, size_t *out) {
     return names_find(&p->c->names, word, len, &i) ? parse_own(p, i, out) : unknown_name(p);
 }
 
-/* ---- operators --------------------------------------------------------------------------------- */
+/* ---- numbers and units ------------------------------------------------------------------------- */
+
+/* Are the nodes from `first` on numbers without units? Most of those that are not end with one. */
+static bool numbers_alone(const parser *p, size_t first) {
+    const expr_node *n = p->e->nodes + p->e->count;
+    while (n-- > p->e->nodes + first)
+        if (n->kind == N_NUMBER ? n->index
+                                : n->kind != N_NEGATE && n->kind != N_BINARY && n->kind != N_BUILTIN)
+            return false;
+    return true;
+}
+
+/* `5 N*s` where s is a name: the user's, or the second? */
+static bool is_free_name(parser *p, size_t from) {
+    lexer *lx = p->lx, own = *lx;
+    size_t i;
+    unsigned j;
+    unit u;
+    own.end = lx->last;
+    for (lex_seek(&own, from); own.kind != T_END; lex_next(&own)) {
+        parser of = {.lx = &own, .within = p->within};
+        if (own.kind == T_NAME && own.at > from && unit_lookup(own.text + own.at, own.len, &u) &&
+            (find_parameter(&of, &j) || names_find(&p->c->names, own.text + own.at, own.len, &i)))
+            return !calc_fail(
+                lx->error, own.at, own.len,
+                "%.*s is a name here, and a unit: write its product with ( ), as (5 N)*%.*s or 5 "
+                "N*(1 %.*s)",
+                LEX_WORD(&own), LEX_WORD(&own), LEX_WORD(&own));
+    }
+    return false;
+}
+
+static bool read_unit(parser *p, unit *u) {
+    const size_t from = p->lx->at;
+    return unit_parse(p->lx, u) && (u->d.s == 0 || !is_free_name(p, from));
+}
+
+/* The unit at the cursor, and op of *out and that. */
+static bool add_unit(parser *p, char op, size_t at, size_t *out) {
+    expr_node node = {.kind = N_BINARY, .op = op, .at = at, .left = *out, .index = p->lx->at},
+              number = {.kind = N_NUMBER, .at = p->lx->at, .index = 1};
+    unit u;
+    if (!read_unit(p, &u))
+        return false;
+    number.v = (value){unit_scale(&u), u.d};
+    p->e->unclear = p->e->unclear || op == '?';
+    return add_node(p, &number, &node.right) && add_node(p, &node, out);
+}
+
+/* Behind a number that is no literal. */
+static bool unit_behind(parser *p, size_t at, size_t *out) {
+    return p->bare || !unit_at(p->lx) || add_unit(p, 'U', at, out);
+}
+
+/* `0.5 in`, and no unit behind it. */
+static bool means_inch(const parser *p) {
+    lexer next = *p->lx;
+    calc_error unused;
+    error_clear(&unused);
+    next.error = &unused;
+    lex_next(&next);
+    return (next.kind != T_NAME && !unit_at(&next)) || lex_is(&next, "in") || lex_is(&next, "at") ||
+           lex_peek(&next) == T_ASSIGN || (p->c->keyword && p->c->keyword(&next));
+}
 
 /* A value or a unit right behind a number, and no keyword or argument of a command. */
 static bool at_factor(const parser *p) {
@@ -375,8 +461,9 @@ static bool parse_number(parser *p, size_t *out) {
     node.v = (value){lx->number, DIM_NONE};
     unit u;
     lex_next(lx);
-    if (unit_at(lx)) {
-        if (!unit_parse(lx, &u))
+    if (!p->bare && unit_at(lx)) {
+        node.index = 1;
+        if (!read_unit(p, &u))
             return false;
         const bool zero = node.v.v == 0;
         node.v = (value){unit_literal(lx, at, len, &u), u.d};
@@ -386,15 +473,125 @@ static bool parse_number(parser *p, size_t *out) {
     }
     if (lx->error->raised)
         return false;
-    if (lx->kind == T_OPEN || (lx->kind == T_NAME && at_factor(p)))
+    if (lx->kind == T_NAME && !node.index && lex_is(lx, "in") && means_inch(p))
+        return calc_fail(lx->error, lx->at, lx->len,
+                         "`in` asks for a unit: an inch is called inch (%.*s inch)", LEX_SHOWN(len),
+                         lx->text + at);
+    if (lx->kind == T_OPEN || (lx->kind == T_NAME && !(p->bare && unit_at(lx)) && at_factor(p)))
         return lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
     return add_node(p, &node, out);
 }
 
+/* ---- (integral EXPR for NAME = LO .. HI) ------------------------------------------------------- */
+
+/* The `for` or `along` within this parenthesis. */
+static bool find_range(const lexer *lx, lexer *out) {
+    int depth = 0;
+    *out = *lx;
+    out->error = error_quiet();
+    while (out->kind != T_END && depth >= 0 && (depth > 0 || !(lex_is(out, "for") || lex_is(out, "along")))) {
+        lex_next(out);
+        depth += (out->kind == T_OPEN) - (out->kind == T_CLOSE);
+    }
+    out->error = lx->error;
+    return out->kind != T_END && depth == 0;
+}
+
+/* The name that goes over the range, and, as long as the expression is parsed, is known. */
+static bool read_bound(parser *p, lexer *lx, knob *out) {
+    unsigned j;
+    parser of = {.lx = lx, .within = p->within};
+    if (find_parameter(&of, &j))
+        return lex_fail(lx, "%.*s is an argument already", LEX_WORD(lx));
+    for (const bound *b = p->bound; b; b = b->outer)
+        if (lex_is(lx, b->name))
+            return lex_fail(lx, "%s is given twice", b->name);
+    return knob_name(p->c, lx, out);
+}
+
+static bool parse_body_of(parser *p, expr *e, const bound *names) {
+    parser inner = {.c = p->c, .lx = p->lx, .e = e, .within = p->within, .depth = p->depth, .bound = names};
+    size_t root;
+    return parse_whole(&inner) && (!lex_accept(p->lx, "at") || parse_at(&inner, 0, e->at, &root));
+}
+
+/* EXPR for NAME: the cursor is on EXPR, the range begins at `range`. */
+static bool parse_varied(parser *p, lexer *range, expr_at *at) {
+    lexer *lx = p->lx;
+    knob *name = &at->change[0].p;
+    size_t i;
+    lex_next(range);
+    const bool known = names_find(&p->c->names, lx->text + range->at, range->len, &i);
+    if (!read_bound(p, range, name))
+        return false;
+    const bound here = {name->text, p->bound};
+    const bool ok = parse_body_of(p, &at->body, &here);
+    if (!name->is_input)
+        p->c->names.row[name->name].known = known;
+    return ok;
+}
+
+static bool parse_ends(parser *p, expr_at *at) {
+    lexer *lx = p->lx;
+    for (token_kind before = T_ASSIGN; at->count < 2; before = T_RANGE) {
+        if (lx->kind != before)
+            return lex_fail(lx, at->count ? "expected .. between the two ends"
+                                          : "expected = LO .. HI after the name");
+        lex_next(lx);
+        at->change[at->count].at = lx->at;
+        if (!parse_inner(p, &at->change[at->count++].value, p->bound))
+            return false;
+    }
+    return true;
+}
+
+static bool parse_load(lexer *lx, expr_at *at) {
+    at->what = lex_is(lx, "cycle") ? ALONG_CYCLE : ALONG_PROGRAM;
+    return lex_accept(lx, "cycle") || lex_accept(lx, "program") ||
+           lex_fail(lx, "expected along cycle or along program");
+}
+
+/* The cursor is on the word, of that row. */
+static bool parse_over(parser *p, size_t word, size_t *out) {
+    lexer *lx = p->lx, range;
+    expr_node node = {.kind = N_OVER, .at = lx->at, .index = word};
+    expr_at *at = node.changed = add_changed(p);
+    const char *usage = builtin_row(word)->summary;
+    if (!at)
+        return false;
+    if (!find_range(lx, &range))
+        return calc_fail(lx->error, lx->at, lx->len, "expected a range behind the expression: %s", usage);
+    const size_t begins = range.at;
+    at->along = lex_is(&range, "along");
+    if (at->along && lex_is(lx, "integral"))
+        return lex_fail(&range, "an integral goes over a name: %s", usage);
+    lex_next(lx);
+    if (!(at->along ? parse_body_of(p, &at->body, p->bound) : parse_varied(p, &range, at)))
+        return false;
+    if (lx->at != begins)
+        return lex_fail(lx, "unexpected '%.*s': %s", LEX_WORD(lx), usage);
+    if (at->along)
+        lex_next(lx);
+    else
+        lex_seek(lx, range.at);
+    if (!(at->along ? parse_load(lx, at) : parse_ends(p, at)))
+        return false;
+    if (lx->kind != T_CLOSE)
+        return lex_fail(lx, "expected ) after the range");
+    lex_next(lx);
+    return add_node(p, &node, out);
+}
+
+/* ---- parentheses ------------------------------------------------------------------------------- */
+
 static bool parse_parenthesis(parser *p, size_t *out) {
     lexer *lx = p->lx;
     const size_t first = p->e->count;
+    size_t word;
     lex_next(lx);
+    if (lx->kind == T_NAME && builtin_find(lx->text + lx->at, lx->len, &word) && builtin_row(word) &&
+        builtin_row(word)->d == DIM_RANGE)
+        return parse_over(p, word, out);
     const size_t begin = lx->at;
     if (!parse_sum(p, out))
         return false;
@@ -416,15 +613,16 @@ static bool no_unit(lexer *lx) {
 
 static bool parse_primary(parser *p, size_t *out) {
     lexer *lx = p->lx;
+    const size_t at = lx->at, first = p->e->count;
     if (lx->error->raised)
         return false;
     switch (lx->kind) {
     case T_NUMBER:
         return parse_number(p, out);
     case T_OPEN:
-        return parse_parenthesis(p, out) && no_unit(lx);
+        return parse_parenthesis(p, out) && unit_behind(p, at, out);
     case T_NAME:
-        return parse_name(p, out) && no_unit(lx);
+        return parse_name(p, out) && (numbers_alone(p, first) ? unit_behind(p, at, out) : no_unit(lx));
     case T_END:
         return lex_fail(lx, "expected a value here");
     default:
@@ -435,14 +633,25 @@ static bool parse_primary(parser *p, size_t *out) {
 static bool parse_unary(parser *p, size_t *out);
 
 static bool parse_power(parser *p, size_t *out) {
-    const size_t at = p->lx->at;
+    const size_t at = p->lx->at, first = p->e->count;
+    const bool bare = p->bare;
+    unit u;
     if (!parse_primary(p, out))
         return false;
     if (p->lx->kind != T_POWER)
         return true;
     expr_node node = {.kind = N_BINARY, .op = '^', .at = at, .left = *out};
     lex_next(p->lx);
-    return parse_unary(p, &node.right) && add_node(p, &node, out);
+    const size_t exponent = p->lx->at;
+    p->bare = true;
+    bool ok = parse_unary(p, &node.right);
+    p->bare = bare;
+    lexer ahead = *p->lx;
+    ahead.error = error_quiet();
+    if (ok && unit_at(&ahead) && unit_parse(&ahead, &u) && dim_equal(u.d, DIM_NONE)) /* 2^50 % */
+        ok = add_unit(p, 'U', exponent, &node.right);
+    return ok && add_node(p, &node, out) &&
+           (numbers_alone(p, first) ? unit_behind(p, at, out) : no_unit(p->lx));
 }
 
 static bool parse_unary(parser *p, size_t *out) {
@@ -463,14 +672,25 @@ static bool parse_unary(parser *p, size_t *out) {
     return ok;
 }
 
+/* Behind a division of numbers a unit may belong to the divisor, or to all of it. */
 static bool parse_product(parser *p, size_t *out) {
-    size_t at = p->lx->at;
+    size_t at = p->lx->at, seen = p->e->count;
+    bool numbers = true; /* the nodes before `seen` */
     if (!parse_unary(p, out))
         return false;
     while (p->lx->kind == T_TIMES || p->lx->kind == T_DIVIDE) {
-        expr_node node = {.kind = N_BINARY, .op = (char)p->lx->kind, .at = at, .left = *out};
+        expr_node node = {
+            .kind = N_BINARY, .op = (char)p->lx->kind, .at = at, .left = *out, .index = p->lx->at};
+        if (node.op == '/') {
+            p->bare = numbers = numbers && numbers_alone(p, seen);
+            seen = p->e->count;
+        }
         lex_next(p->lx);
-        if (!parse_unary(p, &node.right) || !add_node(p, &node, out))
+        bool ok = parse_unary(p, &node.right) && add_node(p, &node, out);
+        if (ok && p->bare && unit_at(p->lx))
+            ok = add_unit(p, '?', at, out);
+        p->bare = false;
+        if (!ok)
             return false;
     }
     return true;
@@ -478,6 +698,8 @@ static bool parse_product(parser *p, size_t *out) {
 
 static bool parse_sum(parser *p, size_t *out) {
     size_t at = p->lx->at;
+    const bool bare = p->bare;
+    p->bare = false;
     if (!parse_product(p, out))
         return false;
     while (p->lx->kind == T_PLUS || p->lx->kind == T_MINUS) {
@@ -486,6 +708,7 @@ static bool parse_sum(parser *p, size_t *out) {
         if (!parse_product(p, &node.right) || !add_node(p, &node, out))
             return false;
     }
+    p->bare = bare;
     return true;
 }
 
@@ -496,6 +719,7 @@ static bool parse_whole(parser *p) {
     expr *e = p->e;
     drop_ats(e);
     e->count = e->argument_count = 0;
+    e->unclear = false;
     e->text = p->lx->text;
     e->at = p->lx->at;
     if (!parse_sum(p, &root))
@@ -541,10 +765,8 @@ static char *copy_of(const char *text, size_t len) {
 
 /* The body of a definition at the cursor. */
 static bool parse_body(calc *c, lexer *lx, definition *d) {
-    parser p = {.c = c, .lx = lx, .e = &d->body, .within = d};
-    const size_t at = lx->at;
-    size_t root;
-    return parse_whole(&p) && (!lex_accept(lx, "at") || parse_at(&p, 0, at, &root));
+    parser p = {.c = c, .lx = lx, .within = d};
+    return parse_body_of(&p, &d->body, NULL);
 }
 
 /* Parsed twice: where it stands, for its errors and its end, and then as its own. */

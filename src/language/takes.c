@@ -52,7 +52,7 @@ static bool says_angle(const char *text, size_t len) {
 }
 
 bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d) {
-    if (v.d.N == d.N && v.d.m == d.m && d.rad == 0 && v.d.rad == 0) /* the common case */
+    if (v.d.N == d.N && v.d.m == d.m && v.d.s == d.s && d.rad == 0 && v.d.rad == 0) /* the common case */
         return true;
     const bool plain = dim_equal(v.d, DIM_NONE) && v.d.rad == 0;
     const bool angle = d.rad != 0, both = angle == (v.d.rad != 0); /* a length may have come of an angle */

@@ -3,7 +3,7 @@
 #ifndef LANGUAGE_TREE_H
 #define LANGUAGE_TREE_H
 
-#include "language/calc.h"
+#include "language/trial.h"
 
 typedef enum node_kind {
     N_NUMBER,
@@ -16,27 +16,31 @@ typedef enum node_kind {
     N_NEGATE,
     N_BINARY,
     N_BUILTIN,
-    N_AT
+    N_AT,
+    N_OVER /* integral, maximum, minimum */
 } node_kind;
 
 struct expr_node {
     unsigned char kind; /* node_kind */
-    char op;
+    char op;            /* + - * / ^, U: a number and its unit, ?: one that may belong to the divisor alone */
     unsigned len;
     size_t at;          /* its place in the statement */
     size_t left, right; /* N_APPLY: first of the arguments, and how many */
-    size_t index;       /* of a name, parameter or builtin */
+    size_t index; /* of a name, parameter or builtin; number: has it a unit? operator: where it stands */
     union {
         const quantity *q;
-        expr_at *changed; /* N_AT */
+        expr_at *changed; /* N_AT, N_OVER */
     };
     value v;
 };
 
-/* EXPR at NAME = EXPR, ... */
+/* EXPR at NAME = EXPR, ...; EXPR for NAME = LO .. HI, as two changes of one name, or along a load, as none.
+ */
 struct expr_at {
     expr_at *next; /* of the expression that it is a part of */
     expr body;
+    bool along;
+    along_what what;
     size_t count;
     struct {
         size_t at; /* of its name */
@@ -53,7 +57,14 @@ typedef struct builtin {
     const char *name;
     long double (*f)(long double);
     long double (*f2)(long double, long double);
-    enum { DIM_NUMBER, DIM_TO_ANGLE, DIM_KEPT, DIM_HALVED, DIM_SHARED } d;
+    enum {
+        DIM_NUMBER,
+        DIM_TO_ANGLE,
+        DIM_KEPT,
+        DIM_HALVED,
+        DIM_SHARED,
+        DIM_RANGE
+    } d; /* the last: over a range */
     const char *summary;
 } builtin;
 

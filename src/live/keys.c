@@ -197,8 +197,9 @@ static void reset(live *l) {
         load_by by;
         const char *name;
         dim d;
-    } kinds[] = {
-        {BY_FORCE, "FN", {1, 0, 0}}, {BY_DISPLACEMENT, "dz", {0, 1, 0}}, {BY_RADIUS, "a", {0, 1, 0}}};
+    } kinds[] = {{BY_FORCE, "FN", {1, 0, 0, 0}},
+                 {BY_DISPLACEMENT, "dz", {0, 1, 0, 0}},
+                 {BY_RADIUS, "a", {0, 1, 0, 0}}};
     if (!s->end.steps) {
         live_begin(l);
         return;

@@ -251,6 +251,7 @@ const command commands[] = {
      .takes = "EXPR, ... RANGE [to FILE]",
      .summary = "a table over a range",
      .help = "NAME is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
+             "A list, `for FN = 1 N, 2 N, 5 N`, may stand for LO .. HI, here and in figures.\n"
              "Two ranges make a matrix, as CSV and JSON a row for each pair. `along program`,\n"
              "`along cycle` and `along cycle FA=...` go along a load. `at FILE` goes over the\n"
              "rows of a file: its columns are inputs and names, and one that is called as an\n"
@@ -277,12 +278,13 @@ const command commands[] = {
      .run = do_plot,
      .group = "results",
      .keywords = "figure loop hysteresis png svg pdf tex export contour map measured",
-     .takes = "FIGURE | EXPR, ... [against EXPR] RANGE LOOK [to FILE.png|svg|pdf|tex|html|gif|gp]",
+     .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [to FILE.png|svg|pdf|tex|html|gif|gp]",
      .summary = "figures, in the terminal or to a file",
      .print = figures_list,
      .help = "A FIGURE of the list above stands alone or with another RANGE; a | puts one\n"
-             "beside it. `map EXPR for A = LO .. HI for B = LO .. HI` draws contours. Where no\n"
-             "steps are given there are more points where the curve bends. LOAD is program,\n"
+             "beside it. `map EXPR for A = LO .. HI for B = LO .. HI` draws contours. A comma\n"
+             "parts curves over expressions of their own: `Fx against dx, FN against dz`.\n"
+             "Without steps there are more points where the curve bends. LOAD is program,\n"
              "cycle, or one that is only tried: `step ...`, `cycle FA=...`. AXES are x, y or\n"
              "xy, TEXT stands in quotation marks, `key off` hides the key, and `over` adds\n"
              "measured points; `over FILE residuals` shows what they have more than the curve.\n"
@@ -309,7 +311,7 @@ const command commands[] = {
      .run = do_animate,
      .group = "results",
      .keywords = "video movie gif springs",
-     .takes = "FIGURE | EXPR, ... [against EXPR] RANGE LOOK [frames N:1000] [to FILE.gif]",
+     .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [frames N:1000] [to FILE.gif]",
      .summary = "figures in motion along a load",
      .help = "Figures as of `plot`. Those `along` a load, all along the same one, are drawn up\n"
              "to a moving instant; `springs`, `pressure`, `traction` and what else goes over\n"

@@ -37,7 +37,7 @@ void shell_free(shell *sh) {
 static bool print_statement(shell *sh, lexer *lx) {
     column columns[EXPRESSIONS];
     long double si[EXPRESSIONS];
-    size_t count;
+    size_t count = 0;
     bool ok = read_expressions(sh, lx, columns, EXPRESSIONS, &count) && at_end(lx);
     for (size_t i = 0; i < count && ok; i++) {
         value v;

@@ -192,7 +192,7 @@ static void write_geometry(writer *w) {
         char n[VALUE_TEXT];
         value_text((value){in->sum.power[i].n, DIM_NONE}, n);
         fprintf(w->to, "%s %s:", i ? "," : "", n);
-        write_value(w, "", "", (value){in->sum.power[i].h, {0, 1 - in->sum.power[i].n, 0}});
+        write_value(w, "", "", (value){in->sum.power[i].h, {0, 1 - in->sum.power[i].n, 0, 0}});
     }
     if (g->by == PARAMETERS_FILE && !write_file_name(w, in->table->name))
         fputs(" # the name of the file cannot be written in a statement", w->to);

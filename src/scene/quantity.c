@@ -17,17 +17,17 @@
 #define GETTER(function) .of = OF_GETTER, .get = get_##function
 #define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
 #define FORCE                                                                                                \
-    { 1, 0, 0 }
+    { 1, 0, 0, 0 }
 #define LENGTH                                                                                               \
-    { 0, 1, 0 }
+    { 0, 1, 0, 0 }
 #define PRESSURE                                                                                             \
-    { 1, -2, 0 }
+    { 1, -2, 0, 0 }
 #define ENERGY                                                                                               \
-    { 1, 1, 0 }
+    { 1, 1, 0, 0 }
 #define STIFFNESS                                                                                            \
-    { 1, -1, 0 }
+    { 1, -1, 0, 0 }
 #define ANGLE                                                                                                \
-    { 0, 0, 1 }
+    { 0, 0, 1, 0 }
 
 /* clang-format off */
 static const quantity quantities[] = {
@@ -186,9 +186,9 @@ static const quantity quantities[] = {
      .formulas = {{"u_new = clip(u+d(delta_x), -B, B), B = mu eta (delta_z-g(x))", "(19),(20)", 0}}},
     {.name = "s1D", .by = MODEL_MEMORY, .title = "slip of the springs", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION, CALL(s1D, x, LENGTH),
      .reads = READS_TANGENTIAL, .load = true, .formulas = {{"s_1D(x) = delta_x-u_1D(x)", "(20)", 0}}},
-    {.name = "qz1D", .title = "normal line load", .keywords = "springs", .d = STIFFNESS, .of = OF_FUNCTION, CALL(qz1D, x, LENGTH),
+    {.name = "qz1D", .title = "normal line load", .keywords = "springs", .d = STIFFNESS, .unit = "N/mm", .of = OF_FUNCTION, CALL(qz1D, x, LENGTH),
      .reads = READS_NORMAL, .load = true, .formulas = {{"q_z(x) = c_N(x) w_1D(x)", "(11)", 0}}},
-    {.name = "qx1D", .by = MODEL_MEMORY, .title = "tangential line load", .keywords = "springs", .d = STIFFNESS, .of = OF_FUNCTION, CALL(qx1D, x, LENGTH),
+    {.name = "qx1D", .by = MODEL_MEMORY, .title = "tangential line load", .keywords = "springs", .d = STIFFNESS, .unit = "N/mm", .of = OF_FUNCTION, CALL(qx1D, x, LENGTH),
      .reads = READS_TANGENTIAL, .load = true, .formulas = {{"q_x(x) = c_T(x) u_1D(x)", "(14)", 0}}},
 };
 /* clang-format on */
@@ -271,7 +271,8 @@ bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *err
 
 dim quantity_dim(const quantity *q, const scene *s) {
     if (q->in == 1 + IN_A)
-        return (dim){0, 1 - (s->in.geometry && s->in.geometry->n > 0 ? s->in.geometry->n : s->in.v[IN_N]), 0};
+        return (dim){0, 1 - (s->in.geometry && s->in.geometry->n > 0 ? s->in.geometry->n : s->in.v[IN_N]), 0,
+                     0};
     return q->d;
 }
 

@@ -48,6 +48,7 @@ typedef struct quantity {
     const char *title;    /* for labels and help */
     const char *keywords; /* other words to find it by, or NULL */
     dim d;                /* of the value; see quantity_dim for A */
+    const char *unit;     /* that readers are shown it in; NULL: one that fits */
     quantity_of of;
     size_t at, at_state;
     int in; /* 1 + the input that it is; 0: none */

@@ -10,24 +10,16 @@
 /* ---- values ------------------------------------------------------------------------------------ */
 
 static void put_text_value(answer *a, const column *c, long double si) {
-    char text[COLUMN_UNIT + NUMBER_TEXT + 2], number[NUMBER_TEXT];
-    if (c->chosen) {
-        number_text(number, a->set->digits, (double)(si / c->scale));
-        snprintf(text, sizeof text, "%s %s", number, c->unit);
-    } else {
-        format_value(a->set, (value){si, c->d}, text, sizeof text);
-    }
-    fprintf(a->to, "%s = %s\n", c->name, text);
+    char unit_text[COLUMN_UNIT], number[NUMBER_TEXT];
+    const long double scale = column_unit(c, si, a->set->digits, unit_text);
+    number_text(number, a->set->digits, (double)(si / scale));
+    fprintf(a->to, "%s = %s%s%s\n", c->name, number, *unit_text ? " " : "", unit_text);
 }
 
 /* Both in the unit of the value. */
 static void put_text_estimate(answer *a, const column *c, long double si, long double deviation) {
     char unit_text[COLUMN_UNIT], value_text[NUMBER_TEXT], deviation_text[NUMBER_TEXT];
-    long double scale = c->scale;
-    if (c->chosen)
-        snprintf(unit_text, sizeof unit_text, "%s", c->unit);
-    else
-        scale = unit_choose(c->d, si, a->set->digits, unit_text, sizeof unit_text);
+    const long double scale = column_unit(c, si, a->set->digits, unit_text);
     number_text(value_text, a->set->digits, (double)(si / scale));
     number_text(deviation_text, 3, (double)(deviation / scale));
     const char *blank = *unit_text ? " " : "";

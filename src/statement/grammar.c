@@ -14,7 +14,7 @@ static const struct {
     const char *name;
     dim d;
     value_must must;
-} others[] = {{"angle", {0, 0, 1}, ANY}, {"R1", {0, 1, 0}, NONZERO}, {"R2", {0, 1, 0}, NONZERO}};
+} others[] = {{"angle", {0, 0, 1, 0}, ANY}, {"R1", {0, 1, 0, 0}, NONZERO}, {"R2", {0, 1, 0, 0}, NONZERO}};
 
 typedef struct parsing {
     grammar *out;

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "text/characters.h"
-#include "text/lex.h"
+#include "text/unit_text.h"
 
 /* ---- numbers ----------------------------------------------------------------------------------- */
 
@@ -112,9 +112,26 @@ void print_safe(FILE *to, const char *text, size_t len) {
 
 /* ---- values ------------------------------------------------------------------------------------ */
 
+long double column_unit(const column *c, long double v, int digits, char unit_text[COLUMN_UNIT]) {
+    lexer lx;
+    unit u;
+    if (!c->chosen && !c->row)
+        return unit_choose(c->d, v, digits, unit_text, COLUMN_UNIT);
+    snprintf(unit_text, COLUMN_UNIT, "%s", c->chosen ? c->unit : c->row);
+    if (c->chosen)
+        return c->scale;
+    lex_start(&lx, c->row, strlen(c->row), error_quiet());
+    unit_parse(&lx, &u);
+    return unit_scale(&u);
+}
+
 void format_value(const settings *set, value v, char *buf, size_t size) {
+    format_row(set, v, NULL, buf, size);
+}
+
+void format_row(const settings *set, value v, const char *row, char *buf, size_t size) {
     char unit_text[COLUMN_UNIT];
-    long double scale = unit_choose(v.d, v.v, set->digits, unit_text, sizeof unit_text);
+    long double scale = column_unit(&(column){.d = v.d, .row = row}, v.v, set->digits, unit_text);
     char number[NUMBER_TEXT];
     number_text(number, set->digits, (double)(v.v / scale));
     snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
@@ -187,7 +204,7 @@ void columns_free(column *c, size_t count) {
 /* The unit that suits magnitudes: its prefix fits their middle in decades, but one that would leave five
  * digits before the point of the largest gives way to one that fits that. What is 1e-6 of the largest is as
  * good as 0. */
-static long double suitable(dim d, const long double *v, size_t count, size_t stride, int digits,
+static long double suitable(const column *c, const long double *v, size_t count, size_t stride, int digits,
                             char unit_text[COLUMN_UNIT]) {
     long double most = 0, least = INFINITY;
     for (size_t i = 0; i < count; i++)
@@ -199,11 +216,11 @@ static long double suitable(dim d, const long double *v, size_t count, size_t st
             least = fminl(least, size);
     }
     const long double middle = most > 0 ? sqrtl(least) * sqrtl(most) : 0;
-    const long double scale = unit_choose(d, middle, digits, unit_text, COLUMN_UNIT);
-    return most < 1e4L * scale ? scale : unit_choose(d, most, digits, unit_text, COLUMN_UNIT);
+    const long double scale = column_unit(c, middle, digits, unit_text);
+    return most < 1e4L * scale ? scale : column_unit(c, most, digits, unit_text);
 }
 
 void column_suit(column *c, const long double *v, size_t count, size_t stride, int digits) {
     if (!c->chosen)
-        c->scale = suitable(c->d, v, count, stride, digits, c->unit);
+        c->scale = suitable(c, v, count, stride, digits, c->unit);
 }

@@ -16,6 +16,7 @@ typedef struct column {
     char unit[COLUMN_UNIT]; /* as the user asked, else SI */
     long double scale;      /* of that unit */
     bool chosen;            /* the user named the unit */
+    const char *row;        /* else the unit that readers are shown it in; NULL: one that fits */
     dim d;
 } column;
 
@@ -35,8 +36,11 @@ size_t number_text(char text[NUMBER_TEXT], int digits, double v);
 void print_number(FILE *to, int width, int digits, double v);
 /* A positive number rounded up to one digit, as bounds are told. */
 double round_up(double v);
-/* A value with a unit chosen for it, as text. */
+/* The unit that readers are shown a column in: its scale. v: what it is to suit. */
+long double column_unit(const column *c, long double v, int digits, char unit_text[COLUMN_UNIT]);
+/* A value with a unit chosen for it, as text; or in the unit of a row, if it has one. */
 void format_value(const settings *set, value v, char *buf, size_t size);
+void format_row(const settings *set, value v, const char *row, char *buf, size_t size);
 /* The same with as many digits as reading it back takes. */
 void format_exact(value v, char *buf, size_t size);
 /* A text on one line, what does not show escaped: see text/characters.h. Line ends become blanks. */

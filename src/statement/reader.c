@@ -200,16 +200,16 @@ static bool in_range(lexer *lx, const heard *h) {
     return a->must != POSITIVE || h->v.v > 0 || calc_status(lx->error, &st) || heard_place(lx->error, h);
 }
 
-static bool read_operand(shell *sh, lexer *lx, heard *h) {
+static bool read_operand(shell *sh, lexer *lx, const dim *want, heard *h) {
     h->hole[0].at = lx->at;
-    const bool ok = expr_value(&sh->calc, lx, &h->v) && !stray_unit(lx);
+    const bool ok = expr_value_as(&sh->calc, lx, want, &h->v) && !stray_unit(lx);
     h->hole[0].len = lx->last - h->hole[0].at;
     return ok;
 }
 
 /* name: as messages call it. */
 static bool read_value(shell *sh, lexer *lx, const char *name, dim d, heard *h) {
-    return read_operand(sh, lx, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
+    return read_operand(sh, lx, &d, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
            in_range(lx, h);
 }
 
@@ -222,7 +222,7 @@ static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d)
     if (n && n->live && !definition_value(&sh->calc, (definition *)n->live, &n->v, lx->error))
         return heard_place(lx->error, n);
     if (n)
-        *d = (dim){0, 1 - (double)n->v.v, 0};
+        *d = (dim){0, 1 - (double)n->v.v, 0, 0};
     return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
 }
 
@@ -253,9 +253,10 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
 }
 
 static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
-    return read_operand(sh, lx, h) && ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
-                                       calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
-                                                 "the seconds must be a positive number up to %u", of->most));
+    return read_operand(sh, lx, NULL, h) &&
+           ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
+            calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
+                      "the seconds must be a positive number up to %u", of->most));
 }
 
 /* A word of a table, in which no word has a comma or an `=`. */
@@ -376,16 +377,18 @@ static void skip_part(lexer *lx, const grammar *f, const clause *a, unsigned i) 
     const size_t head = titled ? lx->at + lx->len : 0;
     int depth = 0;
     bool operand = false, number = false;        /* it ends before the token, and is that */
+    bool whole = false;                          /* or what a unit may follow, too: (1/3) N, pi N */
     bool word = false;                           /* that of a clause stands for it */
     bool changing = false;                       /* there has been an `at` */
     enum { NOTHING, PLACE, NAMED } at = NOTHING; /* where `at` wants a name, and behind that name */
     for (lx->error = strange; lx->kind != T_END || strange->raised; lex_next(lx)) {
-        const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in"));
+        const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in") ||
+                                                                  (kind == HOLE_SPAN && lex_is(lx, "to")));
         const clause *next = name ? clause_at(lx, f) : NULL;
         const bool figure = lx->last == head && !(clause_near(lx, f) && lex_peek(lx) != T_END);
         const bool ends = name && operand &&
                           (next || !(joins || word || figure || kind == HOLE_LOAD ||
-                                     (number && is_unit(lx, f)) || (kind == HOLE_SPAN && lex_is(lx, "to"))));
+                                     (number && is_unit(lx, f)) || (whole && unit_at(lx))));
         if (depth == 0 && (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
                            (equals_ends && at != NAMED && is_equals(lx)) || ends))
             break;
@@ -396,6 +399,7 @@ static void skip_part(lexer *lx, const grammar *f, const clause *a, unsigned i) 
         at = name && at == PLACE ? NAMED : place ? PLACE : NOTHING;
         word = next && !operand;
         number = lx->kind == T_NUMBER;
+        whole = lx->kind == T_CLOSE || lex_is(lx, "pi");
         operand = !joins &&
                   (name || number || lx->kind == T_CLOSE || lx->kind == T_PERCENT || lx->kind == T_STRING);
     }

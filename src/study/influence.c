@@ -44,7 +44,7 @@ static void add_names(const calc *c, const expr *e, influence_study *out) {
     size_t left = CAUSE_NAMES;
     for (size_t i = 0; i < c->names.count && left > 0; i++) {
         const own_name *row = &c->names.row[i];
-        if (row->definition || !is_mentioned(c, e, row->text))
+        if (!row->known || row->definition || !is_mentioned(c, e, row->text))
             continue;
         out->cause[out->count++] = (cause){.name = row->text,
                                            .v = row->v,

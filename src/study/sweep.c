@@ -102,7 +102,8 @@ static bool take_row(state *st, size_t row, long double x, const value v[], cons
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
 long double sweep_value(const sweep *s, const sweep_range *r, long double part) {
-    return points_place(r->lo, r->hi, s->log, part);
+    return r->listed ? r->list[lroundl(part * (long double)(r->listed - 1))]
+                     : points_place(r->lo, r->hi, s->log, part);
 }
 
 /* The name's value in that row of a table, or its number. */

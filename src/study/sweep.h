@@ -6,11 +6,13 @@
 
 #include "study/points.h"
 
-enum { SWEEP_VALUES = 20 };
+enum { SWEEP_VALUES = 20, SWEEP_LISTED = 100 };
 
 /* One of the curves of a sweep in its own circumstances: the ends of its range, or its load. */
 typedef struct sweep_range {
     long double lo, hi;
+    size_t listed; /* values in place of an interval; 0: none */
+    long double list[SWEEP_LISTED];
     dim d;
     load_step step; /* ALONG_LOAD */
     cycle_extra extra;
@@ -69,7 +71,7 @@ typedef struct sweep_job {
  * without any value. */
 bool sweep_run(const sweep *s, sweep_job *job);
 
-/* The value of the name at a part 0..1 of its range. */
+/* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */
 long double sweep_value(const sweep *s, const sweep_range *r, long double part);
 /* The same for several sweeps over the same names, of so many rows in all: their parts between begin and end.
  */

@@ -123,7 +123,7 @@ static bool read_unit(reader *r, csv_values *column, unit *u, const char *text, 
         return true;
     if (len == 1 && *text == '-')
         return true;
-    if (wrong.raised || !unit_parse(&lx, u) || wrong.raised || lx.kind != T_END)
+    if (wrong.raised || !unit_of_header(&lx, u))
         return trouble(r, column, "%.200s:%zu: column %s: %.200s%.*s%s", r->c->path, r->line, column->name,
                        wrong.raised ? wrong.text : "a bad unit '", wrong.raised ? 0 : LEX_SHOWN(len), text,
                        wrong.raised ? "" : "'");

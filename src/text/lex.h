@@ -34,8 +34,9 @@ typedef struct lexer {
     size_t at, len;   /* its place */
     size_t last;      /* end of the token before it */
     double number;
-    bool list; /* the value that is read may be one of several, parted by commas */
-    bool part; /* of a statement that goes on: what is missing at its end has a place */
+    bool list;   /* the value that is read may be one of several, parted by commas */
+    bool header; /* the text is a unit of a header, where `in` is the inch */
+    bool part;   /* of a statement that goes on: what is missing at its end has a place */
     calc_error *error;
 } lexer;
 

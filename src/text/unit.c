@@ -16,20 +16,30 @@ static const struct {
     unit u;
     const char *meaning;
 } units[] = {
-    {"N", 1, true, {{1, 0, 0}, 0, 1}, "newton, force"},
-    {"lbf", 3, false, {{1, 0, 0}, 0, 4.4482216152605L}, "pound-force"},
-    {"kgf", 3, false, {{1, 0, 0}, 0, 9.80665L}, "kilogram-force"},
-    {"dyn", 3, false, {{1, 0, 0}, -5, 1}, "dyne, force"},
-    {"Pa", 2, true, {{1, -2, 0}, 0, 1}, "pascal, pressure"},
-    {"bar", 3, false, {{1, -2, 0}, 5, 1}, "bar, pressure"},
-    {"psi", 3, false, {{1, -2, 0}, 0, 4.4482216152605L / (0.0254L * 0.0254L)}, "pound-force per square inch"},
-    {"ksi", 3, false, {{1, -2, 0}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
-    {"m", 1, true, {{0, 1, 0}, 0, 1}, "metre, length"},
-    {"inch", 4, false, {{0, 1, 0}, -4, 254}, "inch, length"},
-    {"J", 1, true, {{1, 1, 0}, 0, 1}, "joule, energy"},
-    {"rad", 3, false, {{0, 0, 1}, 0, 1}, "radian, angle"},
-    {"deg", 3, false, {{0, 0, 1}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
-    {"%", 1, false, {{0, 0, 0}, -2, 1}, "per cent"},
+    {"N", 1, true, {{1, 0, 0, 0}, 0, 1}, "newton, force"},
+    {"lbf", 3, false, {{1, 0, 0, 0}, 0, 4.4482216152605L}, "pound-force"},
+    {"kip", 3, false, {{1, 0, 0, 0}, 3, 4.4482216152605L}, "1000 lbf"},
+    {"kgf", 3, false, {{1, 0, 0, 0}, 0, 9.80665L}, "kilogram-force"},
+    {"gf", 2, false, {{1, 0, 0, 0}, -3, 9.80665L}, "gram-force"},
+    {"dyn", 3, false, {{1, 0, 0, 0}, -5, 1}, "dyne, force"},
+    {"Pa", 2, true, {{1, -2, 0, 0}, 0, 1}, "pascal, pressure"},
+    {"bar", 3, false, {{1, -2, 0, 0}, 5, 1}, "bar, pressure"},
+    {"psi",
+     3,
+     false,
+     {{1, -2, 0, 0}, 0, 4.4482216152605L / (0.0254L * 0.0254L)},
+     "pound-force per square inch"},
+    {"ksi", 3, false, {{1, -2, 0, 0}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
+    {"m", 1, true, {{0, 1, 0, 0}, 0, 1}, "metre, length"},
+    {"inch", 4, false, {{0, 1, 0, 0}, -4, 254}, "inch, length"},
+    {"\xc3\x85", 2, false, {{0, 1, 0, 0}, -10, 1}, "angstrom, length"},
+    {"J", 1, true, {{1, 1, 0, 0}, 0, 1}, "joule, energy"},
+    {"kg", 2, false, {{1, -1, 0, 2}, 0, 1}, "kilogram, mass"},
+    {"s", 1, true, {{0, 0, 0, 1}, 0, 1}, "second, time; elsewhere the name is free"},
+    {"Hz", 2, true, {{0, 0, 0, -1}, 0, 1}, "hertz, frequency"},
+    {"rad", 3, false, {{0, 0, 1, 0}, 0, 1}, "radian, angle"},
+    {"deg", 3, false, {{0, 0, 1, 0}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
+    {"%", 1, false, {{0, 0, 0, 0}, -2, 1}, "per cent"},
 };
 enum { UNITS = sizeof units / sizeof *units };
 
@@ -57,6 +67,9 @@ bool unit_prefixed(size_t i) {
 }
 
 bool unit_lookup(const char *word, size_t len, unit *out) {
+    static const char sign[] = "\xe2\x84\xab"; /* of the angstrom, of its own */
+    if (len == sizeof sign - 1 && !memcmp(word, sign, len))
+        return unit_lookup("\xc3\x85", 2, out);
     for (size_t i = 0; i < UNITS; i++) {
         size_t n = units[i].len;
         if (n > len || units[i].name[n - 1] != word[len - 1])
@@ -81,18 +94,21 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
 }
 
 static const char *prefixed_name(size_t i) {
-    static const char *const common[] = {"N",    "kN",  "mN",  "uN",  "MN",  "lbf", "kgf", "dyn", "Pa", "kPa",
-                                         "MPa",  "GPa", "bar", "psi", "ksi", "m",   "mm",  "um",  "nm", "cm",
-                                         "inch", "J",   "mJ",  "uJ",  "nJ",  "kJ",  "rad", "deg"};
+    static const char *const common[] = {"N",  "kN",  "mN",  "uN",  "MN",   "lbf", "kgf", "dyn",
+                                         "Pa", "kPa", "MPa", "GPa", "bar",  "psi", "ksi", "m",
+                                         "mm", "um",  "nm",  "cm",  "inch", "J",   "mJ",  "uJ",
+                                         "nJ", "kJ",  "rad", "deg", "kip",  "gf",  "kg",  "Hz"};
     return i < sizeof common / sizeof *common ? common[i] : NULL;
 }
 
 const char *unit_suggest(const char *word) {
     static const char *const other_names[][2] = {
-        {"in", "inch"},  {"newton", "N"},     {"pascal", "Pa"},  {"metre", "m"},    {"meter", "m"},
-        {"joule", "J"},  {"micron", "um"},    {"degree", "deg"}, {"radian", "rad"}, {"percent", "%"},
-        {"kg", "kgf"},   {"lb", "lbf"},       {"kpsi", "ksi"},   {"Nm", "N*m"},     {"kNm", "kN*m"},
-        {"Nmm", "N*mm"}, {"millimetre", "mm"}};
+        {"in", "inch"},    {"newton", "N"},  {"pascal", "Pa"},         {"metre", "m"},
+        {"meter", "m"},    {"joule", "J"},   {"micron", "um"},         {"degree", "deg"},
+        {"radian", "rad"}, {"percent", "%"}, {"angstrom", "\xc3\x85"}, {"lb", "lbf"},
+        {"lbs", "lbf"},    {"kips", "kip"},  {"kilogram", "kg"},       {"hertz", "Hz"},
+        {"second", "s"},   {"sec", "s"},     {"kpsi", "ksi"},          {"Nm", "N*m"},
+        {"kNm", "kN*m"},   {"Nmm", "N*mm"},  {"millimetre", "mm"}};
     for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++) {
         const bool letters_tell = strchr(other_names[i][1], '*') != NULL; /* nM is no moment */
         if (letters_tell ? !strcmp(word, other_names[i][0]) : same_but_case(word, other_names[i][0]))
@@ -110,7 +126,7 @@ long double unit_scale(const unit *u) {
 }
 
 bool dim_equal(dim a, dim b) {
-    return fabs(a.N - b.N) < 1e-9 && fabs(a.m - b.m) < 1e-9;
+    return fabs(a.N - b.N) < 1e-9 && fabs(a.m - b.m) < 1e-9 && fabs(a.s - b.s) < 1e-9;
 }
 
 static const struct {
@@ -118,10 +134,14 @@ static const struct {
     const char *unit, *phrase;
     bool prefixes;
 } named[] = {
-    {{0, 0, 0}, "", "a number", false},   {{1, 0, 0}, "N", "a force", true},
-    {{0, 1, 0}, "m", "a length", true},   {{1, -2, 0}, "Pa", "a pressure", true},
-    {{1, 1, 0}, "J", "an energy", true},  {{1, -1, 0}, "N/m", "a stiffness", true},
-    {{0, 2, 0}, "m^2", "an area", false}, {{0, -1, 0}, "m^-1", "an inverse length", false},
+    {{0, 0, 0, 0}, "", "a number", false},   {{1, 0, 0, 0}, "N", "a force", true},
+    {{0, 1, 0, 0}, "m", "a length", true},   {{1, -2, 0, 0}, "Pa", "a pressure", true},
+    {{1, 1, 0, 0}, "J", "an energy", true},  {{1, -1, 0, 0}, "N/m", "a stiffness", true},
+    {{0, 2, 0, 0}, "m^2", "an area", false}, {{0, -1, 0, 0}, "m^-1", "an inverse length", false},
+    {{1, -1, 0, 2}, "kg", "a mass", false},  {{1, -4, 0, 2}, "kg/m^3", "a density", false},
+    {{0, 0, 0, 1}, "s", "a time", true},     {{0, 0, 0, -1}, "Hz", "a frequency", true},
+    {{0, 1, 0, -1}, "m/s", "a speed", true}, {{0, 1, 0, -2}, "m/s^2", "an acceleration", false},
+    {{1, 1, 0, -1}, "J/s", "a power", true},
 };
 enum { NAMED = sizeof named / sizeof *named };
 
@@ -147,13 +167,24 @@ void dim_unit(dim d, char *buf, size_t size) {
             put_text(named[i].unit, buf, size);
             return;
         }
-    char N[40] = "", m[40] = "";
-    if (fabs(d.N) > 1e-9)
-        snprintf(N, sizeof N, fabs(d.N - 1) < 1e-9 ? "N" : "N^%.10g", d.N);
-    double power = d.N != 0 && d.m < 0 ? -d.m : d.m;
-    if (fabs(d.m) > 1e-9)
-        snprintf(m, sizeof m, fabs(power - 1) < 1e-9 ? "m" : "m^%.10g", power);
-    snprintf(buf, size, "%s%s%s", N, *N && *m ? (d.m < 0 ? "/" : "*") : "", m);
+    const struct {
+        const char *name;
+        double power;
+    } base[] = {{"N", d.N}, {"m", d.m}, {"s", d.s}};
+    size_t n = 0;
+    *buf = 0;
+    for (size_t i = 0; i < sizeof base / sizeof *base; i++) {
+        const double power = n && base[i].power < 0 ? -base[i].power : base[i].power;
+        if (!(fabs(power) > 1e-9) || n >= size)
+            continue;
+        n += (size_t)snprintf(buf + n, size - n, "%s%s",
+                              !n                  ? ""
+                              : base[i].power < 0 ? "/"
+                                                  : "*",
+                              base[i].name);
+        if (fabs(power - 1) > 1e-9 && n < size)
+            n += (size_t)snprintf(buf + n, size - n, "^%.10g", power);
+    }
 }
 
 void dim_describe(dim d, char *buf, size_t size) {

@@ -1,28 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Dimensions and units. Force and length are the only base dimensions of this field. */
+/* Dimensions and units. Force, length and time are the base dimensions of this field. */
 #ifndef TEXT_UNIT_H
 #define TEXT_UNIT_H
 
 #include "text/words.h"
 
-/* Powers of newton and metre; exponents are real, since A of a gap A r^n is in m^(1-n). An angle is a number,
- * but one that remembers its unit: where an angle is wanted, 90 is not 90 deg. */
+/* Powers of newton, metre and second, of which a kilogram is N s^2/m; exponents are real, since A of a gap A
+ * r^n is in m^(1-n). An angle is a number, but one that remembers its unit: where an angle is wanted, 90 is
+ * not 90 deg. */
 typedef struct dim {
-    double N, m, rad;
+    double N, m, rad, s;
 } dim;
 
-#define DIM_NONE ((dim){0, 0, 0})
-#define DIM_FORCE ((dim){1, 0, 0})
-#define DIM_LENGTH ((dim){0, 1, 0})
-#define DIM_ENERGY ((dim){1, 1, 0})
-#define DIM_STIFFNESS ((dim){1, -1, 0})
-#define DIM_ANGLE ((dim){0, 0, 1})
+#define DIM_NONE ((dim){0, 0, 0, 0})
+#define DIM_FORCE ((dim){1, 0, 0, 0})
+#define DIM_LENGTH ((dim){0, 1, 0, 0})
+#define DIM_ENERGY ((dim){1, 1, 0, 0})
+#define DIM_STIFFNESS ((dim){1, -1, 0, 0})
+#define DIM_ANGLE ((dim){0, 0, 1, 0})
+#define DIM_TIME ((dim){0, 0, 0, 1})
 
 static inline dim dim_product(dim a, dim b) {
-    return (dim){a.N + b.N, a.m + b.m, a.rad + b.rad};
+    return (dim){a.N + b.N, a.m + b.m, a.rad + b.rad, a.s + b.s};
 }
 static inline dim dim_power(dim a, double n) {
-    return (dim){a.N * n, a.m * n, a.rad * n};
+    return (dim){a.N * n, a.m * n, a.rad * n, a.s * n};
 }
 
 /* Whether or not they are angles. */

@@ -9,6 +9,8 @@
 static bool unit_word(const lexer *lx, unit *u) {
     if (lx->kind == T_PERCENT)
         return unit_lookup("%", 1, u);
+    if (lx->header && lex_is(lx, "in"))
+        return unit_lookup("inch", 4, u);
     return lx->kind == T_NAME && unit_lookup(lx->text + lx->at, lx->len, u);
 }
 
@@ -89,6 +91,23 @@ bool unit_parse(lexer *lx, unit *out) {
         out->exp10 += sign * u.exp10;
         out->factor = sign > 0 ? out->factor * u.factor : out->factor / u.factor;
     }
+    return true;
+}
+
+bool unit_of_header(lexer *lx, unit *out) {
+    const double times = lx->kind == T_NUMBER ? lx->number : 1, places = round(log10(times));
+    double power = 0;
+    lx->header = true;
+    if (lx->kind == T_NUMBER)
+        lex_next(lx);
+    if (!(times > 0) || !unit_parse(lx, out) || lx->error->raised || lx->kind != T_END)
+        return false;
+    if (fabs(places) < 100)
+        lex_decimal("1", 1, '.', (int)places, &power);
+    if (times == power) /* numbers in it are rounded once */
+        out->exp10 += (int)places;
+    else
+        out->factor *= times;
     return true;
 }
 

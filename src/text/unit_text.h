@@ -10,6 +10,9 @@
 bool unit_at(const lexer *lx);
 /* Parses a unit expression at the cursor. */
 bool unit_parse(lexer *lx, unit *out);
+/* The unit of a column and nothing else, as its header has it: `in` is the inch, and a factor may stand
+ * before it. */
+bool unit_of_header(lexer *lx, unit *out);
 /* The literal of `len` bytes at `at`, in this unit: rounded once. */
 long double unit_literal(const lexer *lx, size_t at, size_t len, const unit *u);
 

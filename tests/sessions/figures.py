@@ -107,6 +107,11 @@ def points(tests):
     tests.check("101 points", len(one) == len(two) == 101 and all(
         abs(x - i / 50) < 1e-8 and abs(y - x) < 1e-8 and abs(z - 2 * x) < 1e-8
         for i, ((x, y), (_, z)) in enumerate(zip(one, two))), str(one[:3] + two[-3:]))
+    own = tests.run("-c", "plot x, 3*x against x^2, x^3 against 2*x for x = 1, 2, 5 to d.gp", cwd=where)
+    curves = [[(x * x, x) for x in (1, 2, 5)], [(x * x, 3 * x) for x in (1, 2, 5)], [(2 * x, x ** 3) for x in (1, 2, 5)]]
+    if tests.check("curves against expressions of their own", own.returncode == 0, tests.report(own)):
+        tests.check("each over its own", points_of(where + "/d.gp") == curves, str(points_of(where + "/d.gp")))
+        os.remove(where + "/d.gp")
     (loop,) = points_of(where + "/c.gp")
     dx, Fx = (float(value) for value in re.findall(r'"value":([^,]*),', done.stdout))
     tests.check("a loop begins and ends", len(loop) > 200 and loop[0] == (0, 0) and abs(loop[-1][0] / 1e6 - dx) < 1e-7 * dx

@@ -488,7 +488,7 @@ def regimes(tests):
         tests.check("areas of " + ranges, inside[0] < inside[1] == 3 and "filledcurves closed" in text and
                     all('"%s" at graph' % word in text for word in ("partial slip", "gross slip")), str(inside))
     fails(tests, "plot regimes", "regimes go for dxA = LO .. HI for NAME = LO .. HI")
-    fails(tests, "plot regimes for dxA = 2 um .. 1 um for FN = 1 N .. 2 N", "an empty range")
+    fails(tests, "plot regimes for dxA = 2 um .. 1 um for FN = 1 N .. 2 N", "expected LO .. HI, LO below HI")
     fails(tests, "plot regimes for dxA = 1 um .. 2 um for dz = 1 um .. 2 um", "dz")
 
 

@@ -396,8 +396,23 @@ def on_the_way(tests):
             before += "step %s\n" % ramp
 
 
+def integrals(tests):
+    """The pressure bears the force, whatever the shape; for k < 0 it is infinite at the edge of a flat end."""
+    shapes = list(SHAPES) + ["flat-cone b=0.2 mm slope=0.001", "flat-paraboloid b=0.2 mm R=500 mm"]
+    for command, k in tests.some(((command, k) for k in (-0.9, -0.5, -0.2, 0.0, 0.3, 0.8) for command in shapes), 12):
+        if k < -0.5 and "flat-" in command and "0.001" not in command and "500" not in command:
+            continue  # it ends with the flat end, to the last digit
+        got = values(tests, "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry %s; friction 0.4; press FN=100 N\nstep Fx=25 N\n"
+                     "(integral 2*pi*r*p(r) for r = 0 m .. a), (integral pi*abs(r)*p(abs(r)) for r = -2*a .. a), "
+                     "(integral 2*pi*r*qx(r) for r = 0 m .. a)" % (k, command))
+        force, wide, traction = got.values() if len(got) == 3 else (None,) * 3
+        close(tests, "%s, k = %g: integral of p" % (command, k), 100, force, 1e-12)
+        close(tests, "%s, k = %g: integral of p from beyond the contact" % (command, k), 100, wide, 1e-11)
+        close(tests, "%s, k = %g: integral of q_x" % (command, k), 25, traction, 1e-11)
+
+
 def run(tests):
-    tests.each([lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
+    tests.each([lambda: integrals(tests), lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
                 lambda: gap_file(tests), lambda: dense_file(tests), lambda: dense_fields(tests), lambda: tip_in_rows(tests), lambda: whole_gap(tests),
                 lambda: swinging_rows(tests), lambda: hardly_moved_rows(tests),
                 lambda: histories(tests), lambda: on_the_way(tests)])

@@ -117,7 +117,7 @@ static bool ask_sound(scene *s, double v[VALUES]) {
 }
 
 static bool ask_places(scene *s, double v[VALUES]) {
-    static const calc_value r = {1e-6L, {0, 1, 0}};
+    static const calc_value r = {1e-6L, {0, 1, 0, 0}};
     long double slip, shift, traction, pressure;
     if (!call_s1D(s, r, &slip, fresh()) || !call_u1D(s, r, &shift, &error) ||
         !call_qx(s, r, &traction, &error) || !call_p(s, r, &pressure, &error))

@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Values of an expression over a range: their integral, the largest, the smallest. */
+#include "language/over.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "language/along.h"
+#include "number/integral.h"
+
+/* ---- one value --------------------------------------------------------------------------------- */
+
+static bool look(over *o, long double *v) {
+    calc *c = o->t->c;
+    value now;
+    if (calc_stopped(c->scene.stop, o->error))
+        return false;
+    if (c->scene.pulse)
+        c->scene.pulse();
+    if (!o->value(o->context, &now))
+        return false;
+    if (!o->known)
+        o->d = now.d;
+    o->known = true;
+    *v = now.v;
+    return dim_equal(now.d, o->d) ||
+           calc_fail(o->error, 0, 0, "the expression has no dimension of its own: it changes on the way");
+}
+
+/* An error at a place tells it. */
+static void over_where(const over *o, long double x) {
+    char at[CALC_VALUE_TEXT];
+    calc_value_text(o->name ? o->name->d : DIM_NONE, (double)x, at);
+    if (!o->error->stop && o->error->kind != ERROR_MISSING)
+        calc_append(o->t->c, o->error, " (at %s = %s)", o->name ? o->name->text : "time", at);
+}
+
+static bool look_at(over *o, long double x, long double *v) {
+    const knob_value by = {*o->name, x};
+    size_t wrong;
+    o->t->c->now = &o->t->scene; /* not the one beside it that has been seen last */
+    return trial_change(o->t, &by, 1, &wrong, o->error) && look(o, v);
+}
+
+/* ---- the integral ------------------------------------------------------------------------------ */
+
+/* A part of it, between places where it may be singular. */
+typedef struct part {
+    over *o;
+    long double lo, hi;
+    bool magnitude;
+    bool lost; /* a value at an end */
+    size_t seen;
+} part;
+
+/* Where x cannot be told from an end there need be no value. The rule is of no use then, and soon left. */
+static fret_real integrand(fret_real t, fret_real rest, void *context) {
+    enum { ENOUGH = 2000 };
+    part *p = context;
+    over *o = p->o;
+    const long double width = p->hi - p->lo, x = t < 0.5L ? p->lo + width * t : p->hi - width * rest;
+    long double v = 0;
+    calc_error mine, *error = o->error;
+    if (error->raised || (p->lost && p->seen++ > ENOUGH))
+        return 0;
+    error_clear(&mine);
+    o->error = &mine;
+    const bool had = look_at(o, x, &v),
+               at_end = x == p->lo || x == p->hi || t < LDBL_EPSILON || rest < LDBL_EPSILON;
+    p->lost = p->lost || !had;
+    if (!had && (mine.stop || mine.strange || !at_end)) {
+        over_where(o, x);
+        *error = mine;
+    }
+    o->error = error;
+    return p->magnitude ? fabsl(v) : v;
+}
+
+/* A lost value leaves the error unknown. */
+static fret_estimate between(over *o, long double lo, long double hi, long double tolerance, bool magnitude) {
+    part p = {.o = o, .lo = lo, .hi = hi, .magnitude = magnitude};
+    const fret_estimate whole = fret_integral(integrand, &p, tolerance);
+    const long double error = p.lost ? INFINITY : whole.error * fabsl(hi - lo);
+    return (fret_estimate){whole.value * (hi - lo), error};
+}
+
+/* From `far` to a singular end: between halves of the distance, whose sums go on as their limit does (Wynn's
+ * epsilon, exact for sums of powers of the distance). There x keeps its digits, which next to the end it
+ * loses. Where the last of them do not shrink there is no limit. */
+static fret_estimate to_end(over *o, long double far, long double end) {
+    enum { HALVES = 40 };
+    long double row[HALVES + 1], sum = 0, from = far, rounding = 0, last = NAN, before = 0, shrinks = 0,
+                                 off = INFINITY;
+    fret_estimate best = {0, INFINITY};
+    for (int n = 0; n <= HALVES && !o->error->raised; n++) {
+        const long double to = end - (end - from) / 2, digits = LDBL_EPSILON * fabsl(end / (end - to));
+        const fret_estimate piece = between(o, from, to, 1e-15L + 4 * digits, false);
+        long double above = 0;
+        row[n] = sum += piece.value;
+        rounding += piece.error;
+        shrinks = fabsl(piece.value / before);
+        before = piece.value;
+        from = to;
+        for (int j = n; j > 0; j--) {
+            const long double old = row[j - 1];
+            row[j - 1] = above + 1 / (row[j] - old);
+            above = old;
+        }
+        const long double earlier = off, now = row[n % 2];
+        off = fabsl(now - last);
+        if (off + earlier + rounding < best.error) /* agrees with two before it; is a number */
+            best = (fret_estimate){now, off + earlier + rounding};
+        last = now;
+    }
+    return shrinks < 0.999L || before == 0 ? best : (fret_estimate){sum, INFINITY};
+}
+
+/* *size: of its magnitude. */
+static fret_estimate of_part(over *o, long double lo, long double hi, long double *size) {
+    static const long double good = 1e-14L;
+    fret_estimate all = between(o, lo, hi, 1e-16L, false);
+    *size = fabsl(all.value);
+    if (isfinite(all.error) && all.error > good * *size)
+        *size = between(o, lo, hi, 1e-3L, true).value;
+    if (all.error <= good * *size || o->error->raised)
+        return all;
+    const long double mid = lo + (hi - lo) / 2;
+    const fret_estimate left = to_end(o, mid, lo), right = to_end(o, mid, hi);
+    const fret_estimate both = {right.value - left.value, left.error + right.error};
+    if (both.error < all.error || !isfinite(all.error))
+        all = both;
+    if (!isfinite(all.error)) /* all of it is unsure: little, where it is a sliver of the whole */
+        all.error = fabsl(left.value) + fabsl(right.value);
+    *size = fmaxl(*size, fmaxl(fabsl(all.value), isfinite(both.error) ? 0 : all.error));
+    return all;
+}
+
+/* Where parts end: of a place, where the scene has an edge, and pressure may be singular there. The first
+ * lets no rule lie evenly about a pole, whose sides would take each other away. */
+enum { EDGES = 5 };
+static size_t edges(const over *o, long double at[EDGES]) {
+    static const char *const names[] = {"b", "a"};
+    size_t count = 0;
+    at[count++] = o->lo + 0.381966L * (o->hi - o->lo);
+    for (size_t i = 0; i < 2 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++) {
+        long double v;
+        if (!quantity_get(quantity_find(names[i], 1), &o->t->scene, &v, error_quiet()))
+            continue;
+        at[count++] = v;
+        at[count++] = -v;
+    }
+    return count;
+}
+
+bool over_integral(over *o, long double *out, long double *error) {
+    static const long double poor = 1e-6L;
+    long double edge[EDGES], size = 0, off = 0, sum = 0;
+    const size_t count = edges(o, edge);
+    const int way = o->lo < o->hi ? 1 : -1;
+    for (long double lo = o->lo, hi; lo != o->hi && !o->error->raised; lo = hi) {
+        long double own;
+        hi = o->hi;
+        for (size_t i = 0; i < count; i++)
+            if (way * edge[i] > way * lo && way * edge[i] < way * hi)
+                hi = edge[i];
+        const fret_estimate here = of_part(o, lo, hi, &own);
+        sum += here.value;
+        off += here.error;
+        size += fabsl(own);
+    }
+    *out = sum;
+    *error = size > 0 ? off / size : 0;
+    return !o->error->raised &&
+           (off <= poor * size ||
+            calc_fail(
+                o->error, 0, 0,
+                "the integral does not converge: what is integrated may be infinite, or swing without end"));
+}
+
+/* ---- the largest and the smallest -------------------------------------------------------------- */
+
+/* A value above those beside it, at the places next to it. */
+typedef struct peak {
+    long double v, spread, left, right; /* spread: how far above the lower one */
+} peak;
+
+enum { PEAKS = 4 };
+typedef struct search {
+    over *o;
+    int sign;
+    size_t seen, peaks;
+    long double x[3], v[3]; /* the latest */
+    peak peak[PEAKS];       /* highest first */
+} search;
+
+/* Is the one before the latest a peak? */
+static void close_peak(search *s) {
+    const long double v = s->v[1];
+    size_t i = s->peaks;
+    if (v < s->v[0] || v < s->v[2])
+        return;
+    while (i > 0 && s->peak[i - 1].v < v)
+        i--;
+    if (i == PEAKS)
+        return;
+    s->peaks += s->peaks < PEAKS;
+    for (size_t j = s->peaks - 1; j > i; j--)
+        s->peak[j] = s->peak[j - 1];
+    s->peak[i] = (peak){v, v - fminl(s->v[0], s->v[2]), s->x[0], s->x[2]};
+}
+
+/* The first one is its own neighbour. */
+static void take(search *s, long double x, long double v) {
+    for (int i = 0; i < 2; i++) {
+        s->x[i] = s->seen ? s->x[i + 1] : x;
+        s->v[i] = s->seen ? s->v[i + 1] : s->sign * v;
+    }
+    s->x[2] = x;
+    s->v[2] = s->sign * v;
+    if (s->seen++)
+        close_peak(s);
+}
+
+static bool scan_along(search *s, long double lo, long double hi, size_t points) {
+    over *o = s->o;
+    trial_along a;
+    long double v;
+    if (!trial_along_between(&a, o->t, (double)lo, (double)hi, points, true, o->error))
+        return false;
+    while (trial_along_next(&a, o->error)) {
+        if (!look(o, &v)) {
+            over_where(o, (long double)scene_time(&o->t->scene));
+            break;
+        }
+        take(s, (long double)scene_time(&o->t->scene), v);
+    }
+    trial_along_end(&a);
+    return !o->error->raised;
+}
+
+static bool scan(search *s, long double lo, long double hi, size_t points) {
+    long double v;
+    s->seen = s->peaks = 0;
+    if (!s->o->name && !scan_along(s, lo, hi, points))
+        return false;
+    for (size_t i = 0; s->o->name && i <= points; i++) {
+        const long double t = (long double)i / (long double)points, x = lo * (1 - t) + hi * t;
+        if (!look_at(s->o, x, &v)) {
+            over_where(s->o, x);
+            return false;
+        }
+        take(s, x, v);
+    }
+    if (s->seen) /* the last one is its own neighbour */
+        take(s, s->x[2], s->sign * s->v[2]);
+    return true;
+}
+
+/* Between its neighbours, until all that is left is alike to rounding. */
+static bool climb(search *s, peak p, long double *most) {
+    enum { PLACES = 16 };
+    *most = fmaxl(*most, p.v);
+    while (p.spread > 4 * LDBL_EPSILON * fabsl(p.v) &&
+           p.right - p.left > 4 * LDBL_EPSILON * fmaxl(fabsl(p.left), fabsl(p.right))) {
+        const long double width = p.right - p.left;
+        if (!scan(s, p.left, p.right, PLACES))
+            return false;
+        if (!s->peaks) /* no time between them */
+            return true;
+        p = s->peak[0];
+        *most = fmaxl(*most, p.v);
+        if (p.right - p.left > width / 2) /* steps of time end */
+            return true;
+    }
+    return true;
+}
+
+bool over_extreme(over *o, bool largest, long double *out) {
+    enum { PLACES = 256, PER_TIME = 32, AT_MOST = 16384 };
+    search s = {.o = o, .sign = largest ? 1 : -1};
+    const long double many = o->name ? 0 : PER_TIME * (o->hi - o->lo);
+    if (!scan(&s, o->lo, o->hi, (size_t)fminl(fmaxl(many, PLACES), AT_MOST)))
+        return false;
+    if (!s.peaks)
+        return calc_fail(o->error, 0, 0, "there is no instant to look at");
+    peak found[PEAKS];
+    const size_t count = s.peaks;
+    long double most = s.peak[0].v;
+    memcpy(found, s.peak, sizeof found);
+    for (size_t i = 0; i < count; i++)
+        if (found[i].v + found[i].spread > most && !climb(&s, found[i], &most))
+            return false;
+    *out = s.sign * most;
+    return true;
+}
