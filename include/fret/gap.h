@@ -17,7 +17,8 @@ typedef enum fret_gap_kind {
     FRET_GAP_FLAT_PARABOLOID, /* f = (r^2-b^2)/(2R), r > b */
     FRET_GAP_FLAT_ROUNDED,    /* f = (r-b)^2/(2R), r > b: the usual fretting pad */
     FRET_GAP_EXACT_SPHERE,    /* f = R - sqrt(R^2-r^2), r <= 0.95 R */
-    FRET_GAP_TABLE            /* sampled gap, monotone piecewise cubic */
+    FRET_GAP_TABLE,           /* sampled gap, monotone piecewise cubic */
+    FRET_GAP_FLAT             /* the flat end of a rigid punch: f = 0 for r < b, and nothing beyond */
 } fret_gap_kind;
 
 enum { FRET_GAP_TERMS = 16 };
@@ -49,7 +50,8 @@ fret_real fret_kappa(double n, double k);
  * has passed. */
 fret_status fret_gap_check(const fret_gap *gap);
 
-/* f(r) [m], r >= 0 [m]. Errors: FRET_NEGATIVE, FRET_OUTSIDE (beyond a sphere or a table), FRET_NOT_FINITE. */
+/* f(r) [m], r >= 0 [m]. Errors: FRET_NEGATIVE, FRET_OUTSIDE (beyond a sphere, a table or a flat punch),
+ * FRET_NOT_FINITE. */
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f);
 
 /* g(x) [m] and, where slope is not NULL, g'(x), for |x| [m], -1 < k < 1. Errors as above, and FRET_BAD_K.

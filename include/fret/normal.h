@@ -63,15 +63,20 @@ fret_real fret_normal_profile(const fret_normal *normal, fret_real x);
 
 /* delta_z = g(a), F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx (10)-(13); power law:
  *   F_N = 2 cN0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1)).
- * Arguments >= 0. Errors: FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW; beyond fret_normal_end
- * FRET_TABLE_SHORT, or FRET_NOT_MONOTONE where g begins to fall there. Accuracy: 1e-19 relative for power
- * laws with n 1e-6..1e6, 1e-17 for other shapes, 2e-16 for tables. */
+ * Arguments >= 0. Errors: FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW; FRET_OUTSIDE where a is that of a
+ * flat end or less; beyond fret_normal_end FRET_TABLE_SHORT, or FRET_NOT_MONOTONE where g begins to fall
+ * there. Accuracy: 1e-19 relative for power laws with n 1e-6..1e6, 1e-17 for other shapes, 2e-16 for tables.
+ */
 fret_status fret_press_by_force(const fret_normal *normal, double F, fret_press *out);
 fret_status fret_press_by_depth(const fret_normal *normal, double dz, fret_press *out);
 fret_status fret_press_by_radius(const fret_normal *normal, double a, fret_press *out);
 
 /* Normal stiffness k_n = dF_N/d delta_z = 2 cN0 c0^-k a^(k+1)/(k+1) [N/m], a > 0 [m]. */
 fret_real fret_normal_stiffness(const fret_normal *normal, fret_real a);
+
+/* Elastic energy U_n = int_0^delta_z F_N d(delta_z) [J] of a contact that is pressed so: of a power law F_N
+ * delta_z n/(2n+k+1). Accuracy: 1e-17 relative, tables 2e-16. */
+fret_real fret_normal_energy(const fret_normal *normal, const fret_press *press);
 
 /* A contact pressed and not yet loaded tangentially, at constant F_N from here on. Borrows normal. */
 typedef struct fret_pressed {

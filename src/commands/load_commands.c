@@ -47,7 +47,7 @@ static void report_event(shell *sh, const char *event, const char *const *names)
 /* ---- press, step, cycle ------------------------------------------------------------------------ */
 
 static load_by by_of(const char *name) {
-    return *name == 'F' ? BY_FORCE : *name == 'd' ? BY_DISPLACEMENT : BY_RADIUS;
+    return *name == 'F' ? BY_FORCE : BY_DISPLACEMENT;
 }
 
 /* Is it the normal force or displacement? Else it is the tangential one. */
@@ -138,8 +138,9 @@ bool do_press(shell *sh, lexer *lx, const command *self) {
     if (!said_read(sh, lx, command_form(self), &s))
         return false;
     const heard *by = &s.list[0];
-    const load_step step = {
-        .kind = LOAD_PRESS, .normal = (unsigned char)by_of(by->of->name), .normal_value = (double)by->v.v};
+    const load_step step = {.kind = LOAD_PRESS,
+                            .normal = (unsigned char)press_by((input)(by->of->in - 1)),
+                            .normal_value = (double)by->v.v};
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error)) {
         const char *of = lx->error->kind == ERROR_STATUS ? lx->error->status.quantity : NULL;
         return of && !strcmp(of, by->of->name) ? heard_place(lx->error, by) : false;

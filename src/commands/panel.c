@@ -495,7 +495,7 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
 /* Of a homogeneous body that is not compared with others. */
 static const char *statement_of(const shell *sh, const figure *f, said *all) {
     const inputs *in = &sh->calc.now->in;
-    bool graded = !in->set[IN_E0] || in->v[IN_K] != 0 || in->set[IN_C0];
+    bool graded = !inputs_any(in, INPUT_MODULUS) || in->v[IN_K] != 0 || in->set[IN_C0];
     graded = graded || in->bindings & (INPUT_BIT(IN_K) | INPUT_BIT(IN_C0)) || said_of(all, "with", 0);
     return f->without_c0 && !graded ? f->without_c0 : f->statement;
 }

@@ -35,9 +35,9 @@ static void edit_put(edit *e, input in, long double v) {
 static void apply(inputs *in, void *context) {
     const edit *e = context;
     if (e->clear_material)
-        inputs_unset(in, INPUT_BIT(IN_K) | INPUT_BIT(IN_C0));
+        inputs_unset(in, INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0));
     if (e->clear_second) {
-        inputs_unset(in, INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_NU_2));
+        inputs_unset(in, INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2));
         in->second = e->second;
     }
     if (e->geometry)
@@ -56,6 +56,10 @@ static void apply(inputs *in, void *context) {
 
 static bool has(const edit *e, input in) {
     return e->has[in] || e->bound[in];
+}
+
+static bool has_second(const edit *e) {
+    return has(e, IN_E0_2) || has(e, IN_G0_2) || has(e, IN_NU_2);
 }
 
 /* What was given for inputs. */
@@ -84,14 +88,15 @@ bool do_material(shell *sh, lexer *lx, const command *self) {
         edit_put(&e, IN_NU, preset_row(named->choice)->nu);
     }
     gather(&e, &s);
-    if (has(&e, IN_E0_2) || has(&e, IN_NU_2)) {
+    if (has_second(&e)) {
         e.clear_second = true;
         e.second = SECOND_GIVEN;
     }
     bool ok = false;
     command_usage(self, usage);
-    if (!has(&e, IN_E0) || !has(&e, IN_NU))
-        lex_fail(lx, "%s is missing; usage: %s", has(&e, IN_E0) ? "nu" : "E0", usage);
+    const bool modulus = has(&e, IN_E0) || has(&e, IN_G0) || has(&e, IN_ESTAR);
+    if (!modulus || !(has(&e, IN_NU) || has(&e, IN_ESTAR)))
+        lex_fail(lx, "%s is missing; usage: %s", modulus ? "nu" : "E0", usage);
     else if (e.bound[IN_K] && !has(&e, IN_C0))
         lex_fail(lx, "c0 is missing: with a k that follows others the depth where E = E0 matters");
     else if (e.has[IN_K] && e.v[IN_K] != 0 && !has(&e, IN_C0))
@@ -102,14 +107,20 @@ bool do_material(shell *sh, lexer *lx, const command *self) {
     return ok;
 }
 
-/* E0 and E0_2 are the same here, as nu and nu_2 are; a rigid body has neither. */
+/* Inputs of the first body, and of the second: the same behind `second`. */
+static const input bodies[][2] = {{IN_E0, IN_E0_2}, {IN_G0, IN_G0_2}, {IN_NU, IN_NU_2}};
+enum { OF_BODY = sizeof bodies / sizeof *bodies };
+
+/* None is given twice; a rigid body has none. */
 static bool second_holds(lexer *lx, const said *s, bool rigid) {
     bool given[INPUTS] = {false};
     for (const heard *h = s->list; h < s->list + s->count; h++) {
         const int of = h->of->in;
         if (!of)
             continue;
-        const input in = of == 1 + IN_E0 ? IN_E0_2 : of == 1 + IN_NU ? IN_NU_2 : (input)(of - 1);
+        input in = (input)(of - 1);
+        for (int i = 0; i < OF_BODY; i++)
+            in = in == bodies[i][0] ? bodies[i][1] : in;
         if (rigid)
             return calc_fail(lx->error, h->at, h->len, "a rigid body has no %s", h->of->name);
         if (given[in])
@@ -138,16 +149,16 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
         edit_put(&e, IN_E0_2, preset_row(named->choice - SECOND_WORDS)->E0);
         edit_put(&e, IN_NU_2, preset_row(named->choice - SECOND_WORDS)->nu);
     }
-    for (int i = 0; i < 2; i++) { /* E0 is that of the second body here */
-        static const input own[] = {IN_E0, IN_NU}, other[] = {IN_E0_2, IN_NU_2};
-        if (e.bound[own[i]])
-            e.bound[other[i]] = e.bound[own[i]];
-        else if (e.has[own[i]])
-            edit_put(&e, other[i], e.v[own[i]]);
-        e.has[own[i]] = false;
-        e.bound[own[i]] = NULL;
+    for (int i = 0; i < OF_BODY; i++) {
+        const input own = bodies[i][0], other = bodies[i][1];
+        if (e.bound[own])
+            e.bound[other] = e.bound[own];
+        else if (e.has[own])
+            edit_put(&e, other, e.v[own]);
+        e.has[own] = false;
+        e.bound[own] = NULL;
     }
-    bool ok = e.second != SECOND_GIVEN || has(&e, IN_E0_2) || has(&e, IN_NU_2)
+    bool ok = e.second != SECOND_GIVEN || has_second(&e)
                   ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
                   : lex_fail(lx, "expected E0=... nu=..., a material, rigid or same");
     said_drop(sh, &s);
@@ -378,19 +389,25 @@ static bool put_radii(lexer *lx, edit *e, const heard *R1, const heard *R2) {
     return true;
 }
 
-static bool put_angle(lexer *lx, edit *e, const heard *angle) {
+/* From the base plane, or from the axis. */
+static bool put_angle(lexer *lx, edit *e, const heard *angle, bool half) {
     if (!(angle->v.v > 0 && angle->v.v < 1.5707963267948966 /* 90 deg as a double */))
-        return calc_fail(lx->error, angle->hole[0].at, angle->hole[0].len,
-                         "angle must lie between 0 and 90 deg");
-    edit_put(e, IN_SLOPE, sinl(angle->v.v) / cosl(angle->v.v));
+        return calc_fail(lx->error, angle->hole[0].at, angle->hole[0].len, "%s must lie between 0 and 90 deg",
+                         angle->of->name);
+    const long double sine = sinl(angle->v.v), cosine = cosl(angle->v.v);
+    edit_put(e, IN_SLOPE, half ? cosine / sine : sine / cosine);
     return true;
 }
 
 static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
-    const heard *angle = said_of(s, "angle", 0), *R1 = said_of(s, "R1", 0), *R2 = said_of(s, "R2", 0);
+    const heard *angle = said_of(s, "angle", 0), *half = said_of(s, "half_angle", 0),
+                *R1 = said_of(s, "R1", 0), *R2 = said_of(s, "R2", 0), *D = said_of(s, "D", 0);
     char usage[GRAMMAR_USAGE];
     gather(e, s);
-    if ((angle && !put_angle(lx, e, angle)) || ((R1 || R2) && !put_radii(lx, e, R1, R2)))
+    if (D)
+        edit_put(e, IN_RADIUS, D->v.v / 2);
+    if ((angle && !put_angle(lx, e, angle, false)) || (half && !put_angle(lx, e, half, true)) ||
+        ((R1 || R2) && !put_radii(lx, e, R1, R2)))
         return false;
     grammar_usage(s->by, usage);
     for (input in = IN_N; in < INPUTS; in++)

@@ -98,7 +98,7 @@ static fret_status finish(fret_field *f, fret_status st, fret_field **out) {
     const slice *last = f->slices > 0 ? &f->slice[f->slices - 1] : NULL;
     if (!st.code && last)
         st = add_steep(f, last);
-    if (!st.code && f->heads < f->slices) {
+    if (!st.code && f->heads < f->slices && !fret_normal_punch(f->normal)) {
         st = fret_rings_make(f->normal, f->head > 0, NULL, f->slice, f->slices, f->loads, &f->sum[f->sums]);
         f->sums += !st.code;
     }
@@ -197,7 +197,8 @@ double fret_field_error(const fret_field *f) {
 /* Do all contacts that hold r press infinitely there? */
 static bool is_infinite(const fret_normal *n, fret_real r) {
     const fret_real start = fret_gap_start(&n->gap), k = n->foundation.k;
-    return r == start && (start > 0 ? fret_gap_sharp(&n->gap) && k <= 0 : fret_gap_tip(&n->gap) + k <= 1);
+    return r == start && (start > 0 ? fret_gap_sharp(&n->gap) && (k <= 0 || fret_normal_punch(n))
+                                    : fret_gap_tip(&n->gap) + k <= 1);
 }
 
 /* Of the head, where r lies in it, and of what is nothing but a flat punch: a depth that no radius tells. */

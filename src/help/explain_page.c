@@ -290,7 +290,7 @@ static bool has_effect(const influence_study *study, input in) {
 
 /* The inputs that the result was made of. */
 static void put_numbers(const page *p, const quantity *q, const influence_study *study) {
-    const unsigned of_load = INPUT_BIT(IN_FN) | INPUT_CYCLE;
+    const unsigned of_load = INPUT_PRESS | INPUT_CYCLE;
     scene *s = p->sh->calc.now;
     for (input in = 0; in < INPUTS; in++) {
         const quantity *row = quantity_of_input(in);
@@ -339,7 +339,7 @@ static void put_load(const page *p, const quantity *q, const influence_study *st
     bool matters = study->count == 0;
     for (size_t i = 0; i < study->count; i++)
         matters = matters || (cause_is_load(&study->cause[i]) && study->cause[i].influence != INFLUENCE_NONE);
-    if (!matters || !q->load || quantity_is_input(q) || !explain_had(p, scene_press(s, &press, why), why))
+    if (!matters || !q->load || q->in == 1 + IN_FN || !explain_had(p, scene_press(s, &press, why), why))
         return;
     answer_quantity(p->out, "FN now", (value){press->F, DIM_FORCE});
     if (is_of_cycle(q))

@@ -100,7 +100,8 @@ static void quantity_help(FILE *to, size_t row) {
     }
     dim_line(to, "", quantity_is_input(q) && quantity_input(q) == IN_A ? DIM_NONE : q->d, q->unit);
     if (quantity_is_input(q))
-        fprintf(to, "    an input: %s = EXPR sets it, %s := EXPR binds it\n", q->name, q->name);
+        fprintf(to, "    an input%s: %s = EXPR sets it, %s := EXPR binds it\n",
+                q->imposed ? " after a press by it" : "", q->name, q->name);
     if (!q->call)
         return;
     fprintf(to, "    as a function: %s(%s)\n", q->name, q->argument);

@@ -72,6 +72,14 @@ static void fill(fret_springs *s, fret_weight rule) {
     s->held[s->count] = stiffness;
 }
 
+/* What presses to the radius: of a flat punch it may be anything. */
+static fret_status press_of(const fret_normal *normal, double radius, fret_press *out) {
+    if (!fret_normal_punch(normal) || radius != normal->end)
+        return fret_press_by_radius(normal, radius, out);
+    *out = (fret_press){.F = INFINITY, .dz = INFINITY, .a = radius};
+    return fret_ok();
+}
+
 fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count, double radius,
                               fret_weight rule, fret_springs **out) {
     fret_press end;
@@ -83,7 +91,7 @@ fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count
     if (!st.code && rule != FRET_WEIGHT_CELL && rule != FRET_WEIGHT_MIDPOINT)
         st = fret_fail(FRET_OUTSIDE, "rule", (double)rule, FRET_WEIGHT_MIDPOINT);
     if (!st.code)
-        st = fret_press_by_radius(normal, radius, &end);
+        st = press_of(normal, radius, &end);
     if (st.code)
         return st;
     fret_springs *s = calloc(1, sizeof *s);

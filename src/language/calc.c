@@ -108,7 +108,8 @@ static bool name_allowed(calc *c, lexer *lx, assignment *a) {
     a->q = quantity_find(text, lx->len);
     if (a->q && !quantity_is_input(a->q) && !strcmp(a->q->name, "E"))
         return lex_fail(lx, "E(z) is the modulus at a depth; the input is E0");
-    if (a->q && !quantity_is_input(a->q))
+    if (a->q &&
+        (!quantity_is_input(a->q) || (a->q->imposed && !calc_takes(c, quantity_input(a->q), error_quiet()))))
         return is_result(lx, a->q);
     if (!a->q && taken)
         return lex_fail(lx, "'%.*s' is %s: it cannot be a variable", LEX_WORD(lx), taken);
@@ -321,6 +322,7 @@ static bool binding_holds(calc *c, lexer *lx, const assignment *a) {
     error_clear(&error);
     scene_clone(&probe, &c->scene);
     inputs_bind(&probe.in, in, counted_hold(&a->d->base));
+    scene_forget(&probe, false); /* nor is what it was bound to before */
     c->now = &probe;
     const bool ok = scene_get(&probe, in, &unused, &error) || error.strange;
     c->now = outer;

@@ -24,9 +24,12 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
         return calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s %s)", q->name, g->name, g->name,
                          usage);
     }
-    if (in == IN_FN)
-        return !s->end.steps || s->program->steps[0].normal == BY_FORCE ||
-               calc_fail(error, 0, 0, "the press was not given as FN: press again (press FN=...)");
+    if (INPUT_BIT(in) & INPUT_PRESS)
+        return (s->end.steps ? press_input((load_by)s->program->steps[0].normal) == in : in == IN_FN) ||
+               calc_fail(error, 0, 0,
+                         q->imposed ? "%s is a result here: press by it to make it an input (press %s=...)"
+                                    : "the press was not given as %s: press again (press %s=...)",
+                         q->name, q->name);
     if (!(INPUT_BIT(in) & INPUT_CYCLE))
         return true;
     if (!s->end.cycles)
@@ -73,6 +76,8 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
                          strstr(want, unit_text) ? "" : ", in ", strstr(want, unit_text) ? "" : unit_text);
     if (len == 0) /* of a definition, which stands elsewhere */
         return calc_fail(lx->error, at, len, "%s is %s, not %s", name, want, got);
-    return calc_fail(lx->error, at, len, "%s is %s, not %s (%.*s)", name, want, got, LEX_SHOWN(len),
-                     lx->text + at);
+    const bool line = dim_equal(d, DIM_FORCE) && dim_equal(v.d, DIM_STIFFNESS);
+    return calc_fail(lx->error, at, len, "%s is %s, not %s (%.*s)%s", name, want, got, LEX_SHOWN(len),
+                     lx->text + at,
+                     line ? ": line contact is not axisymmetric, which this program does not do" : "");
 }

@@ -14,9 +14,9 @@ void walk_end(walk *w) {
 
 /* ---- what is the same -------------------------------------------------------------------------- */
 
-/* Amplitudes and the force of the press are compared with the steps that have them. */
+/* Amplitudes and what the press imposes are compared with the steps that have them. */
 static bool same_bodies(const inputs *a, const inputs *b) {
-    return !a->bindings && !b->bindings && inputs_same(a, b, ~(INPUT_CYCLE | INPUT_BIT(IN_FN)));
+    return !a->bindings && !b->bindings && inputs_same(a, b, ~(INPUT_CYCLE | INPUT_PRESS));
 }
 
 static bool same_item(const load_item *a, const load_item *b) {

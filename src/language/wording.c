@@ -12,15 +12,14 @@ static const struct {
 } leads[] = {
     {"load", "press, step, cycle and follow do it; `plot load` draws the path"},
     {"unload", "step FN=... goes back to a smaller force"},
-    {"pressure", "p(r) tells it, `plot pressure` draws it"},
+    {"pressure", "p(r) tells it, p0 and pmean the largest and the mean, `plot pressure` draws it"},
     {"traction", "qx(r) tells it, `plot traction` draws it"},
-    {"p0", "p(0 m) is the largest pressure, of a smooth shape"},
-    {"pmean", "FN/(pi*a^2) is the mean pressure"},
     {"E*", "the effective modulus, 1/E* = (1-nu^2)/E0 + (1-nu_2^2)/E0_2; try: help Estar"},
     {"E'", "in some books 2 E*, 2/E' = (1-nu^2)/E0 + (1-nu_2^2)/E0_2; try: help Estar"},
     {"stress", "p(r) and qx(r) on the surface; inside the body none is computed"},
     {"wear", "no wear law is here; dW and W are the friction work that drives it"},
-    {"cylinder", "it touches along a line, contacts here are discs; try: help geometry"},
+    {"cylinder",
+     "line contact is not axisymmetric, which this program does not do; its flat end is geometry flat b=..."},
     {"torsion", "no twist is computed: the load is FN and Fx"},
     {"adhesion", "none is computed; try: help limits"},
 };
@@ -103,9 +102,11 @@ static void word_missing(const calc *c, calc_error *error) {
     const geometry *g = c->now->in.geometry;
     char *text = error->text;
     const size_t size = sizeof error->text;
-    if (in == IN_E0_2 || in == IN_NU_2) /* else they are as the first one's */
+    if (in == IN_E0_2 || in == IN_NU_2 || in == IN_G0_2) /* else they are as the first one's */
         snprintf(text, size, "the second body is rigid");
-    else if (in <= IN_NU)
+    else if (in == IN_NU && c->now->in.set[IN_ESTAR])
+        snprintf(text, size, "nu is not set: Estar alone is enough for the normal contact only (nu = 0.3)");
+    else if (in <= IN_NU || in == IN_G0)
         snprintf(text, size, "%s is not set: give the material first (material E0=210 GPa nu=0.3)", name);
     else if (in == IN_MU)
         snprintf(text, size, "mu is not set: give the friction first (friction 0.4)");

@@ -324,7 +324,7 @@ static fret_real miss_at(fret_real log, fret_real *slope, void *context) {
 static const fret_real LEAST = 1e-4900L;
 
 fret_real fret_cell_find(const fret_cell *c, int by, fret_real rise) {
-    if (!(rise > 0))
+    if (!(rise > 0) || !(c->width > 0))
         return c->begin;
     if (!c->powers && rise >= c->rise[by])
         return 1;

@@ -35,7 +35,7 @@ enum { FRET_CELL_TERMS = 20 };
 /* A cell may be a sum of powers instead, y = sum of G_i s^n_i with s = x/x0 from 1 on, or from the centre on
  * where y is 0 at 0: powers G_i in of[0], exponents n_i in of[1]. */
 typedef struct fret_cell {
-    fret_real x, width; /* radius of its inner end; its length in x^2, of powers the last s */
+    fret_real x, width; /* radius of its inner end; its length in x^2, of powers the last s, of a punch 0 */
     fret_real y, F, K;  /* at the inner end, for unit stiffness: K = x^2m */
     fret_real rise[2];  /* of depth and load over the cell */
     fret_real q, mu, m;

@@ -233,6 +233,14 @@ static bool make_sum(maker *mk) {
     return add_powers(mk, term, count, x0, true) && (fret_gap_grows(mk->gap) || find_fall(mk));
 }
 
+/* A flat punch: g leaps at its edge, where the place of every depth is. The cell has no width. */
+static bool make_punch(maker *mk) {
+    fret_cell *c = new_cell(mk, mk->start);
+    if (c)
+        c->rise[BY_DEPTH] = c->rise[BY_LOAD] = (fret_real)INFINITY;
+    return c;
+}
+
 /* Beyond so many radii of the flat end its powers have converged. */
 static const fret_real FAR = 8;
 
@@ -302,9 +310,10 @@ static bool make_runs(maker *mk) {
 
 static void find_most(fret_cells *all) {
     const fret_cell *last = &all->cell[all->count - 1];
-    const fret_place end = {all->count - 1, isfinite(all->end) ? fret_cell_place(last, all->end) : 1};
+    const bool ends = isfinite(all->end) && last->width > 0;
+    const fret_place end = {all->count - 1, ends ? fret_cell_place(last, all->end) : 1};
     for (int by = BY_DEPTH; by <= BY_LOAD; by++)
-        all->most[by] = isfinite(all->end) ? fret_cells_level(all, by, &end) : (fret_real)INFINITY;
+        all->most[by] = ends ? fret_cells_level(all, by, &end) : (fret_real)INFINITY;
 }
 
 fret_status fret_cells_make(const fret_gap *gap, double k, fret_stop stop, fret_cells **out) {
@@ -323,6 +332,7 @@ fret_status fret_cells_make(const fret_gap *gap, double k, fret_stop stop, fret_
     const fret_power *unused;
     const bool ok = fret_gap_powers(gap, &unused) ? make_sum(&mk)
                     : fret_gap_sampled(gap)       ? make_rows(&mk)
+                    : mk.start >= all->end        ? make_punch(&mk)
                     : mk.start > 0                ? make_flat(&mk)
                                                   : make_sphere(&mk);
     if (ok && make_runs(&mk))

@@ -213,7 +213,8 @@ static void far_rounded(const fret_gap *gap, const fret_rule *rule, fret_real x0
 /* One row a shape. What a row leaves out: begins at 0, never ends, one smooth piece without a singularity
  * begins like r^2, grows. */
 typedef struct shape {
-    fret_real (*f)(const fret_gap *, fret_real r); /* beyond the start */
+    fret_real (*f)(const fret_gap *,
+                   fret_real r); /* beyond the start, as the next: none where it ends there */
     fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real e);
     fret_real (*start)(const fret_gap *), (*end)(const fret_gap *), (*tip)(const fret_gap *);
     fret_real (*kink)(const fret_gap *, fret_real e);
@@ -260,6 +261,7 @@ static const shape shapes[] = {
                                .R = true},
     [FRET_GAP_EXACT_SPHERE] =
         {.f = sphere_f, .profile = sphere_profile, .end = sphere_end, .series = sphere_series, .R = true},
+    [FRET_GAP_FLAT] = {.start = flat_start, .end = flat_start, .sharp = true, .b = true},
     [FRET_GAP_TABLE] = {.f = sampled_f,
                         .profile = sampled_profile,
                         .start = sampled_start,
@@ -292,8 +294,8 @@ static fret_status check_powers(const fret_gap *gap) {
 
 /* What a caller has left out, before anything is looked up by it. */
 static fret_status check_kind(const fret_gap *gap) {
-    if ((unsigned)gap->kind > FRET_GAP_TABLE)
-        return fret_fail(FRET_OUTSIDE, "kind", (double)gap->kind, FRET_GAP_TABLE);
+    if ((unsigned)gap->kind > FRET_GAP_FLAT)
+        return fret_fail(FRET_OUTSIDE, "kind", (double)gap->kind, FRET_GAP_FLAT);
     const shape *s = shape_of(gap);
     const int most = s->closed ? 1 : FRET_GAP_TERMS;
     if (s->powers && (gap->terms < 1 || gap->terms > most))

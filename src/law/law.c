@@ -265,6 +265,14 @@ fret_real fret_slice_moment(const fret_slice *s) {
     return (s->h * s->h * s->K + (s->h * s->G - s->L)) / 2;
 }
 
+fret_real fret_normal_energy(const fret_normal *n, const fret_press *press) {
+    if (!(press->dz > 0))
+        return 0;
+    const fret_slice all =
+        fret_law_slice_to(n, &(fret_level){press->dz, press->F}, false, press->dz, 0, NULL);
+    return fret_slice_moment(&all);
+}
+
 fret_real fret_law_load(const fret_normal *n, const fret_level *outer, fret_real h) {
     return fret_law_fall(n, outer, false, h, outer->y - h, (fret_place[2]){{0, 0}, {0, 0}});
 }

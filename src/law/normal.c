@@ -211,7 +211,7 @@ fret_status fret_press_by_radius(const fret_normal *n, double a, fret_press *out
         return finish(&s, out);
     }
     const fret_real e = a - fret_gap_start(&n->gap);
-    if (e < 0)
+    if (e < 0 || (e == 0 && fret_normal_punch(n)))
         return fret_fail(FRET_OUTSIDE, "a", a, (double)fret_gap_start(&n->gap));
     if (a > n->end)
         return beyond_end(n, "a", a);

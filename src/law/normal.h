@@ -35,6 +35,11 @@ static inline bool fret_normal_closed(const fret_normal *n) {
     return n->p > 0;
 }
 
+/* Is there nothing beyond the flat end, so that a = b at any load? */
+static inline bool fret_normal_punch(const fret_normal *n) {
+    return fret_gap_start(&n->gap) >= n->end;
+}
+
 /* Shall long work end? Loops over rows, springs and slices ask; what they then return is of no use. */
 static inline bool fret_stopped(const fret_normal *n) {
     return n->stop && *n->stop;

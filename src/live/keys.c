@@ -193,23 +193,15 @@ static void undo_last(live *l) {
 /* As pressed, nothing pushed. */
 static void reset(live *l) {
     const scene *s = &l->host->calc->scene;
-    static const struct {
-        load_by by;
-        const char *name;
-        dim d;
-    } kinds[] = {{BY_FORCE, "FN", {1, 0, 0, 0}},
-                 {BY_DISPLACEMENT, "dz", {0, 1, 0, 0}},
-                 {BY_RADIUS, "a", {0, 1, 0, 0}}};
     if (!s->end.steps) {
         live_begin(l);
         return;
     }
-    const load_step *first = &s->program->steps[0];
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (kinds[i].by == (load_by)first->normal)
-            live_say(l, "press %s=%.17g %s", kinds[i].name,
-                     first->normal == BY_FORCE ? s->in.v[IN_FN] : first->normal_value,
-                     first->normal == BY_FORCE ? "N" : "m");
+    const input in = press_input((load_by)s->program->steps[0].normal);
+    const quantity *q = quantity_of_input(in);
+    char unit_text[40];
+    dim_unit(q->d, unit_text, sizeof unit_text);
+    live_say(l, "press %s=%.17g %s", q->name, s->in.v[in], unit_text);
 }
 
 static void ask_line(live *l, const char *prompt, const char *text,

@@ -134,9 +134,9 @@ void live_begin(live *l) {
     const struct {
         bool missing;
         const char *statement;
-    } first[] = {{!in->set[IN_E0] && !in->bound[IN_E0], "material E0=210 GPa nu=0.3 k=0 c0=1 mm"},
+    } first[] = {{!inputs_any(in, INPUT_MODULUS), "material E0=210 GPa nu=0.3 k=0 c0=1 mm"},
                  {!in->geometry, "geometry sphere R=10 mm"},
-                 {!in->set[IN_MU] && !in->bound[IN_MU], "friction 0.4"},
+                 {!inputs_any(in, INPUT_BIT(IN_MU)), "friction 0.4"},
                  {!l->host->calc->scene.end.steps, "press FN=100 N"}};
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)
         if (first[i].missing) {

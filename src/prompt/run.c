@@ -144,7 +144,7 @@ static bool dispatch(shell *sh, lexer *lx) {
         if (misspelt(sh, lx))
             return false;
         const quantity *q = lex_peek(lx) == T_NUMBER ? quantity_find(lx->text + lx->at, lx->len) : NULL;
-        if (q && quantity_is_input(q)) { /* mu 0.3 */
+        if (q && quantity_is_input(q) && !q->imposed) { /* mu 0.3 */
             const char *name = q->name;
             lex_next(lx);
             return lex_fail(lx, "unexpected '%.*s': did you mean %s = %.*s?", LEX_WORD(lx), name,

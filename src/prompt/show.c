@@ -116,18 +116,26 @@ static void write_binding(writer *w, input in) {
 static void write_material(writer *w) {
     const inputs *in = &w->c->scene.in;
     const bool graded = is_set(w, IN_K) && in->v[IN_K] != 0;
-    const bool whole = is_set(w, IN_E0) && is_set(w, IN_NU);
+    static const input moduli[] = {IN_E0, IN_G0, IN_ESTAR};
+    size_t m = 0;
+    while (m < 2 && !is_set(w, moduli[m]))
+        m++;
+    const input E = moduli[m];
+    const bool whole = is_set(w, E) && (is_set(w, IN_NU) || E == IN_ESTAR);
     const bool k_too = whole && graded && is_set(w, IN_C0);
     if (whole) {
         write_start(w, "material");
-        write_argument(w, "E0", IN_E0);
-        write_argument(w, "nu", IN_NU);
+        write_argument(w, quantity_of_input(E)->name, E);
+        if (is_set(w, IN_NU))
+            write_argument(w, "nu", IN_NU);
         if (k_too)
             write_argument(w, "k", IN_K);
         if (is_set(w, IN_C0))
             write_argument(w, "c0", IN_C0);
         putc('\n', w->to);
     }
+    if (!whole && is_set(w, E) && E != IN_E0)
+        write_input(w, E);
     const bool alone[] = {[IN_E0] = !whole, [IN_NU] = !whole, [IN_K] = graded && !k_too, [IN_C0] = !whole};
     for (input i = IN_E0; i <= IN_C0; i++)
         if (alone[i] && is_set(w, i))
@@ -139,16 +147,18 @@ static void write_second(writer *w) {
         write_start(w, "second rigid\n");
     if (w->c->scene.in.second != SECOND_GIVEN)
         return;
-    if (is_set(w, IN_E0_2) && is_set(w, IN_NU_2)) {
+    const input E = is_set(w, IN_G0_2) ? IN_G0_2 : IN_E0_2;
+    if (is_set(w, E) && is_set(w, IN_NU_2)) {
         write_start(w, "second");
-        write_argument(w, "E0", IN_E0_2);
+        write_argument(w, E == IN_G0_2 ? "G0" : "E0", E);
         write_argument(w, "nu", IN_NU_2);
         putc('\n', w->to);
         return;
     }
-    for (input i = IN_E0_2; i <= IN_NU_2; i++)
-        if (is_set(w, i))
-            write_input(w, i);
+    if (is_set(w, E))
+        write_input(w, E);
+    if (is_set(w, IN_NU_2))
+        write_input(w, IN_NU_2);
 }
 
 /* Quoted where it must be; false: no form of it can be read back. */
@@ -172,8 +182,12 @@ static void write_smoothing(writer *w, const smoothing *how) {
 }
 
 static void write_radii(writer *w, const double R[2]) {
-    write_value(w, " R1", "=", (value){(long double)R[0], DIM_LENGTH});
-    write_value(w, " R2", "=", (value){(long double)R[1], DIM_LENGTH});
+    static const char *const names[] = {" R1", " R2"};
+    for (int i = 0; i < 2; i++)
+        if (isinf(R[i]))
+            fprintf(w->to, "%s=inf", names[i]);
+        else
+            write_value(w, names[i], "=", (value){(long double)R[i], DIM_LENGTH});
 }
 
 static void write_geometry(writer *w) {
@@ -277,15 +291,15 @@ static void write_cycle(writer *w, const load_item *item) {
 
 static void write_step(writer *w, const load_item *item) {
     static const char *const kinds[] = {[LOAD_PRESS] = "press", [LOAD_STEP] = "step", [LOAD_CYCLE] = "cycle"};
-    static const char *const normal[] = {[BY_FORCE] = "FN", [BY_DISPLACEMENT] = "dz", [BY_RADIUS] = "a"};
     const load_step *step = &item->step;
     write_start(w, kinds[step->kind]);
     if (step->kind == LOAD_CYCLE) {
         write_cycle(w, item);
     } else {
-        if (step->normal)
-            write_target(w, normal[step->normal], step->relative & RELATIVE_NORMAL, step->normal_value,
-                         step->normal == BY_FORCE ? DIM_FORCE : DIM_LENGTH);
+        if (step->normal) {
+            const quantity *q = quantity_of_input(press_input((load_by)step->normal));
+            write_target(w, q->name, step->relative & RELATIVE_NORMAL, step->normal_value, q->d);
+        }
         if (step->tangential)
             write_target(w, step->tangential == BY_FORCE ? "Fx" : "dx", step->relative & RELATIVE_TANGENTIAL,
                          step->tangential_value, step->tangential == BY_FORCE ? DIM_FORCE : DIM_LENGTH);

@@ -99,7 +99,8 @@ bool scene_engine(scene *s, const load_view *load, model_id model, unsigned coun
     long double a = 0;
     if (models[model].count && !widest_contact(s, &a, error))
         return false;
-    fret_status st = engine_make(out, model, load->normal, load->mu, count, (double)(a * (1 + 1e-12L)));
+    const double radius = fmin((double)(a * (1 + 1e-12L)), (double)fret_normal_end(load->normal));
+    fret_status st = engine_make(out, model, load->normal, load->mu, count, radius);
     return calc_status(error, &st);
 }
 

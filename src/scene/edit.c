@@ -5,7 +5,8 @@
 
 static bool complete(const scene *s) {
     const inputs *in = &s->in;
-    return in->set[IN_E0] && in->set[IN_NU] && in->geometry && (in->v[IN_K] == 0 || in->set[IN_C0]);
+    return inputs_any(in, INPUT_MODULUS) && (inputs_know_nu(in) || in->set[IN_ESTAR]) && in->geometry &&
+           (in->v[IN_K] == 0 || in->set[IN_C0]);
 }
 
 /* Does all that the inputs and the program claim hold? */
@@ -29,7 +30,8 @@ static bool all_holds(scene *s, calc_error *error) {
         return waits;
     }
     if (s->in.set[IN_MU] || s->end.steps > 1)
-        return scene_friction(s, &mu, error) && scene_history(s, &contact, error);
+        return (!(s->in.bindings & INPUT_BIT(IN_MU)) || scene_friction(s, &mu, error)) &&
+               scene_history(s, &contact, error);
     return scene_press(s, &press, error);
 }
 

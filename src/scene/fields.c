@@ -132,7 +132,7 @@ bool call_s1D(scene *s, value x, long double *out, calc_error *error) {
 /* c_0 (x/c0)^k */
 static bool modulus_at(scene *s, value x, bool tangential, long double *out, calc_error *error) {
     fret_foundation f;
-    if (!foundation_of(s, &f, error))
+    if (!foundation_of(s, !tangential, &f, error))
         return false;
     const long double r = fabsl(x.v);
     if (r == 0 && f.k < 0)

@@ -4,18 +4,18 @@
 
 /* ---- pressing ---------------------------------------------------------------------------------- */
 
-static bool pressed_by(scene *s, value F, fret_press *out, calc_error *error) {
+static bool pressed_by(scene *s, load_by by, value v, fret_press *out, calc_error *error) {
     const fret_normal *normal;
     if (!scene_normal(s, &normal, error))
         return false;
     scene_used_closed(s);
-    fret_status st = fret_press_by_force(normal, (double)F.v, out);
+    fret_status st = press_to(normal, by, (double)v.v, out);
     return calc_status(error, &st);
 }
 
 bool call_a(scene *s, value F, long double *out, calc_error *error) {
     fret_press press;
-    if (!pressed_by(s, F, &press, error))
+    if (!pressed_by(s, BY_FORCE, F, &press, error))
         return false;
     *out = press.a;
     return true;
@@ -23,10 +23,32 @@ bool call_a(scene *s, value F, long double *out, calc_error *error) {
 
 bool call_dz(scene *s, value F, long double *out, calc_error *error) {
     fret_press press;
-    if (!pressed_by(s, F, &press, error))
+    if (!pressed_by(s, BY_FORCE, F, &press, error))
         return false;
     *out = press.dz;
     return true;
+}
+
+bool call_FN(scene *s, value d, long double *out, calc_error *error) {
+    fret_press press;
+    if (!pressed_by(s, BY_DISPLACEMENT, d, &press, error))
+        return false;
+    *out = press.F;
+    return true;
+}
+
+bool call_p0(scene *s, value F, long double *out, calc_error *error) {
+    const fret_normal *normal;
+    fret_press press;
+    fret_field *field = NULL;
+    if (!scene_normal(s, &normal, error) || !pressed_by(s, BY_FORCE, F, &press, error))
+        return false;
+    s->used |= USED(MODEL_QUADRATURE);
+    fret_status st = fret_field_of_press(normal, &press, &field);
+    if (!st.code)
+        st = fret_field_peak(field, NULL, out);
+    fret_field_free(field);
+    return calc_status(error, &st);
 }
 
 /* ---- tangential loading ------------------------------------------------------------------------ */

@@ -9,11 +9,11 @@ typedef bool quantity_get_function(scene *s, long double *out, calc_error *error
 typedef bool quantity_call_function(scene *s, value arg, long double *out, calc_error *error);
 
 /* results.c */
-quantity_get_function get_FN, get_dW, get_kn, get_a0, get_dz0, get_dxmax, get_dx0max, get_kappa, get_W1D,
-    get_time;
+quantity_get_function get_FN, get_p0, get_pmean, get_Un, get_dW, get_kn, get_a0, get_dz0, get_dxmax,
+    get_dx0max, get_kappa, get_W1D, get_time;
 
 /* functions.c: of the scene, tangentially unloaded */
-quantity_call_function call_a, call_dz, call_c, call_dx, call_Fx, call_dW, call_dWd;
+quantity_call_function call_a, call_dz, call_FN, call_p0, call_c, call_dx, call_Fx, call_dW, call_dWd;
 
 /* damper.c: over a closed cycle of an amplitude, at constant F_N */
 quantity_call_function call_Ksec, call_Kp, call_Kpp, call_loss_factor;
@@ -22,7 +22,7 @@ quantity_call_function call_Ksec, call_Kp, call_Kpp, call_loss_factor;
 quantity_call_function call_E, call_f, call_g, call_p, call_qx, call_uz, call_ux;
 quantity_call_function call_w1D, call_u1D, call_s1D, call_qz1D, call_qx1D, call_cN, call_cT;
 
-/* The foundation of the scene, whether or not it has a geometry. */
-bool foundation_of(scene *s, fret_foundation *out, calc_error *error);
+/* The foundation of the scene, whether or not it has a geometry; normal: only c_N is wanted. */
+bool foundation_of(scene *s, bool normal, fret_foundation *out, calc_error *error);
 
 #endif

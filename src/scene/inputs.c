@@ -48,6 +48,10 @@ static void flat_rounded(const inputs *in, fret_gap *out) {
     *out = shape_gap(in, FRET_GAP_FLAT_ROUNDED);
 }
 
+static void flat(const inputs *in, fret_gap *out) {
+    *out = shape_gap(in, FRET_GAP_FLAT);
+}
+
 static void exact_sphere(const inputs *in, fret_gap *out) {
     *out = shape_gap(in, FRET_GAP_EXACT_SPHERE);
 }
@@ -65,9 +69,9 @@ static const geometry geometries[] = {
      .n = 1,
      .power = true,
      ONE(IN_SLOPE),
-     .takes = "slope:=0.05 | angle=3 deg",
-     .meaning = "f = slope r",
-     .keywords = "angle",
+     .takes = "slope:=0.05 | angle=3 deg | half_angle=87 deg",
+     .meaning = "f = slope r; half_angle is that from the axis (Sneddon 1965)",
+     .keywords = "angle apex Berkovich Sneddon indenter",
      .example = "    fret> material steel; geometry cone angle=3 deg; press FN=100 N\n"
                 "    fret> slope, a, dz\n"
                 "    slope = 0.0524078\n"
@@ -91,8 +95,8 @@ static const geometry geometries[] = {
      .n = 2,
      .power = true,
      ONE(IN_RADIUS),
-     .takes = "R:=10 mm | R1=20 mm R2=20 mm",
-     .meaning = "Hertz: the paraboloid",
+     .takes = "R:=10 mm | R1=20 mm R2=20 mm | D=20 mm",
+     .meaning = "Hertz: the paraboloid; R2=inf is a plane",
      .keywords = "Mindlin",
      .example = "    fret> material steel; geometry sphere R1=20 mm R2=30 mm; press FN=100 N\n"
                 "    fret> R, a, dz\n"
@@ -152,6 +156,18 @@ static const geometry geometries[] = {
                 "    fret> a, dz\n"
                 "    a = 299.728 um\n"
                 "    dz = 1.65421 um\n"},
+    {.name = "flat",
+     .gap = flat,
+     ONE(IN_B),
+     .takes = "b:=1 mm",
+     .meaning = "f = 0, r < b: a rigid punch (Sneddon 1965; Johnson, 3.8)",
+     .keywords = "punch cylinder Boussinesq Sneddon",
+     .example = "    fret> material steel; second rigid; geometry flat b=1 mm; press FN=1 kN\n"
+                "    fret> a, dz, p(0 m), FN/(2*Estar*b)\n"
+                "    a = 1 mm\n"
+                "    dz = 2.16667 um\n"
+                "    p(0 m) = 159.155 MPa\n"
+                "    FN/(2*Estar*b) = 2.16667 um\n"},
     {.name = "exact-sphere",
      .gap = exact_sphere,
      ONE(IN_RADIUS),
@@ -247,14 +263,14 @@ void input_range(input in, double *lo, double *hi) {
 }
 
 fret_status input_status(input in, double v) {
-    const bool nu = in == IN_NU || in == IN_NU_2;
+    const bool nu = in == IN_NU || in == IN_NU_2, from_0 = in == IN_FNA || in == IN_MU;
     double lo, hi;
     fret_code code = FRET_OK;
     input_range(in, &lo, &hi);
     if (!isfinite(v))
         code = FRET_NOT_FINITE;
-    else if (!(v > lo || (in == IN_FNA && v == lo)) || !(v < hi || (nu && v == hi)))
-        code = in == IN_K ? FRET_BAD_K : nu ? FRET_BAD_NU : in == IN_FNA ? FRET_NEGATIVE : FRET_NOT_POSITIVE;
+    else if (!(v > lo || (from_0 && v == lo)) || !(v < hi || (nu && v == hi)))
+        code = in == IN_K ? FRET_BAD_K : nu ? FRET_BAD_NU : from_0 ? FRET_NEGATIVE : FRET_NOT_POSITIVE;
     return (fret_status){code, NULL, v, 0};
 }
 
@@ -267,13 +283,16 @@ void inputs_unset(inputs *in, unsigned set) {
         }
 }
 
-/* What does not go with an input that is given: A and h (r/r0)^n are two ways to say the same, and a modulus
- * makes a body of its own. */
+/* What does not go with an input that is given: A and h (r/r0)^n are two ways to say the same, as moduli of a
+ * body are, and one of the second makes it a body of its own. */
 static void leave_others(inputs *in, input which) {
-    if ((which == IN_E0_2 || which == IN_NU_2) && in->second != SECOND_GIVEN) {
-        inputs_unset(in, INPUT_BIT(which == IN_E0_2 ? IN_NU_2 : IN_E0_2));
+    const unsigned bit = INPUT_BIT(which), second = INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2);
+    if (bit & second && in->second != SECOND_GIVEN) {
+        inputs_unset(in, second & ~bit);
         in->second = SECOND_GIVEN;
     }
+    if (bit & INPUT_MODULI)
+        inputs_unset(in, (bit & INPUT_MODULUS ? INPUT_MODULUS : INPUT_MODULUS_2) & ~bit);
     if (which == IN_A)
         inputs_unset(in, INPUT_BIT(IN_H) | INPUT_BIT(IN_R0));
     else if (which == IN_H || which == IN_R0)
@@ -306,6 +325,17 @@ void inputs_geometry(inputs *in, const geometry *g, const fret_gap *terms, share
         in->sum = *terms;
 }
 
+bool inputs_any(const inputs *in, unsigned set) {
+    for (input i = 0; i < INPUTS; i++)
+        if (set & INPUT_BIT(i) && (in->set[i] || in->bound[i]))
+            return true;
+    return false;
+}
+
+bool inputs_know_nu(const inputs *in) {
+    return inputs_any(in, INPUT_BIT(IN_NU));
+}
+
 bool inputs_take(const inputs *in, input which) {
     const geometry *g = in->geometry;
     if (!g || !(g->allowed & INPUT_BIT(which)))
@@ -313,7 +343,60 @@ bool inputs_take(const inputs *in, input which) {
     return (which != IN_H && which != IN_R0) || in->set[IN_H];
 }
 
+static bool get_ratio(const inputs *in, bool second, long double *nu, calc_error *error) {
+    return inputs_get(in, second ? IN_NU_2 : IN_NU, nu, error);
+}
+
+/* E0 of a body: given as it is, or by G0; of a first one by what Estar leaves of 1/Estar = sum (1-nu^2)/E0
+ * for it, and of a second one as that of the first. */
+static bool get_modulus(const inputs *in, bool second, long double *E0, calc_error *error) {
+    const input E = second ? IN_E0_2 : IN_E0, G = second ? IN_G0_2 : IN_G0;
+    long double nu = 0, nu_2 = 0, E_2 = INFINITY;
+    if (in->set[E]) {
+        *E0 = in->v[E];
+        return true;
+    }
+    if (second && !in->set[G])
+        return get_modulus(in, false, E0, error);
+    if (!inputs_any(in, INPUT_MODULI))
+        return calc_missing(error, (int)E);
+    const bool of_both = !second && !in->set[G] && in->set[IN_ESTAR];
+    if (of_both && in->v[IN_K] != 0)
+        return calc_fail(error, 0, 0, "Estar is of homogeneous bodies, k = 0: of graded ones give E0");
+    if (!get_ratio(in, second, &nu, error))
+        return false;
+    if (!of_both) {
+        *E0 = 2 * (1 + nu) * in->v[G];
+        return in->set[G] || calc_missing(error, (int)E);
+    }
+    const bool own = in->second == SECOND_GIVEN && inputs_any(in, INPUT_MODULUS_2);
+    if (in->second != SECOND_RIGID && !get_ratio(in, true, &nu_2, error))
+        return false;
+    if (own && !get_modulus(in, true, &E_2, error))
+        return false;
+    const long double left = 1 / (long double)in->v[IN_ESTAR] - (1 - nu_2 * nu_2) / E_2;
+    *E0 = (1 - nu * nu + (own || in->second == SECOND_RIGID ? 0 : 1 - nu_2 * nu_2)) / left;
+    return left > 0 ||
+           calc_fail(error, 0, 0, "Estar must be below E0_2/(1-nu_2^2), that of the second body alone");
+}
+
+/* 1/Estar of both. */
+static bool get_Estar(const inputs *in, long double *out, calc_error *error) {
+    long double E0 = 0, nu = 0, sum = 0;
+    if (in->v[IN_K] != 0)
+        return calc_fail(error, 0, 0,
+                         "Estar is of homogeneous bodies, k = 0: cN is the modulus of graded ones");
+    for (int i = 0; i < (in->second == SECOND_RIGID ? 1 : 2); i++) {
+        if (!get_modulus(in, i, &E0, error) || !get_ratio(in, i, &nu, error))
+            return false;
+        sum += (1 - nu * nu) / E0;
+    }
+    *out = 1 / sum;
+    return true;
+}
+
 bool inputs_get(const inputs *in, input which, long double *out, calc_error *error) {
+    long double nu = 0;
     fret_gap gap;
     bool here = in->set[which];
     switch (which) {
@@ -322,13 +405,30 @@ bool inputs_get(const inputs *in, input which, long double *out, calc_error *err
     case IN_PHASE:
         here = here || which == IN_K || in->set[IN_FA] || in->set[IN_DXA];
         break;
-    case IN_E0_2:
     case IN_NU_2:
         if (in->second == SECOND_RIGID)
             return calc_missing(error, (int)which);
         if (in->second == SECOND_SAME || !here)
-            return inputs_get(in, which == IN_E0_2 ? IN_E0 : IN_NU, out, error);
+            return inputs_get(in, IN_NU, out, error);
         break;
+    case IN_E0:
+    case IN_E0_2:
+    case IN_G0:
+    case IN_G0_2: {
+        const bool second = INPUT_BIT(which) & INPUT_MODULUS_2, shear = which == IN_G0 || which == IN_G0_2;
+        if (second && in->second == SECOND_RIGID)
+            return calc_missing(error, (int)which);
+        if (here)
+            break;
+        if (!get_modulus(in, second, out, error) || (shear && !get_ratio(in, second, &nu, error)))
+            return false;
+        *out /= shear ? 2 * (1 + nu) : 1;
+        return true;
+    }
+    case IN_ESTAR:
+        if (here && in->v[IN_K] == 0)
+            break;
+        return get_Estar(in, out, error);
     case IN_N:
         if (in->geometry && in->geometry->n > 0) {
             *out = (long double)in->geometry->n;
@@ -361,14 +461,17 @@ static bool get_double(const inputs *in, input which, double *out, calc_error *e
 
 bool inputs_material(const inputs *in, double k, fret_material *m, calc_error *error) {
     *m = (fret_material){.k = k, .c0 = 1};
+    if (in->set[IN_ESTAR] && !inputs_know_nu(in) && in->v[IN_K] == 0) { /* two bodies of nu = 0 press alike */
+        m->body[0] = m->body[1] = (fret_body){2 * in->v[IN_ESTAR], 0, false};
+        return true;
+    }
     if (!get_double(in, IN_E0, &m->body[0].E0, error) || !get_double(in, IN_NU, &m->body[0].nu, error))
         return false;
     m->body[1] = m->body[0];
     m->body[1].rigid = in->second == SECOND_RIGID;
-    if (in->second == SECOND_GIVEN && in->set[IN_E0_2])
-        m->body[1].E0 = in->v[IN_E0_2];
-    if (in->second == SECOND_GIVEN && in->set[IN_NU_2])
-        m->body[1].nu = in->v[IN_NU_2];
+    if (in->second == SECOND_GIVEN &&
+        (!get_double(in, IN_E0_2, &m->body[1].E0, error) || !get_double(in, IN_NU_2, &m->body[1].nu, error)))
+        return false;
     return k == 0 || get_double(in, IN_C0, &m->c0, error);
 }
 

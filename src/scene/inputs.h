@@ -16,8 +16,15 @@ typedef enum input {
     IN_C0,
     IN_E0_2,
     IN_NU_2,
+    IN_G0, /* these three: in place of E0 or E0_2 */
+    IN_G0_2,
+    IN_ESTAR,
     IN_MU,
-    IN_FN,  /* of the press */
+    IN_FN, /* these five: of the press, one of them is set */
+    IN_DZ,
+    IN_CONTACT,
+    IN_P0,
+    IN_PMEAN,
     IN_FA,  /* these four: of the last cycle */
     IN_DXA, /* one of FA and dxA is set */
     IN_FNA,
@@ -34,6 +41,13 @@ typedef enum input {
 
 /* The inputs as a set, for tables that say what depends on what. */
 #define INPUT_BIT(in) (1u << (in))
+#define INPUT_MODULUS (INPUT_BIT(IN_E0) | INPUT_BIT(IN_G0) | INPUT_BIT(IN_ESTAR)) /* one of them is set */
+#define INPUT_MODULUS_2 (INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_G0_2))
+#define INPUT_MODULI (INPUT_MODULUS | INPUT_MODULUS_2)
+#define INPUT_MATERIAL                                                                                       \
+    (INPUT_MODULI | INPUT_BIT(IN_NU) | INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_K)) /* without c0 */
+#define INPUT_PRESS                                                                                          \
+    (INPUT_BIT(IN_FN) | INPUT_BIT(IN_DZ) | INPUT_BIT(IN_CONTACT) | INPUT_BIT(IN_P0) | INPUT_BIT(IN_PMEAN))
 #define INPUT_GEOMETRY ((~0u << IN_N) & ((1u << INPUTS) - 1))
 #define INPUT_CYCLE (INPUT_BIT(IN_FA) | INPUT_BIT(IN_DXA) | INPUT_BIT(IN_FNA) | INPUT_BIT(IN_PHASE))
 
@@ -92,13 +106,19 @@ void inputs_drop(inputs *in);
 /* Are these inputs the same, the bodies and the shape, and no definitions among them? */
 bool inputs_same(const inputs *a, const inputs *b, unsigned which);
 
-/* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2 and FNA = 0
- * belong. */
+/* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2, mu = 0 and FNA
+ * = 0 belong. */
 void input_range(input in, double *lo, double *hi);
 /* Is the value in the range of the input, whatever the rest? */
 fret_status input_status(input in, double v);
 
-/* Puts a value in and unsets what it replaces: A and h, r0; a second body that was the same. Unbinds. */
+/* Is one of them set? */
+bool inputs_any(const inputs *in, unsigned set);
+/* Is Poisson's ratio given? Where Estar stands alone pressing needs none. */
+bool inputs_know_nu(const inputs *in);
+
+/* Puts a value in and unsets what it replaces: A and h, r0; another modulus; a second body that was the same.
+ * Unbinds. */
 void inputs_put(inputs *in, input which, double v);
 void inputs_unset(inputs *in, unsigned set);
 /* Ends a binding, the value stays; takes over `to` (NULL: none). */

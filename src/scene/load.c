@@ -6,33 +6,34 @@
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
 
-/* A press alone can be shown without friction. */
-static bool friction_for_program(scene *s, double *mu, calc_error *error) {
+/* What only presses wants none: any will do. */
+static bool friction_for_program(scene *s, const load_reach *reach, double *mu, calc_error *error) {
+    const inputs *in = &s->in;
+    const bool given = in->bindings & INPUT_BIT(IN_MU) || (in->set[IN_MU] && in->v[IN_MU] > 0);
     *mu = 1;
-    return (!s->in.set[IN_MU] && !(s->in.bindings & INPUT_BIT(IN_MU)) && s->end.steps <= 1) ||
-           scene_friction(s, mu, error);
+    return (!reach->by && !(given && inputs_know_nu(in))) || scene_friction(s, mu, error);
 }
 
 bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error *error) {
-    const load_step *step = &s->program->steps[0];
-    long double by = step->normal_value;
-    if (step->normal == BY_FORCE && !scene_get(s, IN_FN, &by, error))
+    const load_by by = (load_by)s->program->steps[0].normal;
+    long double to;
+    if (!scene_get(s, press_input(by), &to, error))
         return false;
-    fret_status st = step->normal == BY_FORCE          ? fret_press_by_force(normal, (double)by, out)
-                     : step->normal == BY_DISPLACEMENT ? fret_press_by_depth(normal, (double)by, out)
-                                                       : fret_press_by_radius(normal, (double)by, out);
+    fret_status st = press_to(normal, by, (double)to, out);
+    if (st.code == FRET_OUTSIDE && by == BY_RADIUS && to == fret_normal_end(normal))
+        return calc_fail(error, 0, 0,
+                         "the contact radius of a flat punch is b at any load: press by FN or dz");
     return calc_status(error, &st);
 }
 
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
     const load_reach *reach;
-    long double FN;
+    long double imposed;
     *out =
         (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop, .pulse = s->pulse};
     if (!scene_reach(s, &reach, error) || !scene_normal(s, &out->normal, error) ||
-        !friction_for_program(s, &out->mu, error))
-        return false;
-    if (s->program->steps[0].normal == BY_FORCE && !scene_get(s, IN_FN, &FN, error))
+        !friction_for_program(s, reach, &out->mu, error) ||
+        !scene_get(s, press_input((load_by)s->program->steps[0].normal), &imposed, error))
         return false;
     out->last_cycle = reach->last_cycle;
     return true;
@@ -206,7 +207,7 @@ bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_
     double mu;
     if (!s->end.steps)
         return calc_missing(error, IN_FN);
-    if (!scene_friction(s, &mu, error))
+    if (step->tangential && !scene_friction(s, &mu, error))
         return false;
     if (can_wait(s, step))
         return append_step(s, step, extra, error);

@@ -56,13 +56,38 @@ size_t program_last_cycle(const program *p, load_mark mark) {
     return i ? i - 1 : NO_CYCLE;
 }
 
+/* One row a way to press. */
+static const struct {
+    input in;
+    fret_status (*press)(const fret_normal *, double, fret_press *);
+} presses[] = {[BY_FORCE] = {IN_FN, fret_press_by_force},
+               [BY_DISPLACEMENT] = {IN_DZ, fret_press_by_depth},
+               [BY_RADIUS] = {IN_CONTACT, fret_press_by_radius},
+               [BY_PEAK] = {IN_P0, fret_press_by_peak},
+               [BY_MEAN] = {IN_PMEAN, fret_press_by_mean}};
+
+input press_input(load_by by) {
+    return presses[by].in;
+}
+
+load_by press_by(input in) {
+    load_by by = BY_MEAN;
+    while (by > BY_NONE && presses[by].in != in)
+        by--;
+    return by;
+}
+
+fret_status press_to(const fret_normal *normal, load_by by, double value, fret_press *out) {
+    return presses[by].press(normal, value, out);
+}
+
 load_item program_item(const program *p, load_mark here, size_t last_cycle, const inputs *in) {
     load_item item = {.step = p->steps[here.steps]};
     load_step *step = &item.step;
     if (step->kind == LOAD_CYCLE)
         item.extra = p->cycles[here.cycles];
-    if (step->kind == LOAD_PRESS && step->normal == BY_FORCE) {
-        step->normal_value = in->v[IN_FN];
+    if (step->kind == LOAD_PRESS) {
+        step->normal_value = in->v[press_input((load_by)step->normal)];
     } else if (here.steps == last_cycle) {
         step->tangential = in->set[IN_FA] ? BY_FORCE : BY_DISPLACEMENT;
         step->tangential_value = in->v[in->set[IN_FA] ? IN_FA : IN_DXA];
@@ -74,9 +99,8 @@ load_item program_item(const program *p, load_mark here, size_t last_cycle, cons
 
 void program_to_inputs(const load_step *step, const cycle_extra *extra, inputs *in) {
     if (step->kind == LOAD_PRESS) {
-        inputs_unset(in, INPUT_CYCLE | INPUT_BIT(IN_FN));
-        if (step->normal == BY_FORCE)
-            inputs_put(in, IN_FN, step->normal_value);
+        inputs_unset(in, INPUT_CYCLE | INPUT_PRESS);
+        inputs_put(in, press_input((load_by)step->normal), step->normal_value);
     } else if (step->kind == LOAD_CYCLE) {
         inputs_unset(in, INPUT_CYCLE);
         inputs_put(in, step->tangential == BY_FORCE ? IN_FA : IN_DXA, step->tangential_value);

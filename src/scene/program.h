@@ -8,7 +8,14 @@
 #include "scene/inputs.h"
 
 typedef enum load_kind { LOAD_PRESS, LOAD_STEP, LOAD_CYCLE } load_kind;
-typedef enum load_by { BY_NONE, BY_FORCE, BY_DISPLACEMENT, BY_RADIUS } load_by;
+typedef enum load_by {
+    BY_NONE,
+    BY_FORCE,
+    BY_DISPLACEMENT,
+    BY_RADIUS,
+    BY_PEAK,
+    BY_MEAN
+} load_by; /* press: all */
 enum { RELATIVE_NORMAL = 1, RELATIVE_TANGENTIAL = 2 };
 
 /* One command of the load program: 24 bytes, since programs of 1e6 steps are kept for re-running. */
@@ -48,14 +55,19 @@ bool program_append(program *p, load_mark *mark, const load_step *step, const cy
 #define NO_CYCLE ((size_t)-1)
 size_t program_last_cycle(const program *p, load_mark mark);
 
-/* The step as it runs: FN of the press, and the amplitudes of the last cycle, are inputs. */
+/* The input that a press imposes by this, and by what such an input presses; BY_NONE: none. */
+input press_input(load_by by);
+load_by press_by(input in);
+fret_status press_to(const fret_normal *normal, load_by by, double value, fret_press *out);
+
+/* The step as it runs: what the press imposes, and the amplitudes of the last cycle, are inputs. */
 typedef struct load_item {
     load_step step;
     cycle_extra extra;
 } load_item;
 load_item program_item(const program *p, load_mark here, size_t last_cycle, const inputs *in);
 
-/* The amplitudes of the last cycle and FN of the press become inputs when the step is appended. */
+/* The amplitudes of the last cycle and what a press imposes become inputs when the step is appended. */
 void program_to_inputs(const load_step *step, const cycle_extra *extra, inputs *in);
 /* What the inputs hold of a cycle goes back into the program: another one follows. */
 void program_freeze(program *p, size_t last_cycle, size_t cycle, const inputs *in);

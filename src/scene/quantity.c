@@ -14,6 +14,7 @@
 #define STATE(member) .of = OF_STATE, .at_state = offsetof(fret_state, member), .load = true
 #define FOUNDATION(member)                                                                                   \
     .of = OF_FOUNDATION, .at = offsetof(fret_foundation, member), .reads = READS_MATERIAL
+#define IMPOSED(which) .in = 1 + (which), .imposed = "press"
 #define GETTER(function) .of = OF_GETTER, .get = get_##function
 #define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
 #define FORCE                                                                                                \
@@ -44,6 +45,12 @@ static const quantity quantities[] = {
      .formulas = {{"as E0; default: same", "(4),(5)", 0}}},
     {.name = "nu_2", .title = "Poisson's ratio of the second body", INPUT(IN_NU_2),
      .formulas = {{"as nu; default: same", "(4),(5)", 0}}},
+    {.name = "G0", .title = "shear modulus", .keywords = "Young shear stiffness rigidity", .d = PRESSURE, INPUT(IN_G0),
+     .formulas = {{"G0 = E0/(2(1+nu)), in place of E0", "(28)", 0}}},
+    {.name = "G0_2", .title = "shear modulus of the second body", .d = PRESSURE, INPUT(IN_G0_2),
+     .formulas = {{"as G0; default: same", "(28)", 0}}},
+    {.name = "Estar", .title = "effective modulus E* of both bodies, k = 0", .keywords = "E* reduced contact composite plane strain Hertz E'", .d = PRESSURE,
+     INPUT(IN_ESTAR), .formulas = {{"1/E* = sum (1-nu^2)/E0, in place of E0 (Johnson, Contact Mechanics, 4.2; E' of other books is 2 E*)", "(4)", 0}}},
     {.name = "mu", .title = "coefficient of friction", .keywords = "Coulomb Amontons", INPUT(IN_MU),
      .formulas = {{"|q_x| <= mu p", "(14)", 0}}},
     {.name = "n", .title = "exponent of the gap", INPUT(IN_N), .formulas = {{"f = A r^n", "(6)", 0}}},
@@ -65,19 +72,27 @@ static const quantity quantities[] = {
      .formulas = {{"F_N + FNA sin(2 pi t + phase)", NULL, 0}}},
     {.name = "phase", .title = "phase of the normal force in the last cycle", .d = ANGLE, INPUT(IN_PHASE),
      .formulas = {{"F_N + FNA sin(2 pi t + phase)", NULL, 0}}},
-    {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN),
+    {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN), CALL(FN, d, LENGTH),
      .reads = READS_NORMAL, .load = true,
      .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(13)", WHEN_POWER},
                   {"F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx", "(12)", 0}}},
 
     /* ---- state now ---- */
-    {.name = "dz", .imposed = "press", .title = "indentation depth", .keywords = "approach penetration", .d = LENGTH, PRESS(dz), CALL(dz, F, FORCE),
+    {.name = "dz", IMPOSED(IN_DZ), .title = "indentation depth", .keywords = "approach penetration", .d = LENGTH, PRESS(dz), CALL(dz, F, FORCE),
      .reads = READS_NORMAL,
      .formulas = {{"delta_z = kappa A a^n", "(10)", WHEN_POWER}, {"delta_z = g(a)", "(10)", 0}}},
-    {.name = "a", .imposed = "press", .title = "contact radius", .keywords = "Hertz size area", .d = LENGTH, PRESS(a), CALL(a, F, FORCE),
+    {.name = "a", IMPOSED(IN_CONTACT), .title = "contact radius", .keywords = "Hertz size area", .d = LENGTH, PRESS(a), CALL(a, F, FORCE),
      .reads = READS_NORMAL,
      .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(10),(13)", WHEN_POWER},
                   {"F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx", "(10),(12)", 0}}},
+    {.name = "p0", .by = MODEL_QUADRATURE, IMPOSED(IN_P0), .title = "largest contact pressure", .keywords = "peak maximum pressure stress Hertz", .d = PRESSURE,
+     GETTER(p0), CALL(p0, F, FORCE), .reads = READS_NORMAL, .load = true,
+     .formulas = {{"p_0 = max p(r); of Hertz 3 F_N/(2 pi a^2) at r = 0 (Johnson, Contact Mechanics, 4.2)", "inverse of (3)", 0}}},
+    {.name = "pmean", IMPOSED(IN_PMEAN), .title = "mean contact pressure", .keywords = "average pressure stress hardness", .d = PRESSURE,
+     GETTER(pmean), .reads = READS_NORMAL, .load = true, .formulas = {{"F_N/(pi a^2)", NULL, 0}}},
+    {.name = "Un", .title = "elastic energy of the normal contact", .keywords = "strain stored work impact", .d = ENERGY, GETTER(Un),
+     .reads = READS_NORMAL, .load = true,
+     .formulas = {{"U_n = int F_N d(delta_z) = n/(2n+k+1) F_N delta_z", "(10),(13)", WHEN_POWER}, {"U_n = int F_N d(delta_z)", "(10),(12)", 0}}},
     {.name = "Fx", .imposed = "step", .title = "tangential force", .keywords = "shear Mindlin Cattaneo", .d = FORCE, LOADING(Fx),
      CALL(Fx, d, LENGTH), .reads = READS_TANGENTIAL,
      .formulas = {{"F_x = mu F_N [1-(c/a)^(n+k+1)]", "(16),(18)", WHEN_FIRST | WHEN_POWER},
@@ -160,7 +175,7 @@ static const quantity quantities[] = {
 
     /* ---- at a place ---- */
     {.name = "E", .title = "modulus at depth z", .keywords = "Young grading", .d = PRESSURE, .of = OF_FUNCTION, CALL(E, z, LENGTH),
-     .reads = INPUT_BIT(IN_E0) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0), .formulas = {{"E(z) = E0 (z/c0)^k", "(1)", 0}}},
+     .reads = INPUT_MODULUS | INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0), .formulas = {{"E(z) = E0 (z/c0)^k", "(1)", 0}}},
     {.name = "f", .title = "gap at radius r", .keywords = "shape profile", .d = LENGTH, .of = OF_FUNCTION, CALL(f, r, LENGTH),
      .reads = INPUT_GEOMETRY, .formulas = {{"f(r) = A r^n", "(6)", WHEN_POWER}, {"f(r)", "(3)", 0}}},
     {.name = "g", .title = "equivalent profile", .keywords = "shape", .d = LENGTH, .of = OF_FUNCTION, CALL(g, x, LENGTH),
@@ -224,6 +239,8 @@ static long double member(const void *of, size_t at) {
 /* The state as far as the member wants it. */
 static bool get_state(const quantity *q, scene *s, long double *out, calc_error *error) {
     const fret_state *state;
+    if (q->at_state == offsetof(fret_state, kt) && !inputs_know_nu(&s->in))
+        return calc_missing(error, IN_NU); /* c_T wants it, where nothing has asked for it */
     const bool forces = q->at_state == offsetof(fret_state, Fx) || q->at_state == offsetof(fret_state, dx) ||
                         q->at_state == offsetof(fret_state, W);
     if (!(forces ? scene_forces : scene_state)(s, &state, error))
@@ -260,7 +277,7 @@ bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *err
     case OF_STATE:
         return get_state(q, s, out, error);
     case OF_FOUNDATION:
-        if (!foundation_of(s, &foundation, error))
+        if (!foundation_of(s, q->at == offsetof(fret_foundation, cN0), &foundation, error))
             return false;
         *out = member(&foundation, q->at);
         return true;
@@ -316,7 +333,7 @@ model_id quantity_model(const quantity *q, scene *s, bool call) {
     case OF_GETTER:
         if (q->get == get_dW)
             return scene_closed_loss(s) ? closed : stepped;
-        return q->get == get_W1D ? MODEL_MEMORY : closed;
+        return q->get == get_W1D ? MODEL_MEMORY : q->by ? q->by : closed;
     default:
         return closed;
     }

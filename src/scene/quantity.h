@@ -35,10 +35,8 @@ typedef struct formula {
 } formula;
 
 /* Inputs that results have in common. */
-#define READS_MATERIAL                                                                                       \
-    (INPUT_BIT(IN_E0) | INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0) | INPUT_BIT(IN_E0_2) |         \
-     INPUT_BIT(IN_NU_2))
-#define READS_NORMAL (READS_MATERIAL | INPUT_GEOMETRY | INPUT_BIT(IN_FN))
+#define READS_MATERIAL (INPUT_MATERIAL | INPUT_BIT(IN_C0))
+#define READS_NORMAL (READS_MATERIAL | INPUT_GEOMETRY | INPUT_PRESS)
 #define READS_TANGENTIAL (READS_NORMAL | INPUT_BIT(IN_MU) | INPUT_CYCLE)
 
 enum { FORMULAS = 5 };
@@ -51,12 +49,12 @@ typedef struct quantity {
     const char *unit;     /* that readers are shown it in; NULL: one that fits */
     quantity_of of;
     size_t at, at_state;
-    int in; /* 1 + the input that it is; 0: none */
+    int in; /* 1 + the input that it is, of a press where it was pressed by it; 0: none */
     bool (*get)(scene *s, long double *out, calc_error *error);
     /* as a function; NULL: it is none */
     bool (*call)(scene *s, value arg, long double *out, calc_error *error);
     model_id
-        by; /* what answers for the function; MODEL_CLOSED: the closed form, or quadrature over the gap */
+        by; /* what answers for the function, or the getter; MODEL_CLOSED: the closed form, or polynomials */
     const char *argument;
     dim argument_d;
     dim argument_or;     /* what the argument may be instead; a number: nothing else */
@@ -77,6 +75,10 @@ static inline bool quantity_is_input(const quantity *q) {
 }
 static inline input quantity_input(const quantity *q) {
     return (input)(q->in - 1);
+}
+/* Is it one of a press? Where that is by another one it is a result. */
+static inline bool quantity_is_imposed(const quantity *q) {
+    return q->in && INPUT_PRESS & INPUT_BIT(q->in - 1);
 }
 /* Can it be asked for without an argument? */
 static inline bool quantity_has_value(const quantity *q) {

@@ -2,8 +2,46 @@
 /* Results that take more than a look at a state. */
 #include "scene/functions.h"
 
+#include "number/real.h"
+
 bool get_FN(scene *s, long double *out, calc_error *error) {
     return scene_FN(s, out, error);
+}
+
+/* As it was given, where nothing has moved it. */
+static bool is_imposed(scene *s, input in) {
+    const load_reach *reach;
+    return s->in.set[in] && !s->now && scene_reach(s, &reach, error_quiet()) && !reach->normal_varies;
+}
+
+bool get_p0(scene *s, long double *out, calc_error *error) {
+    const fret_field *field;
+    if (is_imposed(s, IN_P0))
+        return scene_get(s, IN_P0, out, error);
+    if (!scene_pressed_field(s, &field, error))
+        return false;
+    fret_status st = fret_field_peak(field, NULL, out);
+    s->used |= USED(MODEL_QUADRATURE);
+    return calc_status(error, &st);
+}
+
+bool get_pmean(scene *s, long double *out, calc_error *error) {
+    const fret_press *press;
+    if (is_imposed(s, IN_PMEAN))
+        return scene_get(s, IN_PMEAN, out, error);
+    if (!scene_press(s, &press, error))
+        return false;
+    *out = press->F > 0 ? press->F / (FRET_PI * press->a * press->a) : 0;
+    return true;
+}
+
+bool get_Un(scene *s, long double *out, calc_error *error) {
+    const fret_press *press;
+    const fret_normal *normal;
+    if (!scene_press(s, &press, error) || !scene_normal(s, &normal, error))
+        return false;
+    *out = fret_normal_energy(normal, press);
+    return true;
 }
 
 bool get_dW(scene *s, long double *out, calc_error *error) {
@@ -64,10 +102,12 @@ bool get_dxmax(scene *s, long double *out, calc_error *error) {
 
 /* ---- coefficients ------------------------------------------------------------------------------ */
 
-bool foundation_of(scene *s, fret_foundation *out, calc_error *error) {
+bool foundation_of(scene *s, bool only_normal, fret_foundation *out, calc_error *error) {
     const fret_normal *normal;
     fret_material material;
     s->used |= USED(MODEL_CLOSED);
+    if (!only_normal && s->in.set[IN_ESTAR] && !inputs_know_nu(&s->in))
+        return calc_missing(error, IN_NU);
     if (s->in.geometry) {
         if (!scene_normal(s, &normal, error))
             return false;

@@ -401,16 +401,17 @@ static bool leg_of_cycle(runner *r) {
 
 static bool leg_of_press(runner *r) {
     const load_step *c = &r->item.step;
-    leg l = {.to = {c->normal == BY_FORCE ? FRET_TO_FORCE : FRET_TO_DEPTH, FRET_KEEP_DX, c->normal_value, 0},
+    const bool depth = c->normal == BY_DISPLACEMENT || c->normal == BY_RADIUS;
+    leg l = {.to = {depth ? FRET_TO_DEPTH : FRET_TO_FORCE, FRET_KEEP_DX, c->normal_value, 0},
              .points = 1,
              .begin = r->time,
              .end = r->time};
-    if (c->normal == BY_RADIUS) {
+    if (c->normal > BY_DISPLACEMENT) {
         fret_press p;
-        r->status = fret_press_by_radius(r->load->normal, c->normal_value, &p);
+        r->status = press_to(r->load->normal, (load_by)c->normal, c->normal_value, &p);
         if (r->status.code)
             return false;
-        l.to.normal = (double)p.dz;
+        l.to.normal = (double)(depth ? p.dz : p.F);
     }
     return set_leg(r, l);
 }

@@ -61,7 +61,7 @@ void scene_used_law(scene *s, const fret_normal *normal) {
 }
 
 /* The others are of the bodies and of the shape. */
-static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_BIT(IN_FN) | INPUT_CYCLE;
+static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE;
 
 /* Bodies and shape that follow definitions may follow these. */
 void scene_forget(scene *s, bool keep) {
@@ -113,7 +113,7 @@ void scene_reset(scene *s, bool all) {
     counted_drop(s->program ? &s->program->base : NULL);
     s->program = NULL;
     s->end = (load_mark){0, 0};
-    inputs_unset(&s->in, INPUT_CYCLE | INPUT_BIT(IN_FN));
+    inputs_unset(&s->in, INPUT_CYCLE | INPUT_PRESS);
 }
 
 /* ---- the way back ------------------------------------------------------------------------------ */
@@ -203,16 +203,17 @@ static bool resolve(scene *s, unsigned set, calc_error *error) {
     return true;
 }
 
-/* What stands for others where these are not given. */
-static unsigned rests_on(input in) {
-    return in == IN_A      ? INPUT_GEOMETRY
-           : in == IN_E0_2 ? INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_E0)
-           : in == IN_NU_2 ? INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_NU)
-                           : INPUT_BIT(in);
+/* What stands for others where these are not given; n tells the dimension of A. */
+static unsigned rests_on(const inputs *given, input in) {
+    const unsigned bit = INPUT_BIT(in);
+    return in == IN_A                                      ? INPUT_GEOMETRY
+           : in == IN_NU_2                                 ? bit | INPUT_BIT(IN_NU)
+           : bit & INPUT_MODULI && !inputs_any(given, bit) ? INPUT_MATERIAL
+                                                           : bit;
 }
 
 bool scene_get(scene *s, input in, long double *out, calc_error *error) {
-    return resolve(s, rests_on(in), error) && inputs_get(&s->in, in, out, error);
+    return resolve(s, rests_on(&s->in, in), error) && inputs_get(&s->in, in, out, error);
 }
 
 void scene_put(scene *s, input in, double v) {
@@ -222,11 +223,8 @@ void scene_put(scene *s, input in, double v) {
 
 /* ---- the contact ------------------------------------------------------------------------------- */
 
-static const unsigned of_material =
-    INPUT_BIT(IN_E0) | INPUT_BIT(IN_NU) | INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_K);
-
 bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *error) {
-    if (!resolve(s, of_material, error))
+    if (!resolve(s, INPUT_MATERIAL, error))
         return false;
     const double k = homogeneous ? 0 : s->in.v[IN_K];
     return (k == 0 || resolve(s, INPUT_BIT(IN_C0), error)) && inputs_material(&s->in, k, out, error);
@@ -271,7 +269,9 @@ bool scene_friction(scene *s, double *mu, calc_error *error) {
     if (!scene_get(s, IN_MU, &v, error))
         return false;
     *mu = (double)v;
-    return true;
+    if (!(*mu > 0))
+        return calc_fail(error, 0, 0, "mu = 0: a contact without friction holds no Fx (friction 0.4)");
+    return inputs_know_nu(&s->in) || calc_missing(error, IN_NU);
 }
 
 /* ---- the load ---------------------------------------------------------------------------------- */

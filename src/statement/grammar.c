@@ -9,12 +9,15 @@
 #include "scene/quantity.h"
 #include "text/words.h"
 
-/* Arguments that are no quantities. */
+/* Arguments that are no quantities, or by another name. */
 static const struct {
     const char *name;
     dim d;
     value_must must;
-} others[] = {{"angle", {0, 0, 1, 0}, ANY}, {"R1", {0, 1, 0, 0}, NONZERO}, {"R2", {0, 1, 0, 0}, NONZERO}};
+    int in; /* as of a clause */
+} others[] = {{"angle", {0, 0, 1, 0}, ANY, 0},  {"half_angle", {0, 0, 1, 0}, ANY, 0},
+              {"R1", {0, 1, 0, 0}, CURVED, 0},  {"R2", {0, 1, 0, 0}, CURVED, 0},
+              {"D", {0, 1, 0, 0}, POSITIVE, 0}, {"G", {1, -2, 0, 0}, ANY, 1 + IN_G0}};
 
 typedef struct parsing {
     grammar *out;
@@ -68,13 +71,14 @@ static bool parse_argument(parsing *g, size_t n) {
     if (!q && other == sizeof others / sizeof *others)
         return false;
     a->d = q ? q->d : others[other].d;
-    if (!q)
+    if (!q) {
         a->must = others[other].must;
-    else if (!a->increment &&
-             quantity_is_input(q)) /* where an increment leads to is known to the load alone */
-        a->in = 1 + (int)quantity_input(q);
-    else if (!a->increment)
+        a->in = others[other].in;
+    } else if (!a->increment && quantity_is_input(q)) {
+        a->in = 1 + (int)quantity_input(q); /* where an increment leads to is known to the load alone */
+    } else if (!a->increment) {
         a->must = POSITIVE;
+    }
     for (g->p += n; *g->p == ' '; g->p += n) {
         n = word_length(g->p + 1) + 1;
         if (n == 1 || g->p[1] == '|' || memchr(g->p, '=', n))

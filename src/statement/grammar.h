@@ -46,7 +46,7 @@ typedef struct hole {
     char before; /* '=', or '+' of +-: what parts it from the hole before; 0: nothing */
 } hole;
 
-typedef enum value_must { ANY, POSITIVE, NONZERO } value_must;
+typedef enum value_must { ANY, POSITIVE, CURVED } value_must; /* curved: a radius, not 0, or inf */
 
 enum { CLAUSE_NAME = 16, CLAUSE_HOLES = 2 };
 typedef struct clause {

@@ -2,6 +2,7 @@
 /* Statements by the rows that describe them. */
 #include "statement/reader.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "text/lines.h"
@@ -183,8 +184,7 @@ static heard *add_heard(lexer *lx, said *s, const clause *a) {
 
 static bool in_range(lexer *lx, const heard *h) {
     const clause *a = h->of;
-    fret_status st = {FRET_NOT_POSITIVE, a->name, (double)h->v.v, 0};
-    if (a->in == 1 + IN_A) {
+    if (a->in == 1 + IN_A || (!a->in && a->must == POSITIVE)) {
         char unit_text[128];
         dim_unit(h->v.d, unit_text, sizeof unit_text);
         return h->v.v > 0 ||
@@ -192,12 +192,12 @@ static bool in_range(lexer *lx, const heard *h) {
                          h->v.v, *unit_text ? " " : "", unit_text);
     }
     if (a->in) {
-        st = input_status((input)(a->in - 1), (double)h->v.v);
+        const fret_status st = input_status((input)(a->in - 1), (double)h->v.v);
         return calc_input_status(lx->error, a->in - 1, &st) || heard_place(lx->error, h);
     }
-    if (a->must == NONZERO && h->v.v == 0)
+    if (a->must == CURVED && h->v.v == 0)
         return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s must not be 0", a->name);
-    return a->must != POSITIVE || h->v.v > 0 || calc_status(lx->error, &st) || heard_place(lx->error, h);
+    return true;
 }
 
 static bool read_operand(shell *sh, lexer *lx, const dim *want, heard *h) {
@@ -244,6 +244,12 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
     h->increment = how == T_INCREMENT;
     lex_next(lx);
     lex_next(lx);
+    if (a->must == CURVED && lex_is(lx, "inf")) { /* of a plane */
+        h->v = (value){INFINITY, d};
+        h->hole[0] = (span){lx->at, lx->len};
+        lex_next(lx);
+        return true;
+    }
     if (how != T_DEFINE)
         return read_value(sh, lx, a->name, d, h);
     h->hole[0].at = lx->at;

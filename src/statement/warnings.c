@@ -5,6 +5,12 @@
 
 #include "statement/shell.h"
 
+/* By how many percent friction stiffens the normal contact where nothing slips, at most: artanh(beta)/beta -
+ * 1 (Spence, Proc. R. Soc. A 305, 1968), for any shape, k = 0. */
+static double stiffened(const fret_foundation *f) {
+    return 100 * (double)(atanhl(f->mismatch) / f->mismatch - 1);
+}
+
 /* The theory leaves coupling out, which is exact for a normal load without friction: said of what is
  * tangential, a load or a question. */
 void shell_warn_dissimilar(shell *sh) {
@@ -16,11 +22,16 @@ void shell_warn_dissimilar(shell *sh) {
     const fret_foundation *f = fret_normal_foundation(normal);
     const bool tangential =
         s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, error_quiet()) && reach->by);
-    if (!f->similar && !sh->dissimilar && tangential)
+    if (!f->similar && !sh->dissimilar && tangential) {
+        char size[80] = "; how far off for k other than 0 is unknown";
+        if (f->k == 0)
+            snprintf(size, sizeof size, ", kn up to %.2g %% too small (help limits tells of dW)",
+                     stiffened(f));
         shell_warning(sh,
                       "the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
-                      "are coupled, and these results are an approximation",
-                      (double)f->mismatch);
+                      "are coupled, and these results are an approximation%s",
+                      (double)f->mismatch, size);
+    }
     sh->dissimilar = !f->similar && (sh->dissimilar || tangential);
 }
 

@@ -94,7 +94,7 @@ static bool equations(state *s, double *out) {
 static bool press_of(state *s, load_step *out, calc_error *error) {
     scene *tried = &s->p.t->scene;
     const fit_loop *loop = &s->of->loop;
-    long double FN;
+    long double imposed;
     *out = (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE};
     if (loop->normal) {
         out->normal = (unsigned char)loop->normal_by;
@@ -104,11 +104,9 @@ static bool press_of(state *s, load_step *out, calc_error *error) {
     if (!tried->end.steps)
         return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
     *out = tried->program->steps[0];
-    if (out->normal == BY_FORCE) {
-        if (!scene_get(tried, IN_FN, &FN, error))
-            return false;
-        out->normal_value = (double)FN;
-    }
+    if (!scene_get(tried, press_input((load_by)out->normal), &imposed, error))
+        return false;
+    out->normal_value = (double)imposed;
     return true;
 }
 

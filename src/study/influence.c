@@ -63,10 +63,7 @@ static void find_causes(const calc *c, const expr *e, program *own, const quanti
     for (input in = 0; in < INPUTS; in++)
         if (!(INPUT_BIT(in) & INPUT_CYCLE))
             add_input(s, in, out);
-    load_step *first = own ? &own->steps[0] : NULL, *last = own ? &own->steps[s->end.steps - 1] : NULL;
-    if (own && first->normal != BY_FORCE)
-        add_step(out, first->normal == BY_RADIUS ? "a" : "dz", (load_by)first->normal, &first->normal_value,
-                 false, false);
+    load_step *last = own ? &own->steps[s->end.steps - 1] : NULL;
     for (size_t i = 0; i < sizeof of_cycle / sizeof *of_cycle; i++)
         add_input(s, of_cycle[i], out);
     if (own && last->kind == LOAD_STEP && last->normal)
@@ -82,7 +79,7 @@ static void find_causes(const calc *c, const expr *e, program *own, const quanti
 
 bool cause_is_load(const cause *c) {
     return c->kind == CAUSE_STEP ||
-           (c->kind == CAUSE_INPUT && INPUT_BIT(c->in) & (INPUT_BIT(IN_FN) | INPUT_CYCLE));
+           (c->kind == CAUSE_INPUT && INPUT_BIT(c->in) & (INPUT_PRESS | INPUT_CYCLE));
 }
 
 /* ---- changing it ------------------------------------------------------------------------------- */

@@ -196,12 +196,10 @@ static bool look_along(state *st, double time) {
 
 bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
     scene *tried = &t->scene;
-    double mu;
     *from = tried->end;
     if (!tried->end.steps)
         return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
-    if (!scene_friction(tried, &mu, error) ||
-        !scene_append(tried, &range->step, range->step.kind == LOAD_CYCLE ? &range->extra : NULL, error))
+    if (!scene_append(tried, &range->step, range->step.kind == LOAD_CYCLE ? &range->extra : NULL, error))
         return false;
     for (input in = 0; in < INPUTS; in++)
         if (range->bound[in])

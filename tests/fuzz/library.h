@@ -181,6 +181,11 @@ CALL(fret_field_pressure) {
     if (have_field(w))
         (void)known_code(fret_field_pressure(w->field, x[0], w->sink));
 }
+CALL(fret_field_peak) {
+    (void)x;
+    if (have_field(w))
+        (void)known_code(fret_field_peak(w->field, w->sink, w->sink + 1));
+}
 CALL(fret_field_surface) {
     if (have_field(w))
         (void)known_code(fret_field_surface(w->field, x[0], w->sink));
@@ -203,7 +208,7 @@ CALL(fret_kappa) {
 }
 /* kind, terms, b, R, slope, then n, h, r0 of each: of all others those of the last one */
 CALL(fret_gap_check) {
-    fret_gap gap = {.kind = (fret_gap_kind)whole(x[0], FRET_GAP_TABLE + 1),
+    fret_gap gap = {.kind = (fret_gap_kind)whole(x[0], FRET_GAP_FLAT + 1),
                     .terms = (int)whole(x[1], 1000000),
                     .b = x[2],
                     .R = x[3],
@@ -360,6 +365,19 @@ CALL(fret_press_by_depth) {
 CALL(fret_press_by_radius) {
     if (have_normal(w))
         take_press(w, x[1], fret_press_by_radius(w->normal, x[0], &w->press));
+}
+CALL(fret_press_by_peak) {
+    if (have_normal(w))
+        take_press(w, x[1], fret_press_by_peak(w->normal, x[0], &w->press));
+}
+CALL(fret_press_by_mean) {
+    if (have_normal(w))
+        take_press(w, x[1], fret_press_by_mean(w->normal, x[0], &w->press));
+}
+CALL(fret_normal_energy) {
+    (void)x;
+    if (have_press(w))
+        w->sink[0] = fret_normal_energy(w->normal, &w->press);
 }
 CALL(fret_normal_stiffness) {
     if (have_normal(w))
@@ -563,6 +581,7 @@ static const struct row {
     ROW(fret_field_of_press),
     ROW(fret_field_free),
     ROW(fret_field_pressure),
+    ROW(fret_field_peak),
     ROW(fret_field_surface),
     ROW(fret_field_traction),
     ROW(fret_field_surface_x),
@@ -591,6 +610,9 @@ static const struct row {
     ROW(fret_press_by_force),
     ROW(fret_press_by_depth),
     ROW(fret_press_by_radius),
+    ROW(fret_press_by_peak),
+    ROW(fret_press_by_mean),
+    ROW(fret_normal_energy),
     ROW(fret_normal_stiffness),
     ROW(fret_cycle_loss_by_definition),
     ROW(fret_springs_make),

@@ -22,12 +22,13 @@ MODULI = ("210 GPa", "70 GPa", "1 Pa", "-3 GPa", "30e6 psi")
 VALUES = """a dz c Fx dx W U dW dW(3_N) dWd(1_um) kt kn eta kappa W1D time p(0_m) qx(0.1_mm) u1D(0.05_mm) s1D(0_m) w1D(0_m)
  qz1D(0.01_mm) qx1D(0.01_mm) cN(0.1_mm) cT E(0.2_mm) f(0.1_mm) g(0.1_mm) a0 dz0 dx0max dxmax x y ff(2) gg(1,2) ans FN FA dxA
  FNA phase c0 k mu n A R slope b Fx(0.3_um) c(2_N) dx(1_N) a(3_N) ux(0.1_mm) uz(1_mm) hN hT beta_k E0 nu E0_2 nu_2 h r0
- Ksec(2_N) Kp(1_um) Kpp(1_um) loss_factor(1_N) pi 1/0 0/0 1e308*10""".split()
+ Ksec(2_N) Kp(1_um) Kpp(1_um) loss_factor(1_N) p0 pmean Un p0(2_N) FN(1_um) G0 G0_2 Estar pi 1/0 0/0 1e308*10""".split()
 VALUES = [value.replace("_m", " m").replace("_N", " N").replace("_um", " um").replace("E0 2", "E0_2") for value in VALUES]
 UNITS = ("mm", "um", "N", "uJ", "GPa", "deg", "%", "MPa", "N/m", "nm^2")
 SHAPES = ("sphere R=10 mm", "cone slope=0.05", "power n=3 h=1 um r0=1 mm", "power n=2 A=50 m^-1", "flat-rounded b=0.1 mm R=10 mm",
           "exact-sphere R=10 mm", "sum 2:50 m^-1, 4:1e6 m^-3", "flat-cone b=0.05 mm slope=0.05", "flat-paraboloid b=.1 mm R=1 m",
-          "file gap.csv", "cone angle=3 deg", "sphere R1=10 mm R2=-20 mm", "paraboloid R=1 m", "sphere", "file nowhere.csv")
+          "file gap.csv", "cone angle=3 deg", "sphere R1=10 mm R2=-20 mm", "sphere R1=9 mm R2=inf", "sphere D=20 mm",
+          "flat b=0.1 mm", "cone half_angle=87 deg", "paraboloid R=1 m", "sphere", "file nowhere.csv")
 NOISE = "()=,;:+-*/^ .e10\"'#\\~µ\tN"
 FILES = {"gap.csv": "r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(60)),
          "loads.csv": "FN [N],Fx [N]\n100,0\n120,15\n90,-10\n100,20\n",
@@ -90,7 +91,8 @@ class Writer:
              ("y", ":=", self.pick("x/9", "x", "y", "mu", "a/c0")), ("z", ":=", self.value()), ("FN", "=", self.pick("100 N", "50 N")),
              ("FA", self.pick("=", ":="), self.pick(*FORCES)), ("FNA", "=", self.pick("0 N", "10 N")), ("phase", "=", "30 deg"),
              ("n", "=", "2.5"), ("A", "=", "50 m^-1"), ("R", "=", "5 mm"), ("dxA", "=", self.pick(*LENGTHS)),
-             ("E0", "=", self.pick(*MODULI)), ("nu", "=", self.pick("0.2", "0.6")), ("slope", "=", "0.1"), ("b", "=", "0.2 mm")])
+             ("E0", "=", self.pick(*MODULI)), ("G0", self.pick("=", ":="), self.pick(*MODULI)), ("Estar", "=", self.pick(*MODULI)),
+             ("dz", self.pick("=", ":="), "2 um"), ("a", "=", "0.1 mm"), ("p0", self.pick("=", ":="), "x*1 GPa"), ("pmean", "=", "1 GPa"), ("nu", "=", self.pick("0.2", "0.6")), ("slope", "=", "0.1"), ("b", "=", "0.2 mm")])
         return "%s %s %s" % (name, how, text)
 
     def file(self, *endings):
@@ -112,9 +114,11 @@ class Writer:
             return "geometry " + self.pick(*SHAPES)
         if u < .17:
             return self.pick("friction 0.4", "friction x/10", "second steel", "second same", "second rigid",
-                             "second E0=70 GPa nu=0.33", "material steel")
+                             "second E0=70 GPa nu=0.33", "material steel", "friction 0",
+                             "second G0=26 GPa nu=0.33", "material G0=80 GPa nu=0.3", "material Estar=100 GPa",
+                             "material Estar=100 GPa nu=0.2")
         if u < .23:
-            return "press " + self.pick("FN=100 N", "FN=x*1 N", "dz=1 um", "a=0.2 mm", "FN=0.001 N")
+            return "press " + self.pick("FN=100 N", "FN=x*1 N", "dz=1 um", "a=0.2 mm", "FN=0.001 N", "p0=1 GPa", "pmean=0.2 GPa")
         if u < .39:
             return self.load()
         if u < .53:

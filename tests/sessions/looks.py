@@ -487,6 +487,12 @@ def regimes(tests):
         inside = [max(p[across] for p in points_) for points_ in (partial, gross)]
         tests.check("areas of " + ranges, inside[0] < inside[1] == 3 and "filledcurves closed" in text and
                     all('"%s" at graph' % word in text for word in ("partial slip", "gross slip")), str(inside))
+    text, series = script(tests, "regimes of a punch", "plot regimes for dxA = 0 um .. 2 um for FN = 10 N .. 200 N",
+                          SCENE.split("geometry")[0] + "geometry flat b=0.2 mm; friction 0.4; press FN=100 N\n")
+    borders = [points_ for points_ in series if len(points_) < 300]
+    law = 0.4 * 1.7 / 1.4 * 200 / (2 * 0.2e-3 * 210e9 / (2 * (1 - 0.3**2))) * 1e6  # mu eta F/(2 E* b)
+    tests.check("a punch sticks up to gross slip", len(borders) == 3 and borders[0] == borders[2] and abs(borders[0][-1][0] - law) < 1e-6 * law and
+                all('"%s" at graph' % word in text for word in ("stick", "gross slip")) and "partial" not in text, str(borders)[:300])
     fails(tests, "plot regimes", "regimes go for dxA = LO .. HI for NAME = LO .. HI")
     fails(tests, "plot regimes for dxA = 2 um .. 1 um for FN = 1 N .. 2 N", "expected LO .. HI, LO below HI")
     fails(tests, "plot regimes for dxA = 1 um .. 2 um for dz = 1 um .. 2 um", "dz")

@@ -105,7 +105,9 @@ static void ranges(void) {
     CHECK_CODE(input_status(IN_K, 1), FRET_BAD_K);
     CHECK_OK(input_status(IN_FNA, 0));
     CHECK_CODE(input_status(IN_FNA, -1), FRET_NEGATIVE);
-    CHECK_CODE(input_status(IN_MU, 0), FRET_NOT_POSITIVE);
+    CHECK_OK(input_status(IN_MU, 0));
+    CHECK_CODE(input_status(IN_MU, -1), FRET_NEGATIVE);
+    CHECK_CODE(input_status(IN_P0, 0), FRET_NOT_POSITIVE);
     inputs none = {.geometry = NULL};
     for (input in = 0; in < INPUTS; in++)
         CHECK(!inputs_take(&none, in));

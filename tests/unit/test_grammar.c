@@ -51,7 +51,7 @@ static void arguments(void) {
     CHECK(Fx->argument && Fx->increment && !Fx->live && Fx->optional && dim_equal(Fx->d, DIM_FORCE));
     CHECK(Fx->group && Fx->group == dx->group && Fx->way != dx->way && Fx->in == 0 && Fx->must == ANY);
     CHECK(FN->live && !FN->increment && FN->in == 1 + IN_FN && FN->group == 0);
-    CHECK(!dz->optional && dz->must == POSITIVE && dz->in == 0);
+    CHECK(!dz->optional && dz->in == 1 + IN_DZ);
     CHECK(!steps->argument && steps->holes == 1 && steps->hole[0].most == 1000);
     CHECK(grammar_clause(&parsed, "steps") == steps && !grammar_clause(&parsed, "step"));
 }
@@ -59,7 +59,7 @@ static void arguments(void) {
 static void ways(void) {
     CHECK(parses("R:=10 mm | R1=20 mm R2=20 mm"));
     CHECK(parsed.clause[1].way == parsed.clause[2].way && parsed.clause[0].way != parsed.clause[1].way);
-    CHECK(parsed.clause[0].group == parsed.clause[2].group && parsed.clause[2].must == NONZERO);
+    CHECK(parsed.clause[0].group == parsed.clause[2].group && parsed.clause[2].must == CURVED);
     CHECK(parses("n:=3 [A:=50 m^-2 | h:=1 um r0:=1 mm] [all]"));
     CHECK(parsed.clause[0].group == 0 && parsed.clause[4].group == 0);
     CHECK(parsed.clause[1].group && parsed.clause[1].group == parsed.clause[3].group);

@@ -6,7 +6,7 @@
 #include "unit.h"
 
 static const char *const kinds[] = {"power",        "sum",          "flat-cone", "flat-paraboloid",
-                                    "flat-rounded", "exact-sphere", "table"};
+                                    "flat-rounded", "exact-sphere", "table",     "flat"};
 
 /* The worst error of each shape at each k, for FRET_UNIT_VERBOSE. */
 enum { SHAPES = 7, GRADINGS = 9 };
