@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "commands/columns.h"
 #include "commands/expressions.h"
 #include "commands/range.h"
 #include "commands/study_commands.h"
 #include "study/fit.h"
 #include "study/uncertainty.h"
-#include "text/csv.h"
 
 /* As `ans`. */
 static void answered(shell *sh, long double v, dim d) {
@@ -40,31 +40,13 @@ static bool read_names(shell *sh, lexer *lx, fit_question *q) {
     }
 }
 
-/* An angle needs its unit as lengths do. */
-static bool same_dim(dim a, dim b) {
-    return dim_equal(a, b) && (a.rad != 0) == (b.rad != 0);
-}
-
-/* Column `name` of this dimension; NULL: there is none, or with an error it is not of it. */
-static const double *column_of(const csv *data, const char *name, dim d, calc_error *error) {
-    char wants[128], is[128];
-    if (!csv_has(data, name))
-        return NULL;
-    const csv_values *of_file = csv_column(data, name, error);
-    if (!of_file || same_dim(of_file->d, d))
-        return of_file ? of_file->v : NULL;
-    dim_describe(d, wants, sizeof wants);
-    dim_describe(of_file->d, is, sizeof is);
-    calc_fail(error, 0, 0, "column %s is %s: it needs the unit of %s in the header", name, is, wants);
-    return NULL;
-}
-
 /* Columns as names: of inputs that the scene takes, or free ones. Those that are results, or no names, have
  * no say, and are missed if they are asked for; one that is named in vain is no matter. */
-static bool read_columns(shell *sh, const csv *data, fit_question *q, size_t names, calc_error *error) {
+static bool read_columns(shell *sh, csv *data, fit_question *q, csv_values *of[], size_t names,
+                         calc_error *error) {
     _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
     for (size_t i = 0; i < data->columns; i++) {
-        const csv_values *of_file = &data->column[i];
+        csv_values *of_file = &data->column[i];
         calc_error *useless = error_quiet();
         lexer lx;
         knob *k = &q->column[q->columns].name;
@@ -72,8 +54,9 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, size_t nam
         if (useless->raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble ||
             of_file->twice)
             continue;
-        const quantity *of = quantity_find(of_file->name, strlen(of_file->name));
-        if ((of && !quantity_is_input(of)) || (!of && name_taken(of_file->name, strlen(of_file->name))))
+        const quantity *known = quantity_find(of_file->name, strlen(of_file->name));
+        if ((known && !quantity_is_input(known)) ||
+            (!known && name_taken(of_file->name, strlen(of_file->name))))
             continue;
         if (!names_wake(sh, &lx, names))
             return calc_no_memory(error);
@@ -81,15 +64,15 @@ static bool read_columns(shell *sh, const csv *data, fit_question *q, size_t nam
         if (k->is_input && !calc_takes(&sh->calc, k->in, error_quiet()))
             continue;
         if (k->is_input && !same_dim(k->d, of_file->d))
-            return column_of(data, of_file->name, k->d, error) != NULL;
+            return columns_take(data, of_file->name, k->d, error) != NULL;
         k->d = of_file->d;
-        q->column[q->columns++].v = of_file->v;
+        of[q->columns++] = of_file;
     }
     return true;
 }
 
 /* A quantity in the equation that is also a column, whose rows it does not take: one of them was meant. */
-static bool ambiguous(const shell *sh, const csv *data, const expr *e, calc_error *error) {
+static bool ambiguous(const shell *sh, csv *data, const expr *e, calc_error *error) {
     const quantity *of;
     bool call;
     size_t at;
@@ -108,23 +91,43 @@ static bool ambiguous(const shell *sh, const csv *data, const expr *e, calc_erro
     return false;
 }
 
-static bool uses_columns(const shell *sh, const fit_question *q) {
+static bool is_mentioned(const shell *sh, const fit_question *q, const knob *k) {
+    const quantity *of = k->is_input ? quantity_of_input(k->in) : NULL;
+    const char *own = k->is_input ? NULL : k->text;
+    return expr_mentions(&sh->calc, q->left, of, own) || expr_mentions(&sh->calc, q->right, of, own);
+}
+
+/* Values of the columns that have a say: inputs, and names in the equation, of which there must be one. An
+ * input that is not in it may be no number. */
+static bool load_columns(shell *sh, csv *data, fit_question *q, csv_values *of[], calc_error *error) {
+    char layout[CALC_ERROR_TEXT / 2];
+    size_t kept = 0;
+    bool any = false, turned = false;
     for (size_t i = 0; i < q->columns; i++) {
-        const knob *k = &q->column[i].name;
-        const quantity *of = NULL;
-        const char *own = k->text;
-        if (k->is_input) {
-            of = quantity_of_input(k->in);
-            own = NULL;
-        }
-        if (expr_mentions(&sh->calc, q->left, of, own) || expr_mentions(&sh->calc, q->right, of, own))
-            return true;
+        const knob k = q->column[i].name;
+        const bool mentioned = is_mentioned(sh, q, &k);
+        if (!mentioned && !(k.is_input && csv_load(data, of[i], error_quiet())))
+            continue;
+        if (!csv_load(data, of[i], error))
+            return false;
+        any = any || mentioned;
+        turned = (k.is_input && k.in == IN_FN && columns_turn_pull(data, of[i])) || turned;
+        q->column[kept++] = (fit_column){k, of[i]->v};
     }
-    return false;
+    q->columns = kept;
+    csv_layout(data, layout, sizeof layout);
+    if (!any)
+        return calc_fail(error, q->left->at, q->right->at + q->right->len - q->left->at,
+                         "no column of %.100s is in the equation: %s", data->path, layout);
+    if (!csv_settle(data, error))
+        return false;
+    columns_say(sh, data, turned ? TURNED_FN : "");
+    q->rows = data->rows;
+    return true;
 }
 
 /* A name that is unknown because something is wrong in its column. */
-static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
+static bool read_side(shell *sh, lexer *lx, csv *data, expr *e) {
     char name[CSV_NAME];
     calc_error wrong, *error = lx->error;
     if (expr_parse_at(&sh->calc, lx, e))
@@ -143,71 +146,69 @@ static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
     return false;
 }
 
-static bool read_side_in(shell *sh, const lexer *lx, const span *part, const csv *data, expr *e) {
+static bool read_side_in(shell *sh, const lexer *lx, const span *part, csv *data, expr *e) {
     lexer own = hole_lexer(lx, part);
     return read_side(sh, &own, data, e) && at_end(&own);
 }
 
-static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, size_t names) {
+static bool read_equation(shell *sh, lexer *lx, said *all, const choices *chosen, fit_question *q, csv *data,
+                          size_t names) {
     const heard *sides = said_of(all, "for", 0), *to = said_of(all, "to", 0);
-    char name[FILE_NAME];
+    csv_values *of[FIT_COLUMNS];
     if (!to)
         return lex_fail(lx, "expected to FILE.csv");
-    if (!hole_file(lx, &to->hole[0], name) || !csv_read(name, &shell_stop, data, lx->error) ||
-        !read_columns(sh, data, q, names, lx->error) ||
+    if (!columns_read(lx, &to->hole[0], chosen, data) || !read_columns(sh, data, q, of, names, lx->error) ||
         !read_side_in(sh, lx, &sides->hole[0], data, &sh->list[0]) ||
         !read_side_in(sh, lx, &sides->hole[1], data, &sh->list[1]))
         return false;
     q->left = &sh->list[0];
     q->right = &sh->list[1];
-    q->rows = data->rows;
-    if (ambiguous(sh, data, q->left, lx->error) || ambiguous(sh, data, q->right, lx->error))
-        return false;
-    if (!uses_columns(sh, q)) {
-        char columns[CALC_ERROR_TEXT / 2];
-        csv_names(data, columns, sizeof columns);
-        return calc_fail(lx->error, q->left->at, q->right->at + q->right->len - q->left->at,
-                         "no column of %.100s is in the equation: they are %s", name, columns);
-    }
-    return true;
+    return !ambiguous(sh, data, q->left, lx->error) && !ambiguous(sh, data, q->right, lx->error) &&
+           load_columns(sh, data, q, of, lx->error);
 }
 
-static void no_loop(const csv *data, const char *misses, calc_error *error) {
-    char names[CALC_ERROR_TEXT / 2];
-    csv_names(data, names, sizeof names);
-    calc_fail(error, 0, 0,
-              "%.200s has no column %s: a loop needs dx and Fx, and may have FN or dz; its columns are %s",
-              data->path, misses, names);
-}
-
-static bool read_loop(const lexer *lx, const heard *along, fit_question *q, csv *data) {
-    char name[FILE_NAME];
+static bool read_loop(shell *sh, const lexer *lx, const heard *along, const choices *chosen, fit_question *q,
+                      csv *data) {
     calc_error *error = lx->error;
-    if (!hole_file(lx, &along->hole[0], name) || !csv_read(name, &shell_stop, data, error))
+    if (!columns_read(lx, &along->hole[0], chosen, data))
+        return false;
+    const char *by = csv_has(data, "FN") ? "FN" : csv_has(data, "dz") ? "dz" : NULL;
+    q->loop.normal_by = by && by[0] == 'd' ? BY_DISPLACEMENT : BY_FORCE;
+    csv_values *dx = columns_take(data, "dx", DIM_LENGTH, error),
+               *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL,
+               *normal =
+                   Fx && by ? columns_take(data, by, by[0] == 'd' ? DIM_LENGTH : DIM_FORCE, error) : NULL;
+    if (!csv_has(data, "dx") || !csv_has(data, "Fx"))
+        calc_append(&sh->calc, error, " (a loop needs dx and Fx, and may have FN or dz)");
+    if (error->raised || !csv_settle(data, error))
         return heard_place(error, along);
+    const bool against = columns_opposed(data, dx, Fx),
+               pull = q->loop.normal_by == BY_FORCE && columns_turn_pull(data, normal);
+    if (against)
+        columns_turn(data, Fx);
+    columns_say(sh, data,
+                against && pull ? TURNED_FX ", " TURNED_FN
+                : against       ? TURNED_FX
+                : pull          ? TURNED_FN
+                                : "");
     q->rows = data->rows;
-    q->loop.dx = column_of(data, "dx", DIM_LENGTH, error);
-    q->loop.Fx = column_of(data, "Fx", DIM_FORCE, error);
-    q->loop.normal = column_of(data, "FN", DIM_FORCE, error);
-    q->loop.normal_by = BY_FORCE;
-    if (!q->loop.normal) {
-        q->loop.normal = column_of(data, "dz", DIM_LENGTH, error);
-        q->loop.normal_by = BY_DISPLACEMENT;
-    }
-    if (!error->raised && (!q->loop.dx || !q->loop.Fx))
-        no_loop(data, q->loop.dx ? "Fx" : "dx", error);
-    return !error->raised || heard_place(error, along);
+    q->loop.dx = dx->v;
+    q->loop.Fx = Fx->v;
+    q->loop.normal = normal ? normal->v : NULL;
+    return true;
 }
 
 static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, size_t names) {
     const heard *along = said_of(all, "along", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
+    choices chosen;
     q->c = &sh->calc;
-    if (!read_names(sh, &own, q))
+    if (!read_names(sh, &own, q) || !choices_of(all, &chosen, lx->error))
         return false;
     if (!along && !said_of(all, "for", 0))
         return lex_fail(lx, "expected for EXPR = EXPR to FILE.csv, or along FILE.csv");
-    return along ? read_loop(lx, along, q, data) : read_equation(sh, lx, all, q, data, names);
+    return along ? read_loop(sh, lx, along, &chosen, q, data)
+                 : read_equation(sh, lx, all, &chosen, q, data, names);
 }
 
 /* ---- fit: what is said ------------------------------------------------------------------------- */

@@ -3,6 +3,7 @@
 #ifndef COMMANDS_LOOKS_H
 #define COMMANDS_LOOKS_H
 
+#include "commands/columns.h"
 #include "commands/expressions.h"
 #include "plot/plot.h"
 
@@ -19,6 +20,8 @@ typedef struct looks {
     limits x, y;
     size_t files;
     span over[OVER];
+    choices chosen[OVER]; /* of their columns */
+    shell *sh;
 } looks;
 
 /* The table of looks, a clause a line, and what an axis of theirs may be; NULL after the last. */

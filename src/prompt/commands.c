@@ -33,6 +33,7 @@ const hole_row holes[] = {
     {.name = "MU", .kind = HOLE_VALUE, .noun = "mu"},
     {.name = "N", .kind = HOLE_COUNT},
     {.name = "SECONDS", .kind = HOLE_SECONDS},
+    {.name = "COLUMN", .kind = HOLE_COLUMN},
     {.name = "TEXT", .kind = HOLE_TEXT},
     {.name = "FILE", .kind = HOLE_FILE},
     {.name = "LOAD", .kind = HOLE_LOAD, .words = load_name},
@@ -203,7 +204,7 @@ const command commands[] = {
      .group = "the load",
      .keywords = "csv history measured",
      .changes = true,
-     .takes = "FILE.csv",
+     .takes = "FILE.csv [using NAME = COLUMN, ...]",
      .summary = "load along a table of FN,Fx or dz,dx",
      .help = "The header gives the columns and their units. Every row is a straight step; one\n"
              "that cannot be carried leaves the scene as before the command. Where nothing is\n"
@@ -368,7 +369,7 @@ const command commands[] = {
      .run = do_fit,
      .group = "backwards",
      .keywords = "least squares regression identify parameter measured data inverse calibrate",
-     .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv]",
+     .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv] [using NAME = COLUMN, ...]",
      .summary = "inputs from measured data, with how sure they are",
      .help = "Starts from the present values; the scene stays as it is. With `for` each row is\n"
              "an equation whose columns are names: depth = dz(force). With `along` the file is\n"
