@@ -502,6 +502,7 @@ bool do_follow(shell *sh, lexer *lx, const command *self) {
     if (!said_read(sh, lx, command_form(self), &s) || !choices_of(&s, &chosen, lx->error))
         return false;
     const bool ok = columns_read(lx, &s.list[0].hole[0], &chosen, &data) && follow_file(sh, &data, lx->error);
+    said_drop(sh, &s);
     csv_free(&data);
     if (!ok)
         return heard_place(lx->error, &s.list[0]);

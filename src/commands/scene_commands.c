@@ -464,11 +464,11 @@ bool do_geometry(shell *sh, lexer *lx, const command *self) {
         return false;
     const geometry *g = geometry_row(s.row);
     edit e = {.geometry = g};
-    if (g->by == PARAMETERS_FILE)
-        return read_gap_file(sh, lx, &s, &e);
     e.sum = g->by == PARAMETERS_TERMS ? &sum : NULL;
-    const bool ok = (e.sum ? read_sum(sh, lx, &s.list[0].hole[0], &sum) : put_parameters(lx, g, &e, &s)) &&
-                    scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    const bool ok = g->by == PARAMETERS_FILE ? read_gap_file(sh, lx, &s, &e)
+                                             : (e.sum ? read_sum(sh, lx, &s.list[0].hole[0], &sum)
+                                                      : put_parameters(lx, g, &e, &s)) &&
+                                                   scene_edit(&sh->calc.scene, apply, &e, lx->error);
     said_drop(sh, &s);
     return ok;
 }

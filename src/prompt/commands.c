@@ -388,6 +388,29 @@ const command commands[] = {
              "    fret> fit E0 for depth = dz(force) to depth.csv\n"
              "    E0 = 199.259 GPa +- 1.06 GPa\n"
              "    rms = 17.5911 nm over 4 rows\n"},
+    {.name = "loop",
+     .run = do_loop,
+     .group = "backwards",
+     .keywords = "measured hysteresis csv energy stiffness gross slip sliding rig file cycle",
+     .takes = "FILE.csv [using NAME = COLUMN, ...] [to FILE]",
+     .summary = "what a measured loop says by itself, cycle by cycle",
+     .help = "Of each cycle of dx, Fx, between turning points above the noise: the energy dW that\n"
+             "its rows enclose, the amplitudes dxA and FA, the centre dx0, Fx0, the secant\n"
+             "stiffness FA/dxA, the stiffness of unloading behind the turning points, the slope\n"
+             "of the flanks before them as a part of that (below 0.05 they slide), and\n"
+             "dW/(4*FA*dxA). Rows that are a polygon of M to a cycle enclose (2*pi/M)^2/6 too\n"
+             "little. No scene is needed, and none is changed. `to FILE` writes a table, a row\n"
+             "a cycle; `help files` tells what is read.\n\n"
+             "    $ cat rig.csv\n"
+             "    Weg (um);Kraft (N)\n"
+             "    -2;-30\n"
+             "    -1;30\n"
+             "    1;30\n"
+             "    2;30\n"
+             "    1;-30\n"
+             "    -1;-30\n"
+             "    -2;-30\n"
+             "    fret> loop rig.csv\n"},
     {.name = "uncertainty",
      .run = do_uncertainty,
      .group = "backwards",

@@ -9,9 +9,10 @@ typedef struct place {
     double r, f;
 } place;
 
-/* What is left of the asymmetry about x, a mean square, and the tilt that was taken off. */
+/* What is left of the asymmetry about x, as a part of how the sum of both sides varies: a flank alone is
+ * symmetric but for a tilt, and hardly varies; and the tilt that was taken off. */
 typedef struct asymmetry {
-    double left, tilt;
+    double left, square, tilt; /* square: what is left, a mean square */
     size_t pairs;
 } asymmetry;
 
@@ -31,8 +32,8 @@ static double between(const place *p, double r) {
 }
 
 static asymmetry about(const place *p, size_t n, double x, bool tilted) {
-    asymmetry a = {INFINITY, 0, 0};
-    double DD = 0, Dd = 0, dd = 0;
+    asymmetry a = {INFINITY, INFINITY, 0, 0};
+    double DD = 0, Dd = 0, dd = 0, E = 0, EE = 0;
     size_t right = 0;
     while (right < n && p[right].r <= x)
         right++;
@@ -43,7 +44,10 @@ static asymmetry about(const place *p, size_t n, double x, bool tilted) {
         if (left == 0)
             break;
         const size_t first = left + 1 < n ? left - 1 : n - 3;
-        const double D = p[right].f - between(p + first, x - d);
+        const double other = between(p + first, x - d), D = p[right].f - other,
+                     S = p[right].f + other - 2 * p[n / 2].f;
+        E += S;
+        EE += S * S;
         DD += D * D;
         Dd += D * d;
         dd += d * d;
@@ -52,7 +56,9 @@ static asymmetry about(const place *p, size_t n, double x, bool tilted) {
     if (a.pairs < 4)
         return a;
     a.tilt = tilted ? Dd / dd / 2 : 0;
-    a.left = fmax(0, DD - 2 * a.tilt * Dd) / (double)a.pairs;
+    const double rest = fmax(0, DD - 2 * a.tilt * Dd), varies = EE - E * E / (double)a.pairs;
+    a.left = varies > 0 ? rest / varies : INFINITY;
+    a.square = rest / (double)a.pairs;
     return a;
 }
 
@@ -60,7 +66,7 @@ static asymmetry about(const place *p, size_t n, double x, bool tilted) {
 static asymmetry least(const place *p, size_t n, bool tilted, double *at) {
     enum { PLACES = 160, STEPS = 60 };
     const double first = 0.9 * p[0].r + 0.1 * p[n - 1].r, step = 0.8 * (p[n - 1].r - p[0].r) / PLACES;
-    asymmetry best = {INFINITY, 0, 0};
+    asymmetry best = {INFINITY, INFINITY, 0, 0};
     for (size_t i = 0; i <= PLACES; i++) {
         const asymmetry now = about(p, n, first + (double)i * step, tilted);
         if (now.left < best.left) {
@@ -109,11 +115,11 @@ bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error) 
         const asymmetry plain = least(p, rows, false, &at), tilted = least(p, rows, true, &tilted_at),
                         here = about(p, rows, 0, false);
         out->both = true;
-        out->tilted = tilted.left < 0.5 * plain.left && 2 * tilted.pairs > plain.pairs;
+        out->tilted = tilted.square < 0.5 * plain.square && 2 * tilted.pairs > plain.pairs;
         out->at = out->tilted ? tilted_at : at;
         out->tilt = out->tilted ? tilted.tilt : 0;
         /* by chance the least is less than any by some deviations of a sum of squares */
-        out->moved = out->tilted || !(here.left <= plain.left * (1 + 6 * sqrt(2 / (double)plain.pairs)));
+        out->moved = out->tilted || !(here.square <= plain.square * (1 + 6 * sqrt(2 / (double)plain.pairs)));
     }
     free(p);
     for (size_t i = 0; i < rows && out->moved; i++) {

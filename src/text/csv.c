@@ -837,7 +837,8 @@ void csv_names(const csv *c, char *buf, size_t size) {
     *buf = 0;
     for (size_t i = 0; i < c->columns && n < size; i++)
         if (*c->column[i].name)
-            n += (size_t)snprintf(buf + n, size - n, "%s%s", i ? ", " : "", c->column[i].name);
+            n += (size_t)snprintf(buf + n, size - n, "%s%s", i ? ", " : "",
+                                  c->column[i].given ? c->column[i].title : c->column[i].name);
         else
             n += (size_t)snprintf(buf + n, size - n, "%s%zu", i ? ", " : "", i + 1);
 }
