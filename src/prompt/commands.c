@@ -206,11 +206,12 @@ const command commands[] = {
      .changes = true,
      .takes = "FILE.csv [using NAME = COLUMN, ...]",
      .summary = "load along a table of FN,Fx or dz,dx",
-     .help = "The header gives the columns and their units. Every row is a straight step; one\n"
-             "that cannot be carried leaves the scene as before the command. Where nothing is\n"
-             "pressed yet the first row presses, and must have Fx or dx = 0. A file of\n"
-             "`history to` has both pairs, and W: it is followed where they agree in this\n"
-             "scene. `help files` tells what else such a file may hold.\n\n"
+     .help = "The header gives the columns and their units, or `using`. Of dx,Fx the first\n"
+             "drives and Fx is compared. Every row is a straight step; one that cannot be\n"
+             "carried leaves the scene as before the command. Where nothing is pressed yet\n"
+             "the first row presses, and must have Fx or dx = 0. A file of `history to` has\n"
+             "both pairs, and W: it is followed where they agree in this scene. `help files`\n"
+             "tells what else such a file may hold.\n\n"
              "    $ cat load.csv\n"
              "    FN [N],Fx [N]\n"
              "    100,0\n"
@@ -394,13 +395,12 @@ const command commands[] = {
      .keywords = "measured hysteresis csv energy stiffness gross slip sliding rig file cycle",
      .takes = "FILE.csv [using NAME = COLUMN, ...] [to FILE]",
      .summary = "what a measured loop says by itself, cycle by cycle",
-     .help = "Of each cycle of dx, Fx, between turning points above the noise: the energy dW that\n"
-             "its rows enclose, the amplitudes dxA and FA, the centre dx0, Fx0, the secant\n"
-             "stiffness FA/dxA, the stiffness of unloading behind the turning points, the slope\n"
-             "of the flanks before them as a part of that (below 0.05 they slide), and\n"
-             "dW/(4*FA*dxA). Rows that are a polygon of M to a cycle enclose (2*pi/M)^2/6 too\n"
-             "little. No scene is needed, and none is changed. `to FILE` writes a table, a row\n"
-             "a cycle; `help files` tells what is read.\n\n"
+     .help = "Of each cycle of dx, Fx, between turning points above the noise: the energy dW\n"
+             "that its rows enclose (of M rows (2*pi/M)^2/6 too little), the amplitudes dxA\n"
+             "and FA, the centre dx0, Fx0, the secant stiffness FA/dxA, the stiffness of\n"
+             "unloading behind the turning points, the slope of the flanks before them as a\n"
+             "part of that (below 0.05 they slide), and the energy ratio dW/(4*FA*dxA). No\n"
+             "scene is needed. `to FILE` writes a table. `help files` tells what is read.\n\n"
              "    $ cat rig.csv\n"
              "    Weg (um);Kraft (N)\n"
              "    -2;-30\n"
@@ -410,7 +410,25 @@ const command commands[] = {
              "    1;-30\n"
              "    -1;-30\n"
              "    -2;-30\n"
-             "    fret> loop rig.csv\n"},
+             "    fret> loop rig.csv\n"
+             "    note: rig.csv: 7 rows from line 2, dx from \"Weg (um)\", Fx from \"Kraft (N)\", 1 cycle\n"
+             "    cycle 1, from line 2\n"
+             "        dW = 180 uJ\n"
+             "        dxA = 2 um\n"
+             "        FA = 30 N\n"
+             "        dx0 = 0 m\n"
+             "        Fx0 = 0 N\n"
+             "        secant = 15 MN/m\n"
+             "        unloading = 60 MN/m\n"
+             "        flank = 0\n"
+             "        energy_ratio = 0.75\n"
+             "        flanks: slide\n"
+             "    all\n"
+             "        drift_dx = 0 m\n"
+             "        drift_Fx = 0 N\n"
+             "        noise_dx = 0 m\n"
+             "        noise_Fx = 0 N\n"
+             "        row 1: is not at rest\n"},
     {.name = "uncertainty",
      .run = do_uncertainty,
      .group = "backwards",

@@ -68,39 +68,30 @@ size_t turning_points(const double *v, size_t n, double noise, size_t *at) {
 }
 
 bool turning_parabola(const double *x, const double *y, size_t n, double x0, bool line, double c[3]) {
-    long double S[5] = {0}, T[3] = {0}, size = 0;
-    c[0] = c[1] = c[2] = 0;
+    long double M[3][4] = {{0}}, size = 0; /* the normal equations, their right side behind */
+    const size_t terms = n < 4 || line ? 2 : 3;
     for (size_t i = 0; i < n; i++)
         size = fmaxl(size, fabsl((long double)x[i] - x0));
     for (size_t i = 0; i < n && size > 0; i++) {
-        long double power = 1;
-        const long double u = ((long double)x[i] - x0) / size;
-        for (int k = 0; k < 5; k++, power *= u) {
-            S[k] += power;
-            if (k < 3)
-                T[k] += power * ((long double)y[i] - y[0]);
+        const long double u = ((long double)x[i] - x0) / size, power[] = {1, u, u * u},
+                          v = (long double)y[i] - y[0];
+        for (size_t k = 0; k < terms; k++) {
+            for (size_t l = 0; l < terms; l++)
+                M[k][l] += power[k] * power[l];
+            M[k][3] += power[k] * v;
         }
     }
-    const long double two = S[0] * S[2] - S[1] * S[1];
-    if (!(two > 1e-9L * S[0] * S[2]))
-        return false;
-    const long double det = S[0] * (S[2] * S[4] - S[3] * S[3]) - S[1] * (S[1] * S[4] - S[3] * S[2]) +
-                            S[2] * (S[1] * S[3] - S[2] * S[2]);
-    long double c0 = (T[0] * S[2] - S[1] * T[1]) / two, c1 = (S[0] * T[1] - S[1] * T[0]) / two, c2 = 0;
-    if (n >= 4 && !line && det > 1e-12L * S[0] * S[2] * S[4]) {
-        c0 = (T[0] * (S[2] * S[4] - S[3] * S[3]) - S[1] * (T[1] * S[4] - S[3] * T[2]) +
-              S[2] * (T[1] * S[3] - S[2] * T[2])) /
-             det;
-        c1 = (S[0] * (T[1] * S[4] - S[3] * T[2]) - T[0] * (S[1] * S[4] - S[3] * S[2]) +
-              S[2] * (S[1] * T[2] - T[1] * S[2])) /
-             det;
-        c2 = (S[0] * (S[2] * T[2] - T[1] * S[3]) - S[1] * (S[1] * T[2] - T[1] * S[2]) +
-              T[0] * (S[1] * S[3] - S[2] * S[2])) /
-             det;
+    c[2] = 0;
+    for (size_t k = 0; k < terms; k++) { /* positive definite: no pivots */
+        if (!(M[k][k] > 1e-12L * (long double)n))
+            return false;
+        for (size_t r = 0; r < terms; r++)
+            for (size_t l = 4; l-- > k && r != k;)
+                M[r][l] -= M[r][k] / M[k][k] * M[k][l];
     }
-    c[0] = (double)(c0 + y[0]);
-    c[1] = (double)(c1 / size);
-    c[2] = (double)(c2 / size / size);
+    for (size_t k = 0; k < terms; k++)
+        c[k] = (double)(M[k][3] / M[k][k] / powl(size, (long double)k));
+    c[0] += y[0];
     return true;
 }
 

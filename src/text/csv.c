@@ -149,44 +149,36 @@ static bool next_cell(char separator, const char *line, size_t len, size_t *at, 
 
 /* ---- the text ---------------------------------------------------------------------------------- */
 
-static bool add_text(csv *c, size_t *len, size_t *room, const file_in *in, calc_error *error) {
-    if (memchr(in->line, 0, in->length))
-        return calc_fail(error, 0, 0,
-                         "%s:%llu: this is no text, or UTF-16 without its mark: save it as UTF-8", c->path,
-                         in->number);
-    if (*len + in->length + 2 > *room) {
-        *room = 2 * (*len + in->length) + 256;
-        char *text = realloc(c->text, *room);
-        if (!text)
-            return calc_no_memory(error);
-        c->text = text;
-    }
-    memcpy(c->text + *len, in->line, in->length);
-    *len += in->length;
-    c->text[(*len)++] = '\n';
-    c->text[*len] = 0;
-    return true;
-}
-
 /* Lines that end by carriage returns alone are one line to others. */
 static bool read_text(csv *c, file_stop stop, size_t *len, calc_error *error) {
     file_in in;
-    size_t room = 0;
+    file_text all;
+    file_got got = FILE_GOT_END;
+    bool ok = true;
     if (!file_in_open(&in, c->path, stop, error))
         return false;
-    bool ok = true;
-    file_got got = FILE_GOT_END;
-    *len = 0;
-    while (ok && (got = file_in_line(&in, error)) == FILE_GOT_LINE)
-        ok = add_text(c, len, &room, &in, error);
-    if (ok && in.read == 1)
-        for (char *end = c->text; (end = strchr(end, '\r'));)
-            *end = '\n';
+    if (!file_text_open(&all)) {
+        file_in_close(&in);
+        return calc_no_memory(error);
+    }
+    while (ok && (got = file_in_line(&in, error)) == FILE_GOT_LINE) {
+        fwrite(in.line, 1, in.length, all.to);
+        putc('\n', all.to);
+        ok = !memchr(in.line, 0, in.length) ||
+             calc_fail(error, 0, 0, "%s:%llu: this is no text, or UTF-16 without its mark: save it as UTF-8",
+                       c->path, in.number);
+    }
+    const bool one = in.read == 1;
     file_in_close(&in);
+    if (!file_text_close(&all))
+        return calc_no_memory(error);
+    c->text = all.text;
+    *len = all.size;
+    for (char *end = c->text; one && ok && (end = strchr(end, '\r'));)
+        *end = '\n';
     if (ok && got == FILE_GOT_STOP)
         return calc_interrupted(error);
-    return ok && got != FILE_GOT_ERROR &&
-           (*len == 0 || encoding_to_utf8(&c->text, len, &c->encoding, c->path, error));
+    return ok && got != FILE_GOT_ERROR && encoding_to_utf8(&c->text, len, &c->encoding, c->path, error);
 }
 
 /* ---- the table --------------------------------------------------------------------------------- */
@@ -197,7 +189,7 @@ typedef struct said_line {
     csv_row at;
     bool comment;
     unsigned fields;
-    unsigned long long numbers, words;
+    unsigned long long numbers, words, labels; /* labels: words of more than one letter */
 } said_line;
 
 typedef struct finder {
@@ -205,7 +197,7 @@ typedef struct finder {
     calc_error *error;
     file_stop stop;
     said_line *list;
-    size_t count, room;
+    size_t count;
     unsigned long long usual; /* the numbers of a row */
     char title[CSV_COLUMNS][CSV_NAME];
 } finder;
@@ -223,18 +215,22 @@ static unsigned count_bits(unsigned long long bits) {
     return n;
 }
 
+static bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (unsigned char)c >= 0x80;
+}
+
 static void scan_line(const char *text, char separator, said_line *l) {
     size_t at = 0;
-    cell f;
+    cell c = {.ends = false};
     l->fields = 0;
-    l->numbers = l->words = 0;
-    while (next_cell(separator, text, l->at.len, &at, &plain_unit, &f) && f.is != COMMENT) {
+    l->numbers = l->words = l->labels = 0;
+    while (!c.ends && next_cell(separator, text, l->at.len, &at, &plain_unit, &c) && c.is != COMMENT) {
         const unsigned long long bit = 1ULL << (l->fields < CSV_COLUMNS ? l->fields : CSV_COLUMNS - 1);
-        l->numbers |= f.is == NUMBER ? bit : 0;
-        l->words |= f.is == WORD ? bit : 0;
+        l->numbers |= c.is == NUMBER ? bit : 0;
+        l->words |= c.is == WORD ? bit : 0;
+        l->labels |=
+            c.is == WORD && c.f.len > 1 && is_letter(c.f.text[0]) && is_letter(c.f.text[1]) ? bit : 0;
         l->fields++;
-        if (f.ends)
-            break;
     }
 }
 
@@ -255,20 +251,18 @@ static bool is_comment(field f) {
 
 static bool cut_lines(finder *t, size_t len) {
     const char *text = t->c->text;
+    size_t lines = 1;
+    for (const char *end = text; (end = strchr(end, '\n')); end++)
+        lines++;
+    t->list = malloc(lines * sizeof *t->list);
+    t->c->row = malloc(lines * sizeof *t->c->row);
+    if (!t->list || !t->c->row)
+        return calc_no_memory(t->error);
     for (size_t at = 0, number = 1, n; at < len; at += n + 1, number++) {
-        const char *end = memchr(text + at, '\n', len - at);
-        n = end ? (size_t)(end - text) - at : len - at;
-        if (!says_something(text + at, n) || (n == 5 && !memcmp(text + at, "sep=", 4)))
-            continue;
-        if (t->count == t->room) {
-            t->room = t->room ? 2 * t->room : 256;
-            said_line *list = realloc(t->list, t->room * sizeof *list);
-            if (!list)
-                return calc_no_memory(t->error);
-            t->list = list;
-        }
-        t->list[t->count++] =
-            (said_line){.at = {number, at, n}, .comment = is_comment(trimmed(text + at, n))};
+        n = strcspn(text + at, "\n");
+        if (says_something(text + at, n) && (n != 5 || memcmp(text + at, "sep=", 4)))
+            t->list[t->count++] =
+                (said_line){.at = {number, at, n}, .comment = is_comment(trimmed(text + at, n))};
     }
     return true;
 }
@@ -381,27 +375,6 @@ static field heading(const char *text, size_t len) {
     return *text == '\t' || *text == ';' || *text == ',' ? (field){text, len} : f; /* an empty first field */
 }
 
-/* Signs of micro and degrees that were UTF-8 taken for Windows-1252, and written as UTF-8 again. */
-static void put_title(char to[CSV_NAME], field f) {
-    static const struct {
-        const char *mangled, *meant;
-    } signs[] = {
-        {"\xc3\x82\xc2\xb5", "\xc2\xb5"}, {"\xc3\x82\xc2\xb0", "\xc2\xb0"}, {"\xc3\x8e\xc2\xbc", "\xce\xbc"}};
-    size_t n = 0;
-    for (size_t i = 0; i < f.len && n + 1 < CSV_NAME; i++) {
-        size_t k = 0;
-        while (k < 3 && (f.len - i < 4 || memcmp(f.text + i, signs[k].mangled, 4)))
-            k++;
-        if (k < 3) {
-            to[n++] = signs[k].meant[0];
-            i += 3;
-        }
-        if (n + 1 < CSV_NAME)
-            to[n++] = k < 3 ? signs[k].meant[1] : f.text[i];
-    }
-    to[n] = 0;
-}
-
 /* The names in a line, those at the end without one left out: how many; 0: half of them are numbers, or there
  * are too many. */
 static size_t read_titles(finder *t, char separator, const char *text, size_t len) {
@@ -416,7 +389,8 @@ static size_t read_titles(finder *t, char separator, const char *text, size_t le
             return 0;
         numbers += is_number(f, true, &plain_unit, &v);
         if (count < CSV_COLUMNS)
-            put_title(t->title[count], f);
+            snprintf(t->title[count], CSV_NAME, "%.*s", (int)(f.len < CSV_NAME ? f.len : CSV_NAME - 1),
+                     f.text);
         count++;
         named = f.len > 0 ? count : named;
     }
@@ -496,59 +470,44 @@ trouble(csv_values *column, calc_error *error, const char *format, ...) {
     return true;
 }
 
-/* The last brackets that hold a unit; else the first. */
-static const char *find_brackets(const char *title, size_t *len) {
-    const char *best = NULL;
-    for (const char *open = title; (open = strpbrk(open, "[(")); open++) {
-        const char *end = strchr(open, closing_of(*open));
-        unit u;
-        if (!end)
-            return best ? best : open;
-        const size_t n = (size_t)(end - open) - 1;
-        if (!best || no_unit(open + 1, n) || parse_unit(open + 1, n, &u, error_quiet())) {
-            best = open;
-            *len = n;
-        }
-    }
-    return best;
-}
-
-/* Parts a title into name and unit. */
-static bool read_title(finder *t, csv_values *column) {
+/* Parts a title into name and unit, which stands in the last brackets, or behind one of the other marks. What
+ * is in brackets or behind a slash and is no unit is told where the column is asked for. */
+static bool read_title(const finder *t, csv_values *column) {
+    static const char *const before[] = {"[", "(", "/", " in ", "_"};
+    enum { SURE = 3 };
     const char *title = column->title, *path = t->c->path;
-    const size_t whole = strlen(title);
-    size_t name = whole, len = NO_LINE;
-    const char *of = find_brackets(title, &len), *last;
-    unit *u = &column->u, tried = plain_unit;
+    size_t name = strlen(title);
     calc_error wrong;
-    if (of && len == NO_LINE)
-        return calc_fail(t->error, 0, 0, "%s:%zu: a unit in the header is not closed", path,
-                         t->c->header.line);
-    if (of) {
-        name = (size_t)(of++ - title);
-    } else if ((last = strchr(title, '/'))) {
-        name = (size_t)(last - title);
-        of = last + 1;
-        len = whole - name - 1;
-    } else if (((last = strstr(title, " in ")) &&
-                parse_unit(last + 4, strlen(last + 4), &tried, error_quiet())) ||
-               ((last = strrchr(title, '_')) && last > title &&
-                parse_unit(last + 1, strlen(last + 1), &tried, error_quiet()))) {
-        name = (size_t)(last - title);
-        of = strrchr(last, *last == '_' ? '_' : ' ') + 1;
-        len = strlen(of);
+    for (size_t k = 0; k < sizeof before / sizeof *before; k++) {
+        const char *at = NULL, *closing = k == 0 ? "]" : k == 1 ? ")" : "";
+        for (const char *next = title; (next = strstr(next, before[k])); next++)
+            at = next;
+        if (!at || (k >= SURE && at == title))
+            continue;
+        const char *text = at + strlen(before[k]),
+                   *end = *closing ? strstr(text, closing) : text + strlen(text);
+        if (!end)
+            return calc_fail(t->error, 0, 0, "%s:%zu: a unit in the header is not closed", path,
+                             t->c->header.line);
+        const size_t len = (size_t)(end - text);
+        const bool known = parse_unit(text, len, &column->u, &wrong);
+        if (!known && k >= SURE)
+            continue;
+        name = (size_t)(at - title);
+        if (known || no_unit(text, len)) {
+            column->d = column->u.d;
+            column->has_unit = known;
+            free(column->trouble);
+            column->trouble = NULL;
+            break;
+        }
+        if (!trouble(column, t->error, "%.200s:%zu: column %.*s: %.200s%.*s%s", path, t->c->header.line,
+                     (int)trimmed(title, name).len, title, wrong.raised ? wrong.text : "a bad unit '",
+                     wrong.raised ? 0 : LEX_SHOWN(len), text, wrong.raised ? "" : "'"))
+            return false;
     }
     const field own = trimmed(title, name);
     snprintf(column->name, sizeof column->name, "%.*s", (int)own.len, own.text);
-    if (!of || no_unit(of, len))
-        return true;
-    if (!parse_unit(of, len, &tried, &wrong))
-        return trouble(column, t->error, "%.200s:%zu: column %s: %.200s%.*s%s", path, t->c->header.line,
-                       column->name, wrong.raised ? wrong.text : "a bad unit '",
-                       wrong.raised ? 0 : LEX_SHOWN(len), of, wrong.raised ? "" : "'");
-    *u = tried;
-    column->d = u->d;
-    column->has_unit = true;
     return true;
 }
 
@@ -620,23 +579,9 @@ static size_t find_begin(finder *t, size_t *header) {
     return first;
 }
 
-/* A line whose first number is a word, of more than one letter: `Mean;0.3;5` below rows. */
-static bool is_label(const finder *t, const said_line *l) {
-    const unsigned long long first = t->usual & (~t->usual + 1);
-    size_t at = 0, letters = 0;
-    field f = {NULL, 0};
-    if (!(l->words & first))
-        return false;
-    for (unsigned long long bit = 1; bit <= first; bit <<= 1)
-        next_field(t->c->separator, text_of(t, l), l->at.len, &at, &f);
-    while (letters < f.len && ((f.text[letters] | 0x20) >= 'a' || (unsigned char)f.text[letters] >= 0x80))
-        letters++;
-    return letters > 1;
-}
-
 /* Names with units of their own begin another table. */
 static bool begins_another(finder *t, const said_line *l) {
-    const size_t named = l->numbers ? 0 : names_in(t, l, t->list[0].fields, false);
+    const size_t named = l->numbers ? 0 : names_in(t, l, (unsigned)t->c->columns, false);
     return named >= count_bits(t->usual) && have_units(t, named);
 }
 
@@ -647,14 +592,8 @@ static bool add_row(finder *t, const said_line *l) {
                          c->path, l->at.line, c->columns);
     if (l->fields > CSV_COLUMNS)
         return calc_fail(t->error, 0, 0, "%s:%zu: more than %d columns", c->path, l->at.line, CSV_COLUMNS);
-    if (c->rows == c->room) {
-        const size_t room = c->room ? 2 * c->room : 256;
-        csv_row *row = realloc(c->row, room * sizeof *row);
-        if (!row)
-            return calc_no_memory(t->error);
-        c->row = row;
-        c->room = room;
-    }
+    while (!c->header.line && c->columns < l->fields)
+        c->column[c->columns++] = (csv_values){.u = plain_unit};
     c->row[c->rows++] = l->at;
     return true;
 }
@@ -665,7 +604,8 @@ static bool read_rows(finder *t, size_t begin, size_t header) {
         const said_line *l = &t->list[i];
         if (l->comment)
             continue;
-        if (!(l->words & t->usual) || (l->numbers & t->usual && !is_label(t, l))) {
+        const unsigned long long first = t->usual & (~t->usual + 1);
+        if (!(l->words & t->usual) || (l->numbers & t->usual && !(l->labels & first))) { /* no `Mean;0.3;5` */
             if (!add_row(t, l))
                 return false;
             continue;
@@ -675,12 +615,6 @@ static bool read_rows(finder *t, size_t begin, size_t header) {
         c->first_word = c->words++ ? c->first_word : l->at.line;
         if (header != NO_LINE && begins_another(t, l))
             break;
-    }
-    for (size_t i = 0; i < c->rows && header == NO_LINE; i++) {
-        said_line l = {.at = c->row[i]};
-        scan_line(text_of(t, &l), c->separator, &l);
-        while (c->columns < l.fields && c->columns < CSV_COLUMNS)
-            c->column[c->columns++] = (csv_values){.u = plain_unit};
     }
     return true;
 }

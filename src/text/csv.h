@@ -29,9 +29,9 @@ typedef struct csv_row {
 
 typedef struct csv {
     char *path, *text;
-    const char *encoding; /* NULL: it is UTF-8, or says what it is */
+    const char *encoding; /* NULL: one that leaves nothing to tell */
     char separator;       /* ' ': blanks and tabs */
-    size_t columns, rows, room;
+    size_t columns, rows;
     csv_values column[CSV_COLUMNS];
     csv_row *row;
     csv_row header;           /* line 0: there is none */

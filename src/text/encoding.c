@@ -34,14 +34,6 @@ static bool is_japanese(const char *text, size_t len) {
     return sure >= 2;
 }
 
-/* That there is but this sign leaves nothing to tell. */
-static bool micro_alone(const char *text, size_t len) {
-    size_t i = 0;
-    while (i < len && ((unsigned char)text[i] < 0x80 || (unsigned char)text[i] == 0xb5))
-        i++;
-    return i == len;
-}
-
 /* Each byte is a character, of at most 3 bytes. */
 static size_t western(const char *text, size_t len, char *to) {
     static const unsigned short high[32] = {0x20ac, 0xfffd, 0x201a, 0x192,  0x201e, 0x2026, 0x2020, 0x2021,
@@ -71,16 +63,30 @@ static size_t japanese(char *text, size_t len, char *to, size_t room) {
     return ok ? room - left : 0;
 }
 
+/* Signs of micro and degrees that were UTF-8 taken for Windows-1252, and written as UTF-8 again. */
+static void unmangle(char *text, size_t *len) {
+    size_t n = 0;
+    for (size_t i = 0; i < *len; i++) {
+        if (!strncmp(text + i, "\xc3\x82\xc2\xb5", 4) || !strncmp(text + i, "\xc3\x82\xc2\xb0", 4))
+            i += 2;
+        text[n++] = text[i];
+    }
+    text[n] = 0;
+    *len = n;
+}
+
 bool encoding_to_utf8(char **text, size_t *len, const char **was, const char *path, calc_error *error) {
     *was = NULL;
-    if (is_utf8(*text, *len))
+    if (is_utf8(*text, *len)) {
+        unmangle(*text, len);
         return true;
+    }
     const size_t room = 3 * *len;
     char *to = malloc(room + CHARACTER_BYTES);
     if (!to)
         return calc_no_memory(error);
     const bool by_pairs = is_japanese(*text, *len);
-    *was = by_pairs ? "Shift-JIS" : micro_alone(*text, *len) ? NULL : "Windows-1252";
+    *was = by_pairs ? "Shift-JIS" : NULL;
     *len = by_pairs ? japanese(*text, *len, to, room) : western(*text, *len, to);
     if (*len == 0) {
         free(to);

@@ -6,7 +6,7 @@
 #include "text/error.h"
 
 /* Makes *text, which may be freed, UTF-8, and NUL-terminated: of Windows-1252, or of Shift-JIS where the
- * system's iconv knows it. was: which it was, NULL where it was UTF-8 already. An error names the encoding
+ * system's iconv knows it. was: "Shift-JIS", or NULL. An error names the encoding
  * that this program cannot read. */
 bool encoding_to_utf8(char **text, size_t *len, const char **was, const char *path, calc_error *error);
 

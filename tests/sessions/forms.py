@@ -28,7 +28,7 @@ SAME = {
     "tabs.txt": NAMED + ONE, "blanks.txt": NAMED + ONE, "carriage-returns.csv": NAMED + ONE, "quoted.csv": NAMED + ONE,
     "decimal-commas.csv": NAMED + ', dx from "Weg [um]", Fx from "Kraft [N]"' + ONE,
     "decimal-commas-blanks.txt": NAMED + ', dx from "Weg[um]", Fx from "Kraft[N]"' + ONE,
-    "windows-1252.csv": '11 rows from line 3, dx from "Weg [\u00b5m]", Fx from "Kraft [N]", read as Windows-1252' + ONE,
+    "windows-1252.csv": '11 rows from line 3, dx from "Weg [\u00b5m]", Fx from "Kraft [N]"' + ONE,
     "utf-16.txt": NAMED + ONE, "utf-16-no-mark.txt": NAMED + ONE, "mangled-micro.csv": NAMED + ONE,
     "empty-first-field.csv": NAMED + ONE, "comment-column.csv": NAMED + ONE,
     "names-with-blanks.txt": NAMED + ', dx from "Lateral Displacement (um)", Fx from "Load On Sample (kN)"' + ONE,
