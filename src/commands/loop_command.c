@@ -68,7 +68,7 @@ static void report_cycles(answer *a, const csv *data, const loop_answer *l) {
     answer_quantity(a, "drift_Fx", (value){l->drift_Fx, DIM_FORCE});
     answer_quantity(a, "noise_dx", (value){l->noise_dx, DIM_LENGTH});
     answer_quantity(a, "noise_Fx", (value){l->noise_Fx, DIM_FORCE});
-    answer_fact(a, "row 1", l->at_rest ? "is at rest" : "is not at rest");
+    answer_fact(a, "row_1", l->at_rest ? "at rest" : "not at rest");
     answer_done(a);
     answer_end(a, true);
 }

@@ -428,7 +428,7 @@ const command commands[] = {
              "        drift_Fx = 0 N\n"
              "        noise_dx = 0 m\n"
              "        noise_Fx = 0 N\n"
-             "        row 1: is not at rest\n"},
+             "        row_1: not at rest\n"},
     {.name = "uncertainty",
      .run = do_uncertainty,
      .group = "backwards",

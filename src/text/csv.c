@@ -769,12 +769,12 @@ void csv_rename(csv *c, csv_values *column, const char *name) {
 void csv_names(const csv *c, char *buf, size_t size) {
     size_t n = 0;
     *buf = 0;
-    for (size_t i = 0; i < c->columns && n < size; i++)
-        if (*c->column[i].name)
-            n += (size_t)snprintf(buf + n, size - n, "%s%s", i ? ", " : "",
-                                  c->column[i].given ? c->column[i].title : c->column[i].name);
-        else
-            n += (size_t)snprintf(buf + n, size - n, "%s%zu", i ? ", " : "", i + 1);
+    for (size_t i = 0; i < c->columns && n < size; i++) {
+        const csv_values *v = &c->column[i];
+        const char *own = v->given ? v->title : v->name;
+        n += (size_t)(*own ? snprintf(buf + n, size - n, "%s%s", i ? ", " : "", own)
+                           : snprintf(buf + n, size - n, "%s%zu", i ? ", " : "", i + 1));
+    }
 }
 
 void csv_layout(const csv *c, char *buf, size_t size) {
@@ -816,28 +816,26 @@ static bool cell_at(const csv *c, const csv_row *row, size_t column, cell *out) 
 
 bool csv_load(csv *c, csv_values *column, calc_error *error) {
     const size_t k = (size_t)(column - c->column);
-    const char *name = column->name;
-    if (column->v && !column->trouble)
-        return true;
-    if (!column->v && !(column->v = malloc(c->rows * sizeof *column->v)))
-        return calc_no_memory(error);
-    for (size_t i = 0; i < c->rows && !column->trouble; i++) {
+    double *v = column->v || column->trouble ? NULL : malloc(c->rows * sizeof *v);
+    bool ok = v || column->v || column->trouble || calc_no_memory(error);
+    for (size_t i = 0; i < c->rows && v && ok && !column->trouble; i++) {
         const csv_row *row = &c->row[i];
-        cell f;
-        column->v[i] = NAN;
-        if (!cell_at(c, row, k, &f)) {
-            if (!trouble(column, error, "%.200s:%zu: expected a number as %.60s, and the line ends", c->path,
-                         row->line, name))
-                return false;
-        } else if (f.is == WORD || (f.ends && k + 1 < c->columns)) {
-            if (!trouble(column, error, "%.200s:%zu: expected a number as %.60s, not '%.*s'", c->path,
-                         row->line, name, LEX_SHOWN(f.f.len), f.f.text))
-                return false;
-        } else {
-            column->v[i] = f.v;
-        }
+        cell f = {.v = NAN};
+        if (!cell_at(c, row, k, &f))
+            ok = trouble(column, error, "%.200s:%zu: expected a number as %.60s, and the line ends", c->path,
+                         row->line, column->name);
+        else if (f.is == WORD || (f.ends && k + 1 < c->columns))
+            ok = trouble(column, error, "%.200s:%zu: expected a number as %.60s, not '%.*s'", c->path,
+                         row->line, column->name, LEX_SHOWN(f.f.len), f.f.text);
+        v[i] = f.v;
     }
-    return !column->trouble || calc_fail(error, 0, 0, "%s", column->trouble);
+    if (ok && column->trouble)
+        ok = calc_fail(error, 0, 0, "%s", column->trouble);
+    if (ok && v)
+        column->v = v;
+    else
+        free(v);
+    return ok;
 }
 
 bool csv_settle(csv *c, calc_error *error) {

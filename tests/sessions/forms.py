@@ -212,7 +212,7 @@ def noisy(tests):
             near(r["unloading"], K * 1e6, 0.15) and r["slides"] == 1 for r in got)
         event = [row for row in harness.told(tests.run("--format=json", "-c", "loop " + path).stdout) if row.get("event") == "loop"]
         ok = ok and event and near(event[0]["noise_dx"], sx * 1e-6, 0.2) and near(event[0]["noise_Fx"], sF, 0.2)
-        ok = ok and abs(event[0]["drift_dx"] - 0.05e-6) < sx * 1e-6 and abs(event[0]["drift_Fx"] - 0.3) < sF and event[0]["row 1"] == "is at rest"
+        ok = ok and abs(event[0]["drift_dx"] - 0.05e-6) < sx * 1e-6 and abs(event[0]["drift_Fx"] - 0.3) < sF and event[0]["row_1"] == "at rest"
         tests.check("loop of noise, %d" % seed, ok, "%s %s %s" % (done.stderr, got, event))
 
 
