@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* loop: what a measured file says by itself. Asks no scene. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "commands/columns.h"
@@ -56,7 +57,8 @@ static void report_cycles(answer *a, const csv *data, const loop_answer *l) {
         answer_number(a, "cycle", (double)(k + 1));
         answer_number(a, "line", (double)data->row[c->first].line);
         for (size_t i = 0; i < TOLD; i++)
-            answer_quantity(a, told[i].name, (value){value_at(c, i), told[i].d});
+            if (isfinite(value_at(c, i)))
+                answer_quantity(a, told[i].name, (value){value_at(c, i), told[i].d});
         answer_fact(a, "flanks", c->slides ? "slide" : "do not slide");
         answer_done(a);
     }
