@@ -403,8 +403,10 @@ static size_t names_in(finder *t, const said_line *l, unsigned fields, bool exac
     static const char kinds[] = ";\t, ";
     const char *text = text_of(t, l), own = t->c->separator;
     size_t named = read_titles(t, own, text, l->at.len);
-    for (const char *other = kinds; *other && named != fields; other++)
-        named = read_titles(t, *other, text, l->at.len);
+    const bool other =
+        own == ' ' ? named != fields : named < count_bits(t->usual); /* too few; signs between blanks */
+    for (const char *kind = kinds; *kind && named != fields && other; kind++)
+        named = read_titles(t, *kind, text, l->at.len);
     if (named != fields)
         named = exact ? 0 : read_titles(t, own, text, l->at.len);
     return named < 2 && count_bits(t->usual) > 1 && !memchr(text, '[', l->at.len) ? 0 : named;

@@ -20,6 +20,7 @@ SAME = {
                                                            .encode("utf-16-le"),
     "UTF-16 without its mark": "r [mm]\tf [\u00b5m]\r\n0\t0\r\n0,5\t12,5\r\n1\t50\r\n".encode("utf-16-le"),
     "UTF-16 without its mark, high byte first": "r [mm];f [um]\n0;0\n0,5;12,5\n1;50\n".encode("utf-16-be"),
+    "more names than fields, and notes of several words": b"r [mm],f [um],note,more\n0,0,a word\n0.5,12.5,a word\n1,50,a word\n",
     "an empty first field": b",r [mm],f [um]\n0,0,0\n1,0.5,12.5\n2,1,50\n",
     "UTF-16, high byte first": "\ufeffr [mm];f [\u03bcm]\n0;0\n0,5;12,5\n1;50".encode("utf-16-be"),
     "blanks before units": b"r  [mm] ,f   [um]\n0,0\n0.5,12.5\n1,50\n",
