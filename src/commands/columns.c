@@ -31,7 +31,9 @@ bool choices_of(said *all, choices *out, calc_error *error) {
 /* `3`, `Weg`, `"Load On Sample"`. */
 static csv_values *column_at(csv *c, lexer *lx) {
     char name[CSV_NAME], layout[CALC_ERROR_TEXT / 2];
-    const size_t at = lx->at, quoted = lx->kind == T_STRING, len = quoted ? lx->len : word_at(lx);
+    const size_t at = lx->at, quoted = lx->kind == T_STRING, word = strcspn(lx->text + at, " \t"),
+                 all = lx->end - at < word ? lx->end - at : word,
+                 len = quoted || lx->kind == T_NUMBER ? lx->len : all;
     csv_values *column = NULL;
     snprintf(name, sizeof name, "%.*s", (int)(len - 2 * quoted), lx->text + at + quoted);
     char *end;
