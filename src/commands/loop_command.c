@@ -14,15 +14,15 @@ static const struct {
     const char *name;
     dim d;
     size_t at;
-} told[] = {{"dW", {1, 1, 0}, offsetof(loop_cycle, dW)},
-            {"dxA", {0, 1, 0}, offsetof(loop_cycle, dxA)},
-            {"FA", {1, 0, 0}, offsetof(loop_cycle, FA)},
-            {"dx0", {0, 1, 0}, offsetof(loop_cycle, dx0)},
-            {"Fx0", {1, 0, 0}, offsetof(loop_cycle, Fx0)},
-            {"secant", {1, -1, 0}, offsetof(loop_cycle, secant)},
-            {"unloading", {1, -1, 0}, offsetof(loop_cycle, unloading)},
-            {"flank", {0, 0, 0}, offsetof(loop_cycle, flank)},
-            {"energy_ratio", {0, 0, 0}, offsetof(loop_cycle, ratio)}};
+} told[] = {{"dW", {1, 1, 0, 0}, offsetof(loop_cycle, dW)},
+            {"dxA", {0, 1, 0, 0}, offsetof(loop_cycle, dxA)},
+            {"FA", {1, 0, 0, 0}, offsetof(loop_cycle, FA)},
+            {"dx0", {0, 1, 0, 0}, offsetof(loop_cycle, dx0)},
+            {"Fx0", {1, 0, 0, 0}, offsetof(loop_cycle, Fx0)},
+            {"secant", {1, -1, 0, 0}, offsetof(loop_cycle, secant)},
+            {"unloading", {1, -1, 0, 0}, offsetof(loop_cycle, unloading)},
+            {"flank", {0, 0, 0, 0}, offsetof(loop_cycle, flank)},
+            {"energy_ratio", {0, 0, 0, 0}, offsetof(loop_cycle, ratio)}};
 enum { TOLD = sizeof told / sizeof *told, LOOP_COLUMNS = TOLD + 3 };
 
 static double value_at(const loop_cycle *c, size_t i) {
@@ -53,7 +53,7 @@ static void report_cycles(answer *a, const csv *data, const loop_answer *l) {
     for (size_t k = 0; k < l->cycles; k++) {
         const loop_cycle *c = &l->cycle[k];
         answer_words(a, "cycle %zu, from line %zu\n", k + 1, data->row[c->first].line);
-        answer_page(a, "cycle");
+        answer_page(a, "measured");
         answer_number(a, "cycle", (double)(k + 1));
         answer_number(a, "line", (double)data->row[c->first].line);
         for (size_t i = 0; i < TOLD; i++)
