@@ -24,6 +24,7 @@ import explaining  # noqa: E402
 import figures  # noqa: E402
 import fits  # noqa: E402
 import following  # noqa: E402
+import forms  # noqa: E402
 import fuzzing  # noqa: E402
 import harness  # noqa: E402
 import helping  # noqa: E402
@@ -60,7 +61,7 @@ ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.ru
          "scripts": scripts.run, "trouble": trouble.run, "fits": fits.run, "instants": instants.run, "keeping": keeping.run,
          "backwards": backwards.run, "looks": looks.run, "paper": paper.run, "packaging": packaging.run, "house": house.run,
          "figures": figures.run, "sessions": transcripts.run, "help": helping.run, "reference": reference.run, "reading": reading.run,
-         "smoothing": smoothing.run, "answers": answers.run, "following": following.run, "readme": transcripts.readme, "fuzz": fuzzing.run,
+         "smoothing": smoothing.run, "answers": answers.run, "following": following.run, "forms": forms.run, "readme": transcripts.readme, "fuzz": fuzzing.run,
          "portable": portable.run, "python": python_module.run, "moving": moving.run, "completion": completion.run, "rough": rough.run, "typed": typed.run,
          "live": live.run, "interactive": prompt.run}
 DRAWING = ("unit", "hard", "numbers", "errors", "fits", "instants", "accuracy", "programs", "typed", "rim", "sharing", "explaining", "completion", "moving")

@@ -4,13 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "commands/columns.h"
 #include "commands/expressions.h"
 #include "commands/range.h"
-#include "commands/rows.h"
 #include "commands/study_commands.h"
 #include "study/fit.h"
 #include "study/uncertainty.h"
-#include "text/csv.h"
 
 /* As `ans`. */
 static void answered(shell *sh, long double v, dim d) {
@@ -42,7 +41,7 @@ static bool read_names(shell *sh, lexer *lx, fit_question *q) {
 }
 
 /* A quantity in the equation that is also a column, whose rows it does not take: one of them was meant. */
-static bool ambiguous(const shell *sh, const csv *data, const expr *e, calc_error *error) {
+static bool ambiguous(const shell *sh, csv *data, const expr *e, calc_error *error) {
     const quantity *of;
     bool call;
     size_t at;
@@ -61,82 +60,82 @@ static bool ambiguous(const shell *sh, const csv *data, const expr *e, calc_erro
     return false;
 }
 
-static bool uses_columns(const shell *sh, const fit_question *q) {
-    for (const column_knob *c = q->column; c < q->column + q->columns; c++)
-        if (columns_used(sh, c, q->left) || columns_used(sh, c, q->right))
-            return true;
-    return false;
-}
-
-static bool read_side(shell *sh, lexer *lx, const csv *data, expr *e) {
-    return expr_parse_at(&sh->calc, lx, e) || columns_missed(sh, lx, data);
-}
-
-static bool read_side_in(shell *sh, const lexer *lx, const span *part, const csv *data, expr *e) {
+static bool read_side(shell *sh, const lexer *lx, const span *part, expr *e) {
     lexer own = hole_lexer(lx, part);
-    return read_side(sh, &own, data, e) && at_end(&own);
+    return expr_parse_at(&sh->calc, &own, e) && at_end(&own);
 }
 
-static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, size_t names) {
+static bool read_equation(shell *sh, lexer *lx, said *all, const choices *chosen, fit_question *q, csv *data,
+                          named_columns *columns, size_t names) {
     const heard *sides = said_of(all, "for", 0), *to = said_of(all, "to", 0);
-    char name[FILE_NAME];
+    char layout[CALC_ERROR_TEXT / 2];
+    _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
     if (!to)
         return lex_fail(lx, "expected to FILE.csv");
-    if (!hole_file(lx, &to->hole[0], name) || !csv_read(name, &shell_stop, data, lx->error) ||
-        !columns_wake(sh, data, names, q->column, &q->columns, lx->error) ||
-        !read_side_in(sh, lx, &sides->hole[0], data, &sh->list[0]) ||
-        !read_side_in(sh, lx, &sides->hole[1], data, &sh->list[1]))
+    if (!columns_read(lx, &to->hole[0], chosen, data) || !columns_wake(sh, data, names, columns, lx->error))
         return false;
     q->left = &sh->list[0];
     q->right = &sh->list[1];
-    q->rows = data->rows;
-    if (ambiguous(sh, data, q->left, lx->error) || ambiguous(sh, data, q->right, lx->error))
+    if (!read_side(sh, lx, &sides->hole[0], &sh->list[0]) ||
+        !read_side(sh, lx, &sides->hole[1], &sh->list[1]))
+        return columns_missed(sh, lx, data);
+    if (ambiguous(sh, data, q->left, lx->error) || ambiguous(sh, data, q->right, lx->error) ||
+        !columns_load(sh, data, 2, columns, lx->error))
         return false;
-    if (!uses_columns(sh, q)) {
-        char columns[CALC_ERROR_TEXT / 2];
-        csv_names(data, columns, sizeof columns);
+    csv_layout(data, layout, sizeof layout);
+    if (!columns->used)
         return calc_fail(lx->error, q->left->at, q->right->at + q->right->len - q->left->at,
-                         "no column of %.100s is in the equation: they are %s", name, columns);
-    }
+                         "no column of %.100s is in the equation: %s", data->path, layout);
+    columns_say(sh, data, columns->turned ? TURNED_FN : "");
+    q->column = columns->column;
+    q->columns = columns->count;
+    q->rows = data->rows;
     return true;
 }
 
-static void no_loop(const csv *data, const char *misses, calc_error *error) {
-    char names[CALC_ERROR_TEXT / 2];
-    csv_names(data, names, sizeof names);
-    calc_fail(error, 0, 0,
-              "%.200s has no column %s: a loop needs dx and Fx, and may have FN or dz; its columns are %s",
-              data->path, misses, names);
-}
-
-static bool read_loop(const lexer *lx, const heard *along, fit_question *q, csv *data) {
-    char name[FILE_NAME];
+static bool read_loop(shell *sh, const lexer *lx, const heard *along, const choices *chosen, fit_question *q,
+                      csv *data) {
     calc_error *error = lx->error;
-    if (!hole_file(lx, &along->hole[0], name) || !csv_read(name, &shell_stop, data, error))
+    if (!columns_read(lx, &along->hole[0], chosen, data))
+        return false;
+    const char *by = csv_has(data, "FN") ? "FN" : csv_has(data, "dz") ? "dz" : NULL;
+    q->loop.normal_by = by && by[0] == 'd' ? BY_DISPLACEMENT : BY_FORCE;
+    csv_values *dx = columns_take(data, "dx", DIM_LENGTH, error),
+               *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL,
+               *normal =
+                   Fx && by ? columns_take(data, by, by[0] == 'd' ? DIM_LENGTH : DIM_FORCE, error) : NULL;
+    if (!csv_has(data, "dx") || !csv_has(data, "Fx"))
+        calc_append(&sh->calc, error, " (a loop needs dx and Fx, and may have FN or dz)");
+    if (error->raised || !csv_settle(data, error))
         return heard_place(error, along);
+    const bool against = columns_opposed(data, dx, Fx),
+               pull = q->loop.normal_by == BY_FORCE && columns_turn_pull(data, normal);
+    if (against)
+        columns_turn(data, Fx);
+    columns_say(sh, data,
+                against && pull ? TURNED_FX ", " TURNED_FN
+                : against       ? TURNED_FX
+                : pull          ? TURNED_FN
+                                : "");
     q->rows = data->rows;
-    q->loop.dx = columns_find(data, "dx", DIM_LENGTH, error);
-    q->loop.Fx = columns_find(data, "Fx", DIM_FORCE, error);
-    q->loop.normal = columns_find(data, "FN", DIM_FORCE, error);
-    q->loop.normal_by = BY_FORCE;
-    if (!q->loop.normal) {
-        q->loop.normal = columns_find(data, "dz", DIM_LENGTH, error);
-        q->loop.normal_by = BY_DISPLACEMENT;
-    }
-    if (!error->raised && (!q->loop.dx || !q->loop.Fx))
-        no_loop(data, q->loop.dx ? "Fx" : "dx", error);
-    return !error->raised || heard_place(error, along);
+    q->loop.dx = dx->v;
+    q->loop.Fx = Fx->v;
+    q->loop.normal = normal ? normal->v : NULL;
+    return true;
 }
 
-static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, size_t names) {
+static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, named_columns *columns,
+                     size_t names) {
     const heard *along = said_of(all, "along", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
+    choices chosen;
     q->c = &sh->calc;
-    if (!read_names(sh, &own, q))
+    if (!read_names(sh, &own, q) || !choices_of(all, NULL, &chosen, lx->error))
         return false;
     if (!along && !said_of(all, "for", 0))
         return lex_fail(lx, "expected for EXPR = EXPR to FILE.csv, or along FILE.csv");
-    return along ? read_loop(lx, along, q, data) : read_equation(sh, lx, all, q, data, names);
+    return along ? read_loop(sh, lx, along, &chosen, q, data)
+                 : read_equation(sh, lx, all, &chosen, q, data, columns, names);
 }
 
 /* ---- fit: what is said ------------------------------------------------------------------------- */
@@ -214,10 +213,11 @@ bool do_fit(shell *sh, lexer *lx, const command *self) {
     const size_t names = sh->calc.names.count;
     fit_question *q = calloc(1, sizeof *q);
     csv data = {0};
+    named_columns columns;
     fit_answer a;
     said all;
     bool ok = (q || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all) &&
-              read_fit(sh, lx, &all, q, &data, names) && fit(q, &a, lx->error) &&
+              read_fit(sh, lx, &all, q, &data, &columns, names) && fit(q, &a, lx->error) &&
               print_fit(sh, q, &a, lx->error);
     names_forget(sh, names);
     csv_free(&data);

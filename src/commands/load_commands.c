@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "commands/columns.h"
 #include "statement/answer.h"
 #include "statement/command.h"
 #include "statement/progress.h"
-#include "text/csv.h"
 
 /* ---- reports ----------------------------------------------------------------------------------- */
 
@@ -230,9 +230,10 @@ enum { AT_ONCE = 4096 }; /* rows; then it is told how far it has come */
 /* Rows as they are followed. Of those that have both pairs: loss, their W, and driver, by which pair each is;
  * NULL: all by `kind`. */
 typedef struct rows {
-    const csv *data;
+    csv *data;
     const followed *kind;
-    const double *normal[KINDS], *tangential[KINDS]; /* by kind */
+    csv_values *column[KINDS][2], *compared; /* by kind: the normal and the tangential one */
+    const double *normal[KINDS], *tangential[KINDS];
     const double *loss;
     const unsigned char *driver;
 } rows;
@@ -254,14 +255,15 @@ static bool follow_rows(shell *sh, const rows *w, size_t row, calc_error *error)
     const csv *data = w->data;
     for (size_t count; row < data->rows; row += count) {
         const size_t k = w->driver ? w->driver[row] : (size_t)(w->kind - kinds);
-        const load_step step = {.kind = LOAD_STEP, .normal = kinds[k].by, .tangential = kinds[k].by};
+        const load_step step = {
+            .kind = LOAD_STEP, .normal = w->normal[k] ? kinds[k].by : BY_NONE, .tangential = kinds[k].by};
         size_t bad;
         for (count = 1; count < AT_ONCE && row + count < data->rows; count++)
             if (w->driver && w->driver[row + count] != k)
                 break;
         progress_part((double)row / (double)data->rows);
-        bool ok = scene_load_rows(&sh->calc.scene, step, w->normal[k] + row, w->tangential[k] + row, count,
-                                  &bad, error);
+        bool ok = scene_load_rows(&sh->calc.scene, step, w->normal[k] ? w->normal[k] + row : NULL,
+                                  w->tangential[k] + row, count, &bad, error);
         if (ok && shell_stop)
             ok = calc_interrupted(error);
         if (!ok) {
@@ -373,42 +375,27 @@ static bool choose_drivers(shell *sh, const rows *w, size_t row, unsigned char *
                       w->data->path, i + 1));
 }
 
-static bool of_dimension(const csv *data, const csv_values *read, const followed *kind, calc_error *error) {
-    char wants[128], is[128];
-    if (dim_equal(read->d, kind->d))
-        return true;
-    if (!read->has_unit)
-        return calc_fail(error, 0, 0, "%s: the columns need units in the header, such as %s", data->path,
-                         kind->example);
-    dim_describe(kind->d, wants, sizeof wants);
-    dim_describe(read->d, is, sizeof is);
-    return calc_fail(error, 0, 0, "%s: column %s is %s, not %s, by the unit in the header", data->path,
-                     read->name, is, wants);
-}
-
-static bool has_pair(const csv *data, const followed *kind) {
-    return csv_has(data, kind->name[0]) && csv_has(data, kind->name[1]);
-}
-
-static bool read_pair(const csv *data, const followed *kind, rows *w, calc_error *error) {
+static bool read_pair(csv *data, const followed *kind, rows *w, calc_error *error) {
     const size_t k = (size_t)(kind - kinds);
-    const csv_values *normal = csv_column(data, kind->name[0], error),
-                     *tangential = normal ? csv_column(data, kind->name[1], error) : NULL;
-    if (!tangential || !of_dimension(data, normal, kind, error) ||
-        !of_dimension(data, tangential, kind, error))
-        return false;
-    w->normal[k] = normal->v;
-    w->tangential[k] = tangential->v;
-    return true;
+    csv_values *normal = columns_take(data, kind->name[0], kind->d, error),
+               *tangential = normal ? columns_take(data, kind->name[1], kind->d, error) : NULL;
+    w->column[k][0] = normal;
+    w->column[k][1] = tangential;
+    return tangential != NULL;
 }
 
-static bool read_loss(const csv *data, rows *w, calc_error *error) {
-    static const followed energy = {.d = {1, 1, 0, 0}, .example = "W [J]"};
-    const csv_values *loss = csv_column(data, "W", error);
-    if (!loss || !of_dimension(data, loss, &energy, error))
+/* dx drives at constant F_N, and F_x is compared. */
+static bool read_compared(shell *sh, csv *data, rows *w, calc_error *error) {
+    csv_values *dx = columns_take(data, "dx", DIM_LENGTH, error),
+               *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL;
+    w->kind = &kinds[1];
+    w->column[1][1] = dx;
+    w->compared = Fx;
+    if (!csv_has(data, "dx") || !csv_has(data, "Fx"))
+        calc_append(&sh->calc, error, " (FN,Fx or dz,dx are followed; dx,Fx compared)");
+    if (!Fx)
         return false;
-    w->loss = loss->v;
-    return true;
+    return sh->calc.scene.end.steps || calc_missing(error, IN_FN);
 }
 
 static bool follow_all(shell *sh, rows *w, bool both, calc_error *error) {
@@ -427,46 +414,98 @@ static bool follow_all(shell *sh, rows *w, bool both, calc_error *error) {
     return ok;
 }
 
-static bool follow_file(shell *sh, const csv *data, calc_error *error) {
-    const bool forces = has_pair(data, &kinds[0]), places = has_pair(data, &kinds[1]);
-    rows w = {.data = data, .kind = places && !forces ? &kinds[1] : &kinds[0]};
-    char names[CALC_ERROR_TEXT / 2];
-    scene_mark before;
-    double mu;
-    csv_names(data, names, sizeof names);
-    if (!forces && !places)
-        return calc_fail(error, 0, 0, "%s: the columns must be FN,Fx or dz,dx, not %s", data->path, names);
-    if (forces && places && !csv_has(data, "W"))
+static bool read_rows(shell *sh, csv *data, rows *w, bool *both, calc_error *error) {
+    const bool FN = csv_has(data, "FN"), Fx = csv_has(data, "Fx"), dz = csv_has(data, "dz"),
+               dx = csv_has(data, "dx");
+    /* of a pair one may have its name, and the other is the one of its dimension */
+    const bool forces = FN && (Fx || !dx), places = dz && (dx || !(Fx || FN));
+    const csv_values *loss = NULL;
+    *both = forces && places;
+    *w = (rows){.data = data, .kind = places && !forces ? &kinds[1] : &kinds[0]};
+    if (*both && !csv_has(data, "W"))
         return calc_fail(error, 0, 0, "%s has FN,Fx and dz,dx, but no W: leave one pair", data->path);
-    if ((forces && !read_pair(data, &kinds[0], &w, error)) ||
-        (places && !read_pair(data, &kinds[1], &w, error)) ||
-        (forces && places && !read_loss(data, &w, error)))
+    if ((!forces && !places && !read_compared(sh, data, w, error)) ||
+        (forces && !read_pair(data, &kinds[0], w, error)) ||
+        (places && !read_pair(data, &kinds[1], w, error)) ||
+        (*both && !(loss = columns_take(data, "W", DIM_ENERGY, error))) || !csv_settle(data, error))
         return false;
+    for (size_t k = 0; k < KINDS; k++) {
+        w->normal[k] = w->column[k][0] ? w->column[k][0]->v : NULL;
+        w->tangential[k] = w->column[k][1] ? w->column[k][1]->v : NULL;
+    }
+    w->loss = loss ? loss->v : NULL;
+    return true;
+}
+
+/* Of the rows that have been followed last. */
+static bool compare_rows(shell *sh, const rows *w, double *rms, calc_error *error) {
+    scene *s = &sh->calc.scene;
+    const size_t count = w->data->rows, before = s->end.steps - count;
+    scene_trace t;
+    sight now;
+    long double squares = 0;
+    if (!trace_begin(&t, s, watch_points(1), true, error))
+        return false;
+    for (size_t i = 0; trace_next(&t, error); i++)
+        if (i >= before) {
+            run_sight(trace_now(&t), &now);
+            const long double off = now.state.Fx - w->compared->v[i - before];
+            squares += off * off;
+        }
+    trace_end(&t);
+    *rms = (double)sqrtl(squares / (long double)count);
+    return !error->raised;
+}
+
+static void report_compared(shell *sh, double rms) {
+    char text[CALC_VALUE_TEXT];
+    answer event;
+    answer_begin(&event, &sh->set, sh->out);
+    answer_event(&event, "compared");
+    answer_number(&event, "rms", rms);
+    answer_done(&event);
+    calc_value_text(DIM_FORCE, rms, text);
+    shell_note(sh, "Fx of the file is %s (rms) from Fx here", text);
+}
+
+static bool follow_file(shell *sh, csv *data, calc_error *error) {
+    rows w;
+    bool both, turned = false;
+    scene_mark before;
+    double mu, rms = 0;
+    if (!read_rows(sh, data, &w, &both, error))
+        return false;
+    if (w.compared && columns_opposed(data, w.column[1][1], w.compared))
+        return calc_fail(error, 0, 0,
+                         "%s: Fx falls where dx grows: one of them has the other sign in the file",
+                         data->path);
+    turned = columns_turn_pull(data, w.column[0][0]);
     if (!sh->calc.scene.in.bound[IN_MU] && !scene_friction(&sh->calc.scene, &mu, error))
         return false; /* a live one may depend on the press that is to come */
     scene_save(&sh->calc.scene, &before, false);
-    if (!follow_all(sh, &w, forces && places, error)) {
+    if (!follow_all(sh, &w, both, error) || (w.compared && !compare_rows(sh, &w, &rms, error))) {
         scene_back(&sh->calc.scene, &before);
         return false;
     }
     scene_drop(&before);
+    columns_say(sh, data, turned ? TURNED_FN : "");
+    if (w.compared)
+        report_compared(sh, rms);
     return true;
 }
 
 bool do_follow(shell *sh, lexer *lx, const command *self) {
     static const char *const names[] = {"FN", "Fx", "dx", "c", NULL};
-    char name[FILE_NAME];
     said s;
     csv data;
-    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
+    choices chosen;
+    if (!said_read(sh, lx, command_form(self), &s) || !choices_of(&s, NULL, &chosen, lx->error))
         return false;
-    bool ok = csv_read(name, &shell_stop, &data, lx->error) && follow_file(sh, &data, lx->error);
+    const bool ok = columns_read(lx, &s.list[0].hole[0], &chosen, &data) && follow_file(sh, &data, lx->error);
+    said_drop(sh, &s);
     csv_free(&data);
-    if (!ok) {
-        lx->error->at = s.list[0].hole[0].at;
-        lx->error->len = s.list[0].hole[0].len;
-        return false;
-    }
+    if (!ok)
+        return heard_place(lx->error, &s.list[0]);
     report_event(sh, "follow", names);
     return true;
 }

@@ -10,6 +10,7 @@
 typedef struct reading {
     shell *sh;
     const lexer *lx;
+    const said *all;
     const heard *said;
     plot_panel *p;
     looks *out;
@@ -84,13 +85,18 @@ static bool read_over(const reading *r) {
     looks *l = r->out;
     if (l->files == OVER)
         return calc_fail(r->lx->error, name->at, name->len, "more than %d files", OVER);
-    l->over[l->files++] = *name;
-    return true;
+    l->over[l->files] = *name;
+    return choices_of(r->all, r->said, &l->chosen[l->files++], r->lx->error);
 }
 
 static bool read_residuals(const reading *r) {
     r->out->residuals = true;
     return true;
+}
+
+/* Taken with its file. */
+static bool read_using(const reading *r) {
+    return choices_placed(r->all, r->lx->error);
 }
 
 static const struct {
@@ -101,7 +107,7 @@ static const struct {
             {"[yrange LO .. HI]*", read_limits}, {"[log AXES]*", read_log},
             {"[flip AXES]*", read_flip},         {"[key OFF]*", read_key},
             {"[points]*", read_points},          {"[over FILE]*", read_over},
-            {"[residuals]*", read_residuals}};
+            {"[residuals]*", read_residuals},    {"[using NAME = COLUMN, ...]*", read_using}};
 enum { ROWS = sizeof rows / sizeof *rows };
 
 const char *look_line(size_t i) {
@@ -109,9 +115,10 @@ const char *look_line(size_t i) {
 }
 
 bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out) {
+    out->sh = sh;
     for (const heard *h = all->list; h < all->list + all->count; h++)
         for (size_t i = 0; i < ROWS; i++)
-            if (h->of->text == rows[i].line + 1 && !rows[i].read(&(reading){sh, lx, h, p, out}))
+            if (h->of->text == rows[i].line + 1 && !rows[i].read(&(reading){sh, lx, all, h, p, out}))
                 return false;
     return true;
 }
@@ -135,37 +142,26 @@ static bool is_named(const csv_values *v, const axis_of *axis) {
     return false;
 }
 
-static const csv_values *column_named(const csv *c, const axis_of *axis) {
+static csv_values *column_named(csv *c, const axis_of *axis) {
     for (size_t i = 0; i < c->columns; i++)
         if (is_named(&c->column[i], axis))
             return &c->column[i];
     return NULL;
 }
 
-static bool is_quantity(const csv_values *v) {
-    return quantity_find(v->name, strlen(v->name)) != NULL;
+static const csv_values *quantity_in(const csv *c, dim d) {
+    for (size_t i = 0; i < c->columns; i++)
+        if (dim_equal(c->column[i].d, d) && quantity_find(c->column[i].name, strlen(c->column[i].name)))
+            return &c->column[i];
+    return NULL;
 }
 
-/* The only column of the axis' dimension that is not taken and not called after something else. */
-static const csv_values *column_for(const csv *c, const axis_of *axis, const bool taken[CSV_COLUMNS],
-                                    calc_error *error) {
-    const csv_values *one = NULL, *other = NULL;
+/* The only column but one of the axis' dimension that is not called after something else. */
+static csv_values *column_for(csv *c, const axis_of *axis, const csv_values *but, calc_error *error) {
     char wants[128], names[CALC_ERROR_TEXT / 2] = "";
-    size_t n = 0, fit = 0;
-    for (size_t i = 0; i < c->columns; i++) {
-        const csv_values *v = &c->column[i];
-        if (taken[i] || !dim_equal(v->d, axis->d) || (v->trouble && !v->has_unit))
-            continue;
-        if (is_quantity(v)) {
-            other = v;
-            continue;
-        }
-        one = v;
-        if (n < sizeof names)
-            n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", fit ? ", " : "", v->name);
-        fit++;
-    }
-    if (fit == 1)
+    size_t fit;
+    csv_values *one = column_of_dim(c, axis->d, but, names, sizeof names, &fit);
+    if (one)
         return one;
     dim_describe(axis->d, wants, sizeof wants);
     if (fit) {
@@ -174,6 +170,7 @@ static const csv_values *column_for(const csv *c, const axis_of *axis, const boo
                   axis->name, wants, names);
         return NULL;
     }
+    const csv_values *other = quantity_in(c, axis->d);
     csv_names(c, names, sizeof names);
     calc_fail(
         error, 0, 0,
@@ -184,7 +181,7 @@ static const csv_values *column_for(const csv *c, const axis_of *axis, const boo
 }
 
 /* Is it whole, and of the axis' dimension? */
-static bool is_fit(const csv *c, const csv_values *v, const axis_of *axis, calc_error *error) {
+static bool is_fit(csv *c, const csv_values *v, const axis_of *axis, calc_error *error) {
     char wants[128], is[128];
     if (!v || !csv_column(c, v->name, error) || dim_equal(v->d, axis->d))
         return !error->raised;
@@ -194,49 +191,48 @@ static bool is_fit(const csv *c, const csv_values *v, const axis_of *axis, calc_
                      wants);
 }
 
-const csv_values *looks_column(const csv *c, const axis_of *axis, const bool taken[CSV_COLUMNS],
-                               calc_error *error) {
-    const csv_values *named = column_named(c, axis);
-    if (named)
-        return is_fit(c, named, axis, error) ? named : NULL;
-    return column_for(c, axis, taken, error_quiet());
+const csv_values *looks_column(csv *c, const axis_of *axis, bool alone, calc_error *error) {
+    csv_values *found = column_named(c, axis);
+    if (found)
+        return is_fit(c, found, axis, error) ? found : NULL;
+    found = alone ? column_for(c, axis, NULL, error_quiet()) : NULL;
+    return found && *found->name && csv_load(c, found, error) ? found : NULL;
 }
 
 /* Names come first. */
-static bool find_columns(const csv *c, const axis_of *x, const axis_of *y, const csv_values **of_x,
-                         const csv_values **of_y, calc_error *error) {
-    bool taken[CSV_COLUMNS] = {false};
+static bool find_columns(csv *c, const axis_of *x, const axis_of *y, csv_values **of_x, csv_values **of_y,
+                         calc_error *error) {
     *of_x = column_named(c, x);
     *of_y = column_named(c, y);
-    if (*of_y)
-        taken[*of_y - c->column] = true;
-    *of_x = *of_x ? *of_x : column_for(c, x, taken, error);
-    if (*of_x)
-        taken[*of_x - c->column] = true;
-    *of_y = *of_y || !*of_x ? *of_y : column_for(c, y, taken, error);
-    return !error->raised && is_fit(c, *of_x, x, error) && is_fit(c, *of_y, y, error);
+    *of_x = *of_x ? *of_x : column_for(c, x, *of_y, error);
+    *of_y = *of_y || !*of_x ? *of_y : column_for(c, y, *of_x, error);
+    return !error->raised && is_fit(c, *of_x, x, error) && is_fit(c, *of_y, y, error) && csv_settle(c, error);
 }
 
-static bool lay_file(lexer *lx, const span *of, plot_panel *p, const axis_of *x, const axis_of *y) {
+static bool lay_file(lexer *lx, const looks *l, size_t file, plot_panel *p, const axis_of *x,
+                     const axis_of *y) {
+    const span *of = &l->over[file];
     csv c;
-    const csv_values *of_x, *of_y;
+    csv_values *of_x, *of_y;
     char name[FILE_NAME];
     if (!hole_file(lx, of, name))
         return false;
     const char *slash = strrchr(name, '/');
-    bool ok = csv_read(name, &shell_stop, &c, lx->error) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
+    bool ok = columns_read(lx, of, &l->chosen[file], &c) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
     if (!ok)
         calc_place(lx->error, of->at, of->len);
     plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, slash ? slash + 1 : name, lx->error) : NULL;
     for (size_t j = 0; s && ok && j < c.rows; j++)
         ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);
+    if (ok && s)
+        columns_say(l->sh, &c, "");
     csv_free(&c);
     return ok && s;
 }
 
 bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y) {
     for (size_t i = 0; i < l->files; i++)
-        if (!lay_file(lx, &l->over[i], p, x, y))
+        if (!lay_file(lx, l, i, p, x, y))
             return false;
     return true;
 }

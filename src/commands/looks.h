@@ -3,6 +3,7 @@
 #ifndef COMMANDS_LOOKS_H
 #define COMMANDS_LOOKS_H
 
+#include "commands/columns.h"
 #include "commands/expressions.h"
 #include "plot/plot.h"
 #include "text/csv.h"
@@ -20,6 +21,8 @@ typedef struct looks {
     limits x, y;
     size_t files;
     span over[OVER];
+    choices chosen[OVER]; /* of their columns */
+    shell *sh;
     bool residuals;
 } looks;
 
@@ -35,10 +38,9 @@ typedef struct axis_of {
     dim d;
 } axis_of;
 
-/* The column of that name, whole and of that dimension, or with an error not; else the only one of that
- * dimension that is not taken and not called after another quantity; else NULL. */
-const csv_values *looks_column(const csv *c, const axis_of *axis, const bool taken[CSV_COLUMNS],
-                               calc_error *error);
+/* The column of that name, read, or with an error not whole or not of that dimension; else, if alone, the
+ * only one of that dimension that has not been read and is not called after another quantity; else NULL. */
+const csv_values *looks_column(csv *c, const axis_of *axis, bool alone, calc_error *error);
 /* Adds the measured points, in SI. */
 bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y);
 /* The unit of an axis. */

@@ -38,7 +38,7 @@ typedef struct panel_job {
     bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
     double last[PLOTTED][2];
     found found;
-    const file_rows *measured; /* residuals of the file whose rows it goes over; or NULL */
+    file_rows *measured; /* residuals of the file whose rows it goes over; or NULL */
     comparison residuals;
     size_t rows; /* of it that have come */
 } panel_job;
@@ -425,7 +425,7 @@ static bool take_residuals(panel_job *job, const lexer *lx, range *r, file_rows 
         return calc_fail(lx->error, l->over[0].at, l->over[0].len,
                          "residuals are of EXPR, ... for NAME = LO .. HI over one FILE.csv");
     job->measured = from;
-    return rows_over(lx, &l->over[0], &r->sweep, from);
+    return rows_over(lx, &l->over[0], &l->chosen[0], &r->sweep, from);
 }
 
 /* EXPR, ... against EXPR, and such again behind commas: what is drawn, then the abscissas. */
@@ -485,6 +485,8 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     ok = ok && take_residuals(job, lx, &r, &at) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
     if (!ok && job->measured)
         calc_place(lx->error, job->looks->over[0].at, job->looks->over[0].len);
+    if (ok && at.given && !(job->m && job->m->at))
+        rows_say(sh, &at);
     rows_close(&at);
     columns_free(columns, 2 * PLOTTED);
     return ok;

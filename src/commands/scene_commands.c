@@ -5,12 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "commands/presets.h"
+#include "commands/columns.h"
 #include "number/real.h"
+#include "scene/presets.h"
 #include "statement/answer.h"
 #include "statement/command.h"
+#include "study/apex.h"
 #include "study/smooth.h"
-#include "text/csv.h"
 
 /* ---- gathering --------------------------------------------------------------------------------- */
 
@@ -227,28 +228,30 @@ static bool read_smoothing(shell *sh, const lexer *of, const span *part, smoothi
         !(number && v.v >= 1 && v.v <= (long double)SMOOTH_PIECES_MOST && v.v == floorl(v.v)))
         return calc_fail(lx->error, at, lx->last - at,
                          "smooth takes a misfit (smooth 0.1 um) or a number of pieces (smooth 8)");
-    *how = (smoothing){within ? SMOOTH_WITHIN : SMOOTH_PIECES, within ? 0 : (size_t)v.v, (double)v.v};
+    how->by = within ? SMOOTH_WITHIN : SMOOTH_PIECES;
+    how->pieces = within ? 0 : (size_t)v.v;
+    how->within = (double)v.v;
     return true;
 }
 
-/* Columns r and f, among others in any order. */
-static bool profile_columns(const csv *data, const csv_values **r, const csv_values **f, calc_error *error) {
-    *r = csv_column(data, "r", error);
-    *f = *r ? csv_column(data, "f", error) : NULL;
-    if (!*f)
+/* Columns r and f; where neither has its name, of two lengths the first is r. height: f = -z. */
+static bool profile_columns(csv *data, bool height, csv_values **r, csv_values **f, calc_error *error) {
+    csv_values *length[2] = {NULL, NULL};
+    size_t count = 0;
+    for (csv_values *v = data->column; v < data->column + data->columns; v++)
+        if (v->has_unit && same_dim(v->d, DIM_LENGTH) && count++ < 2)
+            length[count - 1] = v;
+    if (count == 2 && !csv_has(data, "r") && !csv_has(data, "f")) {
+        csv_rename(data, length[0], "r");
+        csv_rename(data, length[1], "f");
+    }
+    *r = columns_take(data, "r", DIM_LENGTH, error);
+    *f = *r ? columns_take(data, "f", DIM_LENGTH, error) : NULL;
+    if (!*f || !csv_settle(data, error))
         return false;
-    if (!(*r)->has_unit || !(*f)->has_unit)
-        return calc_fail(error, 0, 0,
-                         "%s: r and f are lengths and need units in the header, such as r [mm],f [um]",
-                         data->path);
-    const csv_values *wrong = !dim_equal((*r)->d, DIM_LENGTH)   ? *r
-                              : !dim_equal((*f)->d, DIM_LENGTH) ? *f
-                                                                : NULL;
-    char is[128];
-    if (wrong)
-        dim_describe(wrong->d, is, sizeof is);
-    return !wrong || calc_fail(error, 0, 0, "%s: column %s is %s, not a length, by the unit in the header",
-                               data->path, wrong->name, is);
+    if (height)
+        columns_turn(data, *f);
+    return true;
 }
 
 /* The bodies touch at r = 0 before they are pressed, and nowhere overlap. */
@@ -263,7 +266,7 @@ static bool is_open(const csv *data, const double *f, calc_error *error) {
     return calc_fail(error, 0, 0,
                      "%s:%zu: f = %s is below f(0) = 0: f is the gap and grows outward; the sign or the apex "
                      "may be the cause",
-                     data->path, data->line[i], text);
+                     data->path, data->row[i].line, text);
 }
 
 /* Where the rows of a gap are none. */
@@ -279,18 +282,19 @@ static void out_of_order(const csv *data, const double *r, calc_error *error) {
     calc_value_text(DIM_LENGTH, r[i], text);
     calc_fail(error, 0, 0,
               "%s:%zu: r = %s is out of order: radii must start at 0 and grow (smooth takes any order)",
-              data->path, data->line[i], text);
+              data->path, data->row[i].line, text);
 }
 
-static struct fret_table *table_of(const csv *data, smoothing how, smooth_answer *smoothed,
+static struct fret_table *table_of(csv *data, smoothing how, smooth_answer *smoothed, apex *top,
                                    calc_error *error) {
     struct fret_table *gap = NULL;
-    const csv_values *r, *f;
+    csv_values *r, *f;
     fret_status st;
-    if (!profile_columns(data, &r, &f, error))
+    if (!profile_columns(data, how.height, &r, &f, error))
         return NULL;
     if (how.by) {
-        if (!smooth(r->v, f->v, data->rows, how, &shell_stop, smoothed, error))
+        if (!apex_find(r->v, f->v, data->rows, top, error) ||
+            !smooth(r->v, f->v, data->rows, how, &shell_stop, smoothed, error))
             return NULL;
         st = fret_table_sloped(smoothed->r, smoothed->f, smoothed->slope, smoothed->pieces + 1, &shell_stop,
                                &gap);
@@ -300,7 +304,7 @@ static struct fret_table *table_of(const csv *data, smoothing how, smooth_answer
         calc_fail(error, 0, 0,
                   "%s:%zu: f(0) = %s must be 0: the bodies touch at r = 0 before they are pressed (smooth "
                   "takes it off)",
-                  data->path, data->line[0], text);
+                  data->path, data->row[0].line, text);
         return NULL;
     } else if (!is_open(data, f->v, error)) {
         return NULL;
@@ -350,23 +354,58 @@ static void report_thinning(shell *sh, size_t rows, const struct fret_table *gap
     shell_note(sh, "of %zu rows %zu pieces are made, within %.0e of the largest gap", rows, pieces, within);
 }
 
+/* Nor is where the apex is, and how the profile was tilted. */
+static void report_apex(shell *sh, const apex *top) {
+    char at[CALC_VALUE_TEXT], tilt[CALC_VALUE_TEXT];
+    answer event;
+    answer_begin(&event, &sh->set, sh->out);
+    answer_event(&event, "apex");
+    answer_number(&event, "at", top->at);
+    answer_number(&event, "tilt", top->tilt);
+    answer_done(&event);
+    calc_value_text(DIM_LENGTH, top->at, at);
+    calc_value_text(DIM_NONE, top->tilt, tilt);
+    shell_note(sh, "the apex is at r = %s%s%s%s: both sides are folded about it", at,
+               top->tilted ? ", a tilt of " : "", top->tilted ? tilt : "",
+               top->tilted ? " is taken off" : "");
+}
+
+/* As `show` writes the columns again. */
+static bool write_choices(const lexer *lx, const choices *chosen, char text[CHOSEN], calc_error *error) {
+    size_t n = 0;
+    *text = 0;
+    for (size_t i = 0; i < chosen->count && n < CHOSEN; i++)
+        n += (size_t)snprintf(text + n, CHOSEN - n, "%s%.*s=%.*s", i ? ", " : " using ",
+                              (int)chosen->name[i].len, lx->text + chosen->name[i].at,
+                              (int)chosen->column[i].len, lx->text + chosen->column[i].at);
+    return n < CHOSEN || calc_fail(error, 0, 0, "the names of the columns are too long");
+}
+
 static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
     char name[FILE_NAME];
     const heard *smoothly = said_of(s, "smooth", 0);
     smoothing how = {.by = SMOOTH_NOT};
     smooth_answer smoothed = {.pieces = 0};
+    apex top = {.both = false};
+    choices chosen;
     csv data;
-    if (!hole_file(lx, &s->list[0].hole[0], name) ||
+    how.height = said_of(s, "height", 0) != NULL;
+    if (!hole_file(lx, &s->list[0].hole[0], name) || !choices_of(s, NULL, &chosen, lx->error) ||
+        !write_choices(lx, &chosen, how.columns, lx->error) ||
         (smoothly && !read_smoothing(sh, lx, &smoothly->hole[0], &how)))
         return false;
-    bool ok = csv_read(name, &shell_stop, &data, lx->error);
+    bool ok = columns_read(lx, &s->list[0].hole[0], &chosen, &data);
     if (ok) {
-        struct fret_table *gap = table_of(&data, how, &smoothed, lx->error);
+        struct fret_table *gap = table_of(&data, how, &smoothed, &top, lx->error);
         e->table = gap ? shared_table_make(gap, name, how) : NULL;
         if (gap && !e->table)
             calc_no_memory(lx->error);
         ok = e->table && scene_edit(&sh->calc.scene, apply, e, lx->error); /* which takes the table over */
     }
+    if (ok)
+        columns_say(sh, &data, how.height ? "f = -z" : "");
+    if (ok && top.moved)
+        report_apex(sh, &top);
     if (ok && how.by)
         report_misfit(sh, &smoothed);
     if (ok && fret_table_within(e->table->table) > 0)
@@ -425,11 +464,11 @@ bool do_geometry(shell *sh, lexer *lx, const command *self) {
         return false;
     const geometry *g = geometry_row(s.row);
     edit e = {.geometry = g};
-    if (g->by == PARAMETERS_FILE)
-        return read_gap_file(sh, lx, &s, &e);
     e.sum = g->by == PARAMETERS_TERMS ? &sum : NULL;
-    const bool ok = (e.sum ? read_sum(sh, lx, &s.list[0].hole[0], &sum) : put_parameters(lx, g, &e, &s)) &&
-                    scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    const bool ok = g->by == PARAMETERS_FILE ? read_gap_file(sh, lx, &s, &e)
+                                             : (e.sum ? read_sum(sh, lx, &s.list[0].hole[0], &sum)
+                                                      : put_parameters(lx, g, &e, &s)) &&
+                                                   scene_edit(&sh->calc.scene, apply, &e, lx->error);
     said_drop(sh, &s);
     return ok;
 }

@@ -64,8 +64,8 @@ typedef struct table_job {
     size_t count, shown;     /* columns of expressions, and behind them of comparisons */
     found found;
     size_t curve;
-    long double second;  /* the value of the second name of a grid, in the last row */
-    const file_rows *at; /* those of a file, or NULL */
+    long double second; /* the value of the second name of a grid, in the last row */
+    file_rows *at;      /* those of a file, or NULL */
     comparison compared[COLUMNS];
     size_t comparisons;
     bool begun, blocks;
@@ -182,7 +182,7 @@ static void say_compared(shell *sh, const table_job *job) {
         char text[2][NUMBER_TEXT + COLUMN_UNIT];
         const column *own = &job->columns[job->first + c->of];
         const long double rms = rows_rms(c);
-        const size_t line = job->at->data.line[c->worst_row];
+        const size_t line = job->at->data.row[c->worst_row].line;
         answer_event(&a, "compare");
         answer_string(&a, "name", own->name);
         answer_string(&a, "column", c->with->name);
@@ -253,7 +253,7 @@ static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *swee
 /* ---- the command ------------------------------------------------------------------------------- */
 
 /* g: of two names, at: the rows of a file; or NULL. */
-static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const grid *g, const file_rows *at,
+static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const grid *g, file_rows *at,
                       column *columns, size_t count) {
     table_job *job = calloc(1, sizeof *job);
     target to;
@@ -294,6 +294,8 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
     ok = target_close(sh, lx, &to, ok);
     if (ok)
         say_compared(sh, job);
+    if (ok && at)
+        rows_say(sh, at);
     columns_free(job->columns, job->first + count + job->shown);
     free(job);
     return ok;

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "commands/figures.h"
-#include "commands/presets.h"
 #include "help/topics.h"
+#include "scene/presets.h"
 #include "statement/command.h"
 #include "statement/setting_table.h"
 #include "statement/text.h"

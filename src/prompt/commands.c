@@ -6,12 +6,12 @@
 #include "commands/accuracy_command.h"
 #include "commands/figures.h"
 #include "commands/looks.h"
-#include "commands/presets.h"
 #include "commands/range.h"
 #include "commands/study_commands.h"
 #include "help/help.h"
 #include "live/live.h"
 #include "prompt/show.h"
+#include "scene/presets.h"
 #include "statement/scripts.h"
 #include "statement/setting_table.h"
 
@@ -33,6 +33,7 @@ const hole_row holes[] = {
     {.name = "MU", .kind = HOLE_VALUE, .noun = "mu"},
     {.name = "N", .kind = HOLE_COUNT},
     {.name = "SECONDS", .kind = HOLE_SECONDS},
+    {.name = "COLUMN", .kind = HOLE_COLUMN},
     {.name = "TEXT", .kind = HOLE_TEXT},
     {.name = "FILE", .kind = HOLE_FILE},
     {.name = "LOAD", .kind = HOLE_LOAD, .words = load_name},
@@ -204,13 +205,14 @@ const command commands[] = {
      .group = "the load",
      .keywords = "csv history measured",
      .changes = true,
-     .takes = "FILE.csv",
+     .takes = "FILE.csv [using NAME = COLUMN, ...]",
      .summary = "load along a table of FN,Fx or dz,dx",
-     .help = "The header gives the columns and their units. Every row is a straight step; one\n"
-             "that cannot be carried leaves the scene as before the command. Where nothing is\n"
-             "pressed yet the first row presses, and must have Fx or dx = 0. A file of\n"
-             "`history to` has both pairs, and W: it is followed where they agree in this\n"
-             "scene. `help files` tells what else such a file may hold.\n\n"
+     .help = "The header gives the columns and their units, or `using`. Of dx,Fx the first\n"
+             "drives and Fx is compared. Every row is a straight step; one that cannot be\n"
+             "carried leaves the scene as before the command. Where nothing is pressed yet\n"
+             "the first row presses, and must have Fx or dx = 0. A file of `history to` has\n"
+             "both pairs, and W: it is followed where they agree in this scene. `help files`\n"
+             "tells what else such a file may hold.\n\n"
              "    $ cat load.csv\n"
              "    FN [N],Fx [N]\n"
              "    100,0\n"
@@ -265,7 +267,7 @@ const command commands[] = {
      .run = do_table,
      .group = "results",
      .keywords = "sweep csv export",
-     .takes = "EXPR, ... RANGE [to FILE]",
+     .takes = "EXPR, ... RANGE [using NAME = COLUMN, ...] [to FILE]",
      .summary = "a table over a range",
      .help = "NAME is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
              "A list, `for FN = 1 N, 2 N, 5 N`, may stand for LO .. HI, here and in figures.\n"
@@ -382,7 +384,7 @@ const command commands[] = {
      .run = do_fit,
      .group = "backwards",
      .keywords = "least squares regression identify parameter measured data inverse calibrate",
-     .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv]",
+     .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv] [using NAME = COLUMN, ...]",
      .summary = "inputs from measured data, with how sure they are",
      .help = "Starts from the present values; the scene stays as it is. With `for` each row is\n"
              "an equation whose columns are names: depth = dz(force). With `along` the file is\n"
@@ -401,6 +403,46 @@ const command commands[] = {
              "    fret> fit E0 for depth = dz(force) to depth.csv\n"
              "    E0 = 199.259 GPa +- 1.06 GPa\n"
              "    rms = 17.5911 nm over 4 rows\n"},
+    {.name = "loop",
+     .run = do_loop,
+     .group = "backwards",
+     .keywords = "measured hysteresis csv energy stiffness gross slip sliding rig file cycle",
+     .takes = "FILE.csv [using NAME = COLUMN, ...] [to FILE]",
+     .summary = "what a measured loop says by itself, cycle by cycle",
+     .help = "Of each cycle of dx, Fx, between turning points above the noise: the energy dW\n"
+             "that its rows enclose (of M rows (2*pi/M)^2/6 too little), the amplitudes dxA\n"
+             "and FA, the centre dx0, Fx0, the secant stiffness FA/dxA, the stiffness of\n"
+             "unloading behind the turning points, the slope of the flanks before them as a\n"
+             "part of that (below 0.05 they slide), and the energy ratio dW/(4*FA*dxA). No\n"
+             "scene is needed. `to FILE` writes a table. `help files` tells what is read.\n\n"
+             "    $ cat rig.csv\n"
+             "    Weg (um);Kraft (N)\n"
+             "    -2;-30\n"
+             "    -1;30\n"
+             "    1;30\n"
+             "    2;30\n"
+             "    1;-30\n"
+             "    -1;-30\n"
+             "    -2;-30\n"
+             "    fret> loop rig.csv\n"
+             "    note: rig.csv: 7 rows from line 2, dx from \"Weg (um)\", Fx from \"Kraft (N)\", 1 cycle\n"
+             "    cycle 1, from line 2\n"
+             "        dW = 180 uJ\n"
+             "        dxA = 2 um\n"
+             "        FA = 30 N\n"
+             "        dx0 = 0 m\n"
+             "        Fx0 = 0 N\n"
+             "        secant = 15 MN/m\n"
+             "        unloading = 60 MN/m\n"
+             "        flank = 0\n"
+             "        energy_ratio = 0.75\n"
+             "        flanks: slide\n"
+             "    all\n"
+             "        drift_dx = 0 m\n"
+             "        drift_Fx = 0 N\n"
+             "        noise_dx = 0 m\n"
+             "        noise_Fx = 0 N\n"
+             "        row_1: not at rest\n"},
     {.name = "uncertainty",
      .run = do_uncertainty,
      .group = "backwards",

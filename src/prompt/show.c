@@ -210,8 +210,10 @@ static void write_geometry(writer *w) {
     }
     if (g->by == PARAMETERS_FILE && !write_file_name(w, in->table->name))
         fputs(" # the name of the file cannot be written in a statement", w->to);
-    if (g->by == PARAMETERS_FILE)
+    if (g->by == PARAMETERS_FILE) {
         write_smoothing(w, &in->table->smoothing);
+        fprintf(w->to, "%s%s", in->table->smoothing.height ? " height" : "", in->table->smoothing.columns);
+    }
     putc('\n', w->to);
 }
 

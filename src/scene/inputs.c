@@ -181,8 +181,8 @@ static const geometry geometries[] = {
     {.name = "file",
      .gap = file,
      .by = PARAMETERS_FILE,
-     .takes = "FILE.csv [smooth HOW]",
-     .meaning = "rows of r, f with units in the header; smooth: see help files",
+     .takes = "FILE.csv [smooth HOW] [height] [using NAME = COLUMN, ...]",
+     .meaning = "rows of r, f with units in the header; smooth, height: see help files",
      .keywords = "csv table sampled measured profile noisy noise spline smooth roughness",
      .example = "    $ cat gap.csv\n"
                 "    r [mm],f [um]\n"

@@ -72,11 +72,15 @@ const char *geometry_name(size_t i);    /* for suggest() */
 
 typedef enum second_body { SECOND_SAME, SECOND_RIGID, SECOND_GIVEN } second_body;
 
+enum { CHOSEN = 256 };
+
 /* How the rows of a file become a gap. */
 typedef struct smoothing {
     enum { SMOOTH_NOT, SMOOTH_FREELY, SMOOTH_PIECES, SMOOTH_WITHIN } by;
     size_t pieces;
-    double within; /* rms [m] */
+    double within;        /* rms [m] */
+    bool height;          /* the rows are heights: f = -z */
+    char columns[CHOSEN]; /* as they were chosen, ` using ...`; empty: by name */
 } smoothing;
 
 /* A gap table: scenes share it, and an old one can come back. */

@@ -243,7 +243,7 @@ bool scene_load_rows(scene *s, load_step step, const double *normal, const doubl
         return false;
     bool wait = true;
     for (size_t i = 0; i < count; i++) {
-        step.normal_value = normal[i];
+        step.normal_value = normal ? normal[i] : 0;
         step.tangential_value = tangential[i];
         wait = wait && can_wait(s, &step);
         if (!append_step(s, &step, NULL, error)) {

@@ -26,6 +26,7 @@ typedef enum hole_kind {
     HOLE_SECONDS, /* a positive number */
     HOLE_TEXT,    /* "..." */
     HOLE_FILE,    /* all up to a blank, or "..." */
+    HOLE_COLUMN,  /* of a file: a name, "...", or a number; a unit may follow */
     HOLE_CHOICE,  /* one of some words */
     HOLE_WORD,    /* any word: the command judges it */
     HOLE_LOAD,    /* a statement of the load, which begins with one of some words */

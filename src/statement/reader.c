@@ -426,6 +426,19 @@ static bool skip_names(lexer *lx, const said *s, const clause *a) {
     return !lx->error->raised;
 }
 
+/* `3 um`, `"Load On Sample"`: a unit may follow; names need not be made of tokens. */
+static bool skip_column(lexer *lx, const said *s, span *part) {
+    unit unused;
+    error_clear(lx->error);
+    part->len = lx->kind == T_STRING || lx->kind == T_NUMBER ? lx->len : choice_at(lx);
+    lex_seek(lx, part->at + part->len);
+    if (!unit_at(lx) && (lx->kind != T_NAME || clause_at(lx, s->by)))
+        return part->len > 0 || lex_fail(lx, "expected a column: its name, or its number");
+    const bool ok = unit_parse(lx, &unused);
+    part->len = lx->last - part->at;
+    return ok;
+}
+
 static bool skip_load(lexer *lx, const said *s, const clause *a) {
     size_t load;
     if (!word_among(a->hole[0].row->words, lx->text + lx->at, lx->len, &load))
@@ -496,6 +509,8 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         ok = lex_filename(lx, name, sizeof name);
         break;
     }
+    case HOLE_COLUMN:
+        return skip_column(lx, s, &h->hole[i]);
     case HOLE_NAME:
     case HOLE_INPUT:
         ok = skip_names(lx, s, a);
@@ -514,6 +529,8 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         lex_seek(lx, lx->at + h->hole[i].len);
         return true;
     default:
+        if (row->kind == HOLE_MAYBE && lx->kind == T_NAME && clause_at(lx, s->by))
+            break;
         skip_part(lx, s->by, a, i);
         ok = row->kind != HOLE_SPAN || !lacks_end(lx, a, &h->hole[i]);
         break;

@@ -22,7 +22,7 @@ typedef struct fit_question {
     size_t rows; /* more than names */
     /* each row an equation; left NULL: a loop */
     const expr *left, *right;
-    column_knob column[FIT_COLUMNS];
+    const column_knob *column; /* no more than FIT_COLUMNS, borrowed */
     size_t columns;
     fit_loop loop;
 } fit_question;

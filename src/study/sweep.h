@@ -23,7 +23,7 @@ typedef struct sweep_range {
 enum { SWEEP_NAMES = 12 };
 typedef struct sweep_rows {
     size_t names;
-    column_knob column[SWEEP_NAMES]; /* borrowed values */
+    const column_knob *column; /* no more than SWEEP_NAMES, borrowed */
 } sweep_rows;
 
 typedef struct sweep sweep;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading tables. A field is a piece of a line; a number is what the language takes for one, or the same with
- * a decimal comma. */
+/* Reading tables: bytes become text, the table is found in it, the header becomes columns, and fields become
+ * numbers when their column is asked for. A number is what the language takes for one, or the same with a
+ * decimal comma. */
 #include "text/csv.h"
 
 #include <math.h>
@@ -9,39 +10,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "text/characters.h"
+#include "text/encoding.h"
 #include "text/unit_text.h"
 
-enum { POINT, COMMA, MARKS };
-static const char marks[MARKS] = {'.', ','};
-enum { THOUSANDS = sizeof "-123.456" };
-
-typedef struct reader {
-    csv *c;
-    calc_error *error;
-    char separator; /* ' ': blanks and tabs */
-    bool header;    /* has been read */
-    size_t line;
-    size_t marked[MARKS]; /* the first line with such a number; 0: none */
-    unit unit[CSV_COLUMNS];
-    /* the first number of each column whose mark may part thousands instead */
-    struct {
-        size_t line; /* 0: none */
-        char text[THOUSANDS];
-    } thousands[CSV_COLUMNS][MARKS];
-} reader;
+static const unit plain_unit = {{0, 0, 0, 0}, 0, 1};
 
 void csv_free(csv *c) {
     for (size_t i = 0; i < c->columns; i++) {
         free(c->column[i].v);
         free(c->column[i].trouble);
     }
-    free(c->line);
+    free(c->row);
+    free(c->text);
     free(c->path);
     *c = (csv){.path = NULL};
-}
-
-static bool fail(const reader *r, const char *what) {
-    return calc_fail(r->error, 0, 0, "%s:%zu: %s", r->c->path, r->line, what);
 }
 
 /* ---- fields ------------------------------------------------------------------------------------ */
@@ -92,91 +75,276 @@ static bool next_field(char separator, const char *line, size_t len, size_t *at,
     return true;
 }
 
-/* ---- the header -------------------------------------------------------------------------------- */
+/* The length of the number at the beginning of a text, which is not empty; 0: there is none. */
+static size_t take_number(const char *text, size_t len, char point, const unit *u, double *out) {
+    const bool minus = *text == '-', sign = minus || *text == '+', decimal = u->factor == 1;
+    double v;
+    const size_t n = lex_decimal(text + sign, len - sign, point, decimal ? u->exp10 : 0, &v);
+    if (n == 0)
+        return 0;
+    v = decimal ? v : (double)((long double)v * unit_scale(u));
+    *out = minus ? -v : v;
+    return isfinite(v) ? n + sign : 0;
+}
 
-/* What is wrong with a column, once. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-static bool
-trouble(const reader *r, csv_values *column, const char *format, ...) {
-    char text[CALC_ERROR_TEXT];
-    va_list args;
-    if (column->trouble)
+/* All of a field, with a point or, where it cannot be a separator, with a comma. */
+static bool is_number(field f, bool comma, const unit *u, double *out) {
+    const char point = comma && !memchr(f.text, '.', f.len) ? ',' : '.';
+    return f.len && take_number(f.text, f.len, point, u, out) == f.len;
+}
+
+/* What stands where there is no value. */
+static bool is_missing(field f) {
+    static const char *const words[] = {"nan",     "-nan",    "+nan",    "nan(ind)", "-nan(ind)", "1.#qnan",
+                                        "-1.#ind", "na",      "n/a",     "no data",  "null",      "#div/0!",
+                                        "#n/a",    "#nv",     "#value!", "#wert!",   "#num!",     "#zahl!",
+                                        "#ref!",   "#bezug!", "#name?",  "#null!"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == f.len) {
+            size_t n = 0;
+            while (n < f.len &&
+                   (f.text[n] | (f.text[n] >= 'A' && f.text[n] <= 'Z' ? 0x20 : 0)) == words[i][n])
+                n++;
+            if (n == f.len)
+                return true;
+        }
+    return f.len == 0;
+}
+
+/* A field of a row. A comment, with or without a number before it, is the last. */
+typedef struct cell {
+    enum { NUMBER, MISSING, WORD, COMMENT } is;
+    field f;
+    double v;
+    bool ends;
+} cell;
+
+static bool next_cell(char separator, const char *line, size_t len, size_t *at, const unit *u, cell *out) {
+    const size_t n = *at < len ? take_number(line + *at, len - *at, '.', u, &out->v) : 0;
+    out->is = NUMBER;
+    out->ends = false;
+    if (n > 0 && (*at + n == len || parts(separator, line[*at + n]))) { /* as most are */
+        out->f = (field){line + *at, n};
+        *at += n + 1;
         return true;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    column->trouble = malloc(strlen(text) + 1);
-    if (!column->trouble)
-        return calc_no_memory(r->error);
-    strcpy(column->trouble, text);
+    }
+    if (!next_field(separator, line, len, at, &out->f))
+        return false;
+    field *f = &out->f;
+    const bool comma = separator != ',' || (f->text > line && f->text[-1] == '"');
+    if (is_number(*f, comma, u, &out->v))
+        return true;
+    if (is_missing(*f)) {
+        out->is = MISSING;
+        out->v = NAN;
+        return true;
+    }
+    const char *hash = memchr(f->text, '#', f->len);
+    const field before = trimmed(f->text, hash ? (size_t)(hash - f->text) : 0);
+    const bool first = f->text == line && *at < len; /* `1#,0,0`: a note */
+    out->ends = hash && !first && is_number(before, comma, u, &out->v);
+    out->is = out->ends ? NUMBER : hash == f->text ? COMMENT : WORD;
     return true;
 }
 
-static bool read_unit(reader *r, csv_values *column, unit *u, const char *text, size_t len) {
-    lexer lx;
-    calc_error wrong;
-    error_clear(&wrong);
-    lex_start(&lx, text, len, &wrong);
-    if (lx.kind == T_END && !wrong.raised) /* of `k []` or `k [-]`: a plain number */
-        return true;
-    if (len == 1 && *text == '-')
-        return true;
-    if (wrong.raised || !unit_of_header(&lx, u))
-        return trouble(r, column, "%.200s:%zu: column %s: %.200s%.*s%s", r->c->path, r->line, column->name,
-                       wrong.raised ? wrong.text : "a bad unit '", wrong.raised ? 0 : LEX_SHOWN(len), text,
-                       wrong.raised ? "" : "'");
-    column->d = u->d;
-    column->has_unit = true;
-    return true;
+/* ---- the text ---------------------------------------------------------------------------------- */
+
+/* Lines that end by carriage returns alone are one line to others. */
+static bool read_text(csv *c, file_stop stop, size_t *len, calc_error *error) {
+    file_in in;
+    file_text all;
+    file_got got = FILE_GOT_END;
+    bool ok = true;
+    if (!file_in_open(&in, c->path, stop, error))
+        return false;
+    if (!file_text_open(&all)) {
+        file_in_close(&in);
+        return calc_no_memory(error);
+    }
+    while (ok && (got = file_in_line(&in, error)) == FILE_GOT_LINE) {
+        fwrite(in.line, 1, in.length, all.to);
+        putc('\n', all.to);
+        ok = !memchr(in.line, 0, in.length) ||
+             calc_fail(error, 0, 0, "%s:%llu: this is no text, or UTF-16 without its mark: save it as UTF-8",
+                       c->path, in.number);
+    }
+    const bool one = in.read == 1;
+    file_in_close(&in);
+    if (!file_text_close(&all))
+        return calc_no_memory(error);
+    c->text = all.text;
+    *len = all.size;
+    for (char *end = c->text; one && ok && (end = strchr(end, '\r'));)
+        *end = '\n';
+    if (ok && got == FILE_GOT_STOP)
+        return calc_interrupted(error);
+    return ok && got != FILE_GOT_ERROR && encoding_to_utf8(&c->text, len, &c->encoding, c->path, error);
 }
 
-static char closing_of(char c) {
-    return c == '[' ? ']' : c == '(' ? ')' : 0;
+/* ---- the table --------------------------------------------------------------------------------- */
+
+/* A line that is not empty. Bits: which of its fields are numbers, and which words; the last stands for all
+ * that follow. */
+typedef struct said_line {
+    csv_row at;
+    bool comment;
+    unsigned fields;
+    unsigned long long numbers, words, labels; /* labels: words of more than one letter */
+} said_line;
+
+typedef struct finder {
+    csv *c;
+    calc_error *error;
+    file_stop stop;
+    said_line *list;
+    size_t count;
+    unsigned long long usual; /* the numbers of a row */
+    char title[CSV_COLUMNS][CSV_NAME];
+} finder;
+
+#define NO_LINE ((size_t)-1)
+
+static const char *text_of(const finder *t, const said_line *l) {
+    return t->c->text + l->at.at;
 }
 
-/* Where the unit of a title begins: at its bracket; of `p(r) [MPa]`, as tables are written, at the last. */
-static size_t unit_place(field f) {
-    size_t n = 0;
-    for (size_t last = f.len; last > 1 && f.text[f.len - 1] == ']'; last--)
-        if (f.text[last - 1] == '[')
-            return last - 1;
-    while (n < f.len && !strchr("[(/", f.text[n]))
+static unsigned count_bits(unsigned long long bits) {
+    unsigned n = 0;
+    for (; bits; bits &= bits - 1)
         n++;
     return n;
 }
 
-static bool read_title(reader *r, field f) {
-    csv *c = r->c;
-    if (c->columns == CSV_COLUMNS)
-        return calc_fail(r->error, 0, 0, "%s:%zu: more than %d columns", c->path, r->line, CSV_COLUMNS);
-    csv_values *column = &c->column[c->columns];
-    unit *u = &r->unit[c->columns++];
-    *column = (csv_values){.d = DIM_NONE};
-    *u = (unit){DIM_NONE, 0, 1};
-    const size_t n = unit_place(f);
-    const field name = trimmed(f.text, n);
-    snprintf(column->name, sizeof column->name, "%.*s", (int)(name.len < CSV_NAME ? name.len : CSV_NAME - 1),
-             name.text);
-    for (csv_values *other = c->column; *column->name && other < column; other++)
-        if (!strcmp(other->name, column->name))
-            other->twice = column->twice = true;
-    if (n == f.len)
-        return true;
-    const char closing = closing_of(f.text[n]);
-    const char *end = closing ? memchr(f.text + n, closing, f.len - n) : f.text + f.len;
-    if (!end)
-        return fail(r, "a unit in the header is not closed");
-    return read_unit(r, column, u, f.text + n + 1, (size_t)(end - f.text) - n - 1);
+static bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (unsigned char)c >= 0x80;
 }
 
-static char separator_of(const char *line, size_t len) {
-    static const char kinds[] = ";\t,";
-    for (const char *kind = kinds; *kind; kind++)
-        if (memchr(line, *kind, len))
-            return *kind;
-    return ' ';
+static void scan_line(const char *text, char separator, said_line *l) {
+    size_t at = 0;
+    cell c = {.ends = false};
+    l->fields = 0;
+    l->numbers = l->words = l->labels = 0;
+    while (!c.ends && next_cell(separator, text, l->at.len, &at, &plain_unit, &c) && c.is != COMMENT) {
+        const unsigned long long bit = 1ULL << (l->fields < CSV_COLUMNS ? l->fields : CSV_COLUMNS - 1);
+        l->numbers |= c.is == NUMBER ? bit : 0;
+        l->words |= c.is == WORD ? bit : 0;
+        l->labels |=
+            c.is == WORD && c.f.len > 1 && is_letter(c.f.text[0]) && is_letter(c.f.text[1]) ? bit : 0;
+        l->fields++;
+    }
+}
+
+/* Is it more than blanks and separators, as spreadsheets write empty rows? */
+static bool says_something(const char *text, size_t len) {
+    for (size_t i = 0; i < len; i++)
+        if (!is_blank(text[i]) && text[i] != ';' && text[i] != ',')
+            return true;
+    return false;
+}
+
+static bool is_comment(field f) {
+    size_t n = 0;
+    while (n < f.len && !strchr("; \t,", f.text[n]))
+        n++;
+    return f.len > 0 && *f.text == '#' && !is_missing((field){f.text, n});
+}
+
+static bool cut_lines(finder *t, size_t len) {
+    const char *text = t->c->text;
+    size_t lines = 1;
+    for (const char *end = text; (end = strchr(end, '\n')); end++)
+        lines++;
+    t->list = malloc(lines * sizeof *t->list);
+    t->c->row = malloc(lines * sizeof *t->c->row);
+    if (!t->list || !t->c->row)
+        return calc_no_memory(t->error);
+    for (size_t at = 0, number = 1, n; at < len; at += n + 1, number++) {
+        n = strcspn(text + at, "\n");
+        if (says_something(text + at, n) && (n != 5 || memcmp(text + at, "sep=", 4)))
+            t->list[t->count++] =
+                (said_line){.at = {number, at, n}, .comment = is_comment(trimmed(text + at, n))};
+    }
+    return true;
+}
+
+/* That which parts the most numbers from each other, and the fewest words from them; `sep=;` is how
+ * spreadsheets tell it. Some lines tell of all. */
+static char choose_separator(const finder *t) {
+    static const char kinds[] = ";\t, ";
+    enum { TRIED = 1000 };
+    char best = ' ';
+    long most = 0;
+    for (long least = 2; least > 0 && most == 0; least--) /* two to a line; else one */
+        for (const char *kind = kinds; *kind; kind++) {
+            long score = 0;
+            for (size_t i = 0; i < t->count; i += 1 + t->count / TRIED) {
+                said_line l = t->list[i];
+                if (l.comment)
+                    continue;
+                scan_line(text_of(t, &l), *kind, &l);
+                const long numbers = count_bits(l.numbers);
+                score += numbers >= least ? 4 * numbers - (long)count_bits(l.words) : 0;
+            }
+            if (score > most) {
+                most = score;
+                best = *kind;
+            }
+        }
+    return best;
+}
+
+/* Which fields are numbers in most lines, those with many before those with few. */
+static void find_usual(finder *t) {
+    enum { KINDS = 64 };
+    struct {
+        unsigned long long numbers;
+        size_t weight;
+    } kind[KINDS] = {{0, 0}};
+    size_t kinds = 0, most = 0;
+    for (size_t i = 0; i < t->count; i++) {
+        said_line *l = &t->list[i];
+        if (l->comment)
+            continue;
+        scan_line(text_of(t, l), t->c->separator, l);
+        const size_t numbers = count_bits(l->numbers);
+        size_t k = 0;
+        while (k < kinds && kind[k].numbers != l->numbers)
+            k++;
+        if (numbers == 0 || k == KINDS)
+            continue;
+        kinds += k == kinds;
+        kind[k].numbers = l->numbers;
+        kind[k].weight += numbers * numbers;
+    }
+    for (size_t k = 0; k < kinds; k++)
+        if (kind[k].weight > most) {
+            most = kind[k].weight;
+            t->usual = kind[k].numbers;
+        }
+}
+
+/* Numbers, or no value, where rows have numbers. */
+static bool is_row(const finder *t, const said_line *l) {
+    return !l->comment && l->numbers & t->usual && !(l->words & t->usual);
+}
+
+/* ---- the header -------------------------------------------------------------------------------- */
+
+static bool parse_unit(const char *text, size_t len, unit *u, calc_error *wrong) {
+    lexer lx;
+    error_clear(wrong);
+    lex_start(&lx, text, len, wrong);
+    return lx.kind != T_END && !wrong->raised && unit_of_header(&lx, u);
+}
+
+/* `k []`, `k [-]`: a plain number */
+static bool no_unit(const char *text, size_t len) {
+    const field f = trimmed(text, len);
+    return f.len == 0 || (f.len == 1 && *f.text == '-');
+}
+
+static char closing_of(char c) {
+    return c == '[' ? ']' : c == '(' ? ')' : 0;
 }
 
 /* `r [mm] f [um]` parts names from their units too. */
@@ -192,39 +360,281 @@ static size_t unit_behind(const char *line, size_t len, size_t at, field *f) {
     return (size_t)(end + 1 - line);
 }
 
-static bool read_header(reader *r, const char *line, size_t len) {
-    size_t at = 0;
+/* Without the signs of a comment, and what programs write before the names. */
+static field heading(const char *text, size_t len) {
+    static const char item[] = "ITEM: ";
+    field f = trimmed(text, len);
+    while (f.len > 0 && strchr("#%!", *f.text))
+        f = trimmed(f.text + 1, f.len - 1);
+    if (f.len > sizeof item && !memcmp(f.text, item, sizeof item - 1)) {
+        size_t n = sizeof item - 1;
+        while (n < f.len && !is_blank(f.text[n]))
+            n++;
+        f = trimmed(f.text + n, f.len - n);
+    }
+    return *text == '\t' || *text == ';' || *text == ',' ? (field){text, len} : f; /* an empty first field */
+}
+
+/* The names in a line, those at the end without one left out: how many; 0: half of them are numbers, or there
+ * are too many. */
+static size_t read_titles(finder *t, char separator, const char *text, size_t len) {
+    const field head = heading(text, len);
+    size_t at = 0, count = 0, named = 0, numbers = 0;
+    double v;
     field f;
-    if (len > 4 && !memcmp(line, "sep=", 4)) /* by which spreadsheets tell themselves the separator */
+    while (next_field(separator, head.text, head.len, &at, &f) && !is_comment(f)) {
+        if (separator == ' ')
+            at = unit_behind(head.text, head.len, at, &f);
+        if (f.len > 0 && count >= CSV_COLUMNS)
+            return 0;
+        numbers += is_number(f, true, &plain_unit, &v);
+        if (count < CSV_COLUMNS)
+            snprintf(t->title[count], CSV_NAME, "%.*s", (int)(f.len < CSV_NAME ? f.len : CSV_NAME - 1),
+                     f.text);
+        count++;
+        named = f.len > 0 ? count : named;
+    }
+    return 2 * numbers < named ? named : 0;
+}
+
+/* How many columns the line names: by the separator of the rows, or by another where that parts as many names
+ * as a row has fields. exact: no less and no more than these; else 0. */
+static size_t names_in(finder *t, const said_line *l, unsigned fields, bool exact) {
+    static const char kinds[] = ";\t, ";
+    const char *text = text_of(t, l), own = t->c->separator;
+    size_t named = read_titles(t, own, text, l->at.len);
+    const bool other =
+        own == ' ' ? named != fields : named < count_bits(t->usual); /* too few; signs between blanks */
+    for (const char *kind = kinds; *kind && named != fields && other; kind++)
+        named = read_titles(t, *kind, text, l->at.len);
+    if (named != fields)
+        named = exact ? 0 : read_titles(t, own, text, l->at.len);
+    return named < 2 && count_bits(t->usual) > 1 && !memchr(text, '[', l->at.len) ? 0 : named;
+}
+
+/* Are the names that have been read units, or most of them? */
+static bool are_units(const finder *t, size_t named) {
+    size_t units = 0, all = 0;
+    for (size_t i = 0; i < named; i++) {
+        const char *s = t->title[i];
+        const size_t len = strlen(s), bare = len > 2 && closing_of(*s) == s[len - 1] && closing_of(*s);
+        unit u;
+        all += len > 0;
+        units += len > 0 && (no_unit(s, len) || parse_unit(s + bare, len - 2 * bare, &u, error_quiet()));
+    }
+    return units > 0 && 2 * units >= all;
+}
+
+static bool have_units(const finder *t, size_t named) {
+    for (size_t i = 0; i < named; i++)
+        if (strpbrk(t->title[i], "[("))
+            return true;
+    return false;
+}
+
+/* The line of names above the i-th; in a comment, those that the rows just need. */
+static size_t header_above(finder *t, size_t i) {
+    const unsigned fields = t->list[i].fields;
+    size_t noted = NO_LINE;
+    while (i-- > 0) {
+        const said_line *l = &t->list[i];
+        if (!l->comment)
+            return names_in(t, l, fields, false) ? i : noted;
+        const size_t named = names_in(t, l, fields, true);
+        if (named && have_units(t, named))
+            return i;
+        noted = named && noted == NO_LINE ? i : noted;
+    }
+    return noted;
+}
+
+static bool same_line(const finder *t, const said_line *a, const said_line *b) {
+    return a->at.len == b->at.len && !memcmp(text_of(t, a), text_of(t, b), a->at.len);
+}
+
+/* What is wrong with a column, once. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+static bool
+trouble(csv_values *column, calc_error *error, const char *format, ...) {
+    char text[CALC_ERROR_TEXT];
+    va_list args;
+    if (column->trouble)
         return true;
-    r->header = true;
-    r->separator = separator_of(line, len);
-    while (next_field(r->separator, line, len, &at, &f)) {
-        if (r->separator == ' ')
-            at = unit_behind(line, len, at, &f);
-        if (!read_title(r, f))
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    column->trouble = malloc(strlen(text) + 1);
+    if (!column->trouble)
+        return calc_no_memory(error);
+    strcpy(column->trouble, text);
+    return true;
+}
+
+/* Parts a title into name and unit, which stands in the last brackets, or behind one of the other marks. What
+ * is in brackets or behind a slash and is no unit is told where the column is asked for. */
+static bool read_title(const finder *t, csv_values *column) {
+    static const char *const before[] = {"[", "(", "/", " in ", "_"};
+    enum { SURE = 3 };
+    const char *title = column->title, *path = t->c->path;
+    size_t name = strlen(title);
+    calc_error wrong;
+    for (size_t k = 0; k < sizeof before / sizeof *before; k++) {
+        const char *at = NULL, *closing = k == 0 ? "]" : k == 1 ? ")" : "";
+        for (const char *next = title; (next = strstr(next, before[k])); next++)
+            at = next;
+        if (!at || (k >= SURE && at == title))
+            continue;
+        const char *text = at + strlen(before[k]),
+                   *end = *closing ? strstr(text, closing) : text + strlen(text);
+        if (!end)
+            return calc_fail(t->error, 0, 0, "%s:%zu: a unit in the header is not closed", path,
+                             t->c->header.line);
+        const size_t len = (size_t)(end - text);
+        const bool known = parse_unit(text, len, &column->u, &wrong);
+        if (!known && k >= SURE)
+            continue;
+        name = (size_t)(at - title);
+        if (known || no_unit(text, len)) {
+            column->d = column->u.d;
+            column->has_unit = known;
+            free(column->trouble);
+            column->trouble = NULL;
+            break;
+        }
+        if (!trouble(column, t->error, "%.200s:%zu: column %.*s: %.200s%.*s%s", path, t->c->header.line,
+                     (int)trimmed(title, name).len, title, wrong.raised ? wrong.text : "a bad unit '",
+                     wrong.raised ? 0 : LEX_SHOWN(len), text, wrong.raised ? "" : "'"))
             return false;
     }
-    while (r->c->columns > 0 && !*r->c->column[r->c->columns - 1].name) /* separators at the end */
-        free(r->c->column[--r->c->columns].trouble);
-    const char *first = r->c->column[0].name;
-    return (r->c->columns > 0 && *first && !strchr("0123456789.+-", *first)) ||
-           fail(r, "the header must name the columns with their units, such as r [mm],f [um]");
+    const field own = trimmed(title, name);
+    snprintf(column->name, sizeof column->name, "%.*s", (int)own.len, own.text);
+    return true;
+}
+
+/* Columns from the header at i, with units from the line below the names where that is all units. */
+static bool read_header(finder *t, size_t i, unsigned fields) {
+    csv *c = t->c;
+    char unit_of[CSV_COLUMNS][CSV_NAME] = {""};
+    size_t named = names_in(t, &t->list[i], fields, false), above = i;
+    if (are_units(t, named)) {
+        const size_t units = named;
+        memcpy(unit_of, t->title, sizeof unit_of);
+        while (above-- > 0 && t->list[above].comment)
+            continue;
+        named = above == NO_LINE ? 0 : names_in(t, &t->list[above], fields, false);
+        if (named < units) { /* they are names all the same */
+            memset(unit_of, 0, sizeof unit_of);
+            named = names_in(t, &t->list[above = i], fields, false);
+        }
+    }
+    c->header = t->list[above].at;
+    c->plain = true;
+    while (above-- > 0)
+        c->plain = c->plain && t->list[above].comment;
+    for (size_t k = 0; k < named; k++) {
+        csv_values *column = &c->column[c->columns++];
+        const char *u = unit_of[k];
+        const size_t len = strlen(u), bare = len > 2 && closing_of(*u) == u[len - 1];
+        *column = (csv_values){.u = plain_unit};
+        if (len > 0)
+            snprintf(column->title, sizeof column->title, "%.60s [%.*s]", t->title[k], (int)(len - 2 * bare),
+                     u + bare);
+        else
+            memcpy(column->title, t->title[k], sizeof column->title);
+        if (!read_title(t, column))
+            return false;
+        for (csv_values *other = c->column; *column->name && other < column; other++)
+            if (!strcmp(other->name, column->name))
+                other->twice = column->twice = true;
+    }
+    return true;
 }
 
 /* ---- rows -------------------------------------------------------------------------------------- */
 
-/* The length of the number at the beginning of a text, which is not empty; 0: there is none. */
-static size_t take_number(const char *text, size_t len, char point, const unit *u, double *out) {
-    const bool minus = *text == '-', sign = minus || *text == '+', decimal = u->factor == 1;
-    double v;
-    const size_t n = lex_decimal(text + sign, len - sign, point, decimal ? u->exp10 : 0, &v);
-    if (n == 0)
-        return 0;
-    v = decimal ? v : (double)((long double)v * unit_scale(u));
-    *out = minus ? -v : v;
-    return isfinite(v) ? n + sign : 0;
+/* Where the rows begin: those that a header stands above, but for a table without one that is no shorter. */
+static size_t find_begin(finder *t, size_t *header) {
+    size_t first = NO_LINE, before = 0;
+    *header = NO_LINE;
+    for (size_t i = 0; i < t->count;) {
+        if (t->list[i].comment || (t->list[i].numbers & t->usual) != t->usual) {
+            i++;
+            continue;
+        }
+        size_t begin = i, end = i;
+        while (begin > 0 && is_row(t, &t->list[begin - 1]) &&
+               (t->list[begin - 1].fields > 1 || t->list[i].fields == 1))
+            begin--; /* without a value in some */
+        while (end < t->count && (t->list[end].comment || is_row(t, &t->list[end])))
+            end++;
+        const size_t named = header_above(t, begin);
+        if (named != NO_LINE && end - begin > before) {
+            *header = named;
+            return begin;
+        }
+        first = first == NO_LINE ? begin : first;
+        before += end - begin;
+        i = end;
+    }
+    return first;
 }
+
+/* Names with units of their own begin another table. */
+static bool begins_another(finder *t, const said_line *l) {
+    const size_t named = l->numbers ? 0 : names_in(t, l, (unsigned)t->c->columns, false);
+    return named >= count_bits(t->usual) && have_units(t, named);
+}
+
+static bool add_row(finder *t, const said_line *l) {
+    csv *c = t->c;
+    if (c->header.line && c->columns < CSV_COLUMNS && l->numbers >> c->columns)
+        return calc_fail(t->error, 0, 0, "%s:%zu: more than %zu fields, one for each name of the header",
+                         c->path, l->at.line, c->columns);
+    if (l->fields > CSV_COLUMNS)
+        return calc_fail(t->error, 0, 0, "%s:%zu: more than %d columns", c->path, l->at.line, CSV_COLUMNS);
+    while (!c->header.line && c->columns < l->fields)
+        c->column[c->columns++] = (csv_values){.u = plain_unit};
+    c->row[c->rows++] = l->at;
+    return true;
+}
+
+static bool read_rows(finder *t, size_t begin, size_t header) {
+    csv *c = t->c;
+    for (size_t i = begin; i < t->count; i++) {
+        const said_line *l = &t->list[i];
+        if (l->comment)
+            continue;
+        const unsigned long long first = t->usual & (~t->usual + 1);
+        if (!(l->words & t->usual) || (l->numbers & t->usual && !(l->labels & first))) { /* no `Mean;0.3;5` */
+            if (!add_row(t, l))
+                return false;
+            continue;
+        }
+        if (header != NO_LINE && same_line(t, l, &t->list[header]))
+            continue;
+        c->first_word = c->words++ ? c->first_word : l->at.line;
+        if (header != NO_LINE && begins_another(t, l))
+            break;
+    }
+    return true;
+}
+
+/* ---- decimal marks ----------------------------------------------------------------------------- */
+
+enum { POINT, COMMA, MARKS };
+static const char marks[MARKS] = {'.', ','};
+enum { THOUSANDS = sizeof "-123.456" };
+
+typedef struct marking {
+    size_t line[MARKS]; /* the first line with such a number; 0: none */
+    /* the first number of each column whose mark may part thousands instead */
+    struct {
+        size_t line; /* 0: none */
+        char text[THOUSANDS];
+    } thousands[CSV_COLUMNS][MARKS];
+} marking;
 
 /* Does the mark stand where one of thousands would: `1.500`, `-12,345`, not `0.500`? */
 static bool like_thousands(field f, char mark) {
@@ -238,220 +648,214 @@ static bool like_thousands(field f, char mark) {
 }
 
 /* What a number says of the marks in this file. */
-static void see_marks(reader *r, size_t column, field f) {
-    for (int m = 0; m < MARKS; m++) {
-        if (!memchr(f.text, marks[m], f.len))
+static void see_marks(marking *m, size_t line, size_t column, field f) {
+    for (int i = 0; i < MARKS; i++) {
+        if (!memchr(f.text, marks[i], f.len))
             continue;
-        if (!r->marked[m])
-            r->marked[m] = r->line;
-        if (!r->thousands[column][m].line && like_thousands(f, marks[m])) {
-            r->thousands[column][m].line = r->line;
-            memcpy(r->thousands[column][m].text, f.text, f.len);
+        m->line[i] = m->line[i] ? m->line[i] : line;
+        if (!m->thousands[column][i].line && like_thousands(f, marks[i])) {
+            m->thousands[column][i].line = line;
+            memcpy(m->thousands[column][i].text, f.text, f.len);
         }
     }
 }
 
-/* One mark parts thousands where the other begins decimals, and who wrote the file knows which: a number that
- * may be meant either way is not guessed at. */
-static bool judge_marks(reader *r) {
-    for (size_t i = 0; i < r->c->columns; i++)
-        for (int m = 0; m < MARKS; m++) {
-            const char *text = r->thousands[i][m].text;
-            const size_t other = r->marked[m == POINT ? COMMA : POINT];
+/* Columns with a mark that may be either, in a file that has the other one as decimal mark. */
+static bool judge_marks(csv *c, const marking *m, calc_error *error) {
+    for (size_t i = 0; i < c->columns; i++)
+        for (int k = 0; k < MARKS; k++) {
+            const char *text = m->thousands[i][k].text;
+            const size_t other = m->line[k == POINT ? COMMA : POINT];
             char whole[THOUSANDS] = "";
-            if (!r->thousands[i][m].line || !other)
+            if (!m->thousands[i][k].line || !other)
                 continue;
             const size_t before = strlen(text) - 4;
             memcpy(whole, text, before);
             memcpy(whole + before, text + before + 1, 3);
-            if (!trouble(r, &r->c->column[i],
-                         "%.200s:%zu: %s = %s may be %.6g or %s, since line %zu has a decimal %s: write it "
-                         "without its %s, or with a %s",
-                         r->c->path, r->thousands[i][m].line, r->c->column[i].name, text, atof(whole) / 1000,
-                         whole, other, m == POINT ? "comma" : "point", m == POINT ? "point" : "comma",
-                         m == POINT ? "comma" : "point"))
+            if (!trouble(
+                    &c->column[i], error,
+                    "%.200s:%zu: %.60s = %s may be %.6g or %s, since line %zu has a decimal %s: write it "
+                    "without its %s, or with a %s",
+                    c->path, m->thousands[i][k].line, c->column[i].name, text, atof(whole) / 1000, whole,
+                    other, k == POINT ? "comma" : "point", k == POINT ? "point" : "comma",
+                    k == POINT ? "comma" : "point"))
                 return false;
         }
     return true;
 }
 
-/* All of a field, with a point or, where it cannot be a separator, with a comma. */
-static bool read_number(reader *r, size_t column, field f, bool comma, double *out) {
-    const char point = comma && !memchr(f.text, '.', f.len) ? ',' : '.';
-    if (!f.len || take_number(f.text, f.len, point, &r->unit[column], out) != f.len)
-        return false;
-    see_marks(r, column, f);
-    return true;
-}
-
-/* A number with a comment behind it. */
-static bool read_commented(reader *r, size_t column, field f, bool comma, double *out) {
-    const char *hash = memchr(f.text, '#', f.len);
-    return hash && read_number(r, column, trimmed(f.text, (size_t)(hash - f.text)), comma, out);
-}
-
-/* A field that is a number and nothing else, as most are; else *at stays. */
-static bool take_field(reader *r, size_t column, char separator, const char *line, size_t len, size_t *at,
-                       double *out) {
-    const size_t n = *at < len ? take_number(line + *at, len - *at, '.', &r->unit[column], out) : 0,
-                 end = *at + n;
-    if (n == 0 || (end < len && !parts(separator, line[end])))
-        return false;
-    see_marks(r, column, (field){line + *at, n});
-    *at = end + 1;
-    return true;
-}
-
-static bool make_room(csv *c) {
-    const size_t room = c->room ? 2 * c->room : 256;
-    if (c->rows < c->room)
-        return true;
-    size_t *line = realloc(c->line, room * sizeof *line);
-    if (!line)
-        return false;
-    c->line = line;
-    for (size_t i = 0; i < c->columns; i++) {
-        double *grown = realloc(c->column[i].v, room * sizeof *grown);
-        if (!grown)
-            return false;
-        c->column[i].v = grown;
-    }
-    c->room = room;
-    return true;
-}
-
-static bool read_row(reader *r, const char *line, size_t len) {
-    csv *c = r->c;
-    char separator = r->separator;
-    size_t at = 0, i = 0, blank = 0;
-    field f;
-    while (blank < len && (is_blank(line[blank]) || line[blank] == r->separator))
-        blank++;
-    if (blank == len) /* spreadsheets write empty rows as separators */
-        return true;
-    if (c->columns > 1 && !memchr(line, r->separator, len))
-        separator = ' '; /* a header with commas over rows with blanks */
-    if (!make_room(c))
-        return calc_no_memory(r->error);
-    for (;; i++) {
-        if (i < c->columns && take_field(r, i, separator, line, len, &at, &c->column[i].v[c->rows]))
-            continue;
-        if (!next_field(separator, line, len, &at, &f))
-            break;
-        if (i >= c->columns && f.len > 0 && *f.text == '#')
-            break;
-        if (i >= c->columns && f.len > 0)
-            return calc_fail(r->error, 0, 0, "%s:%zu: more than %zu fields, one for each name of the header",
-                             c->path, r->line, c->columns);
-        if (i >= c->columns)
-            continue;
-        const bool comma = separator != ',' || (f.text > line && f.text[-1] == '"');
-        double *v = &c->column[i].v[c->rows];
-        if (i + 1 == c->columns && read_commented(r, i, f, comma, v)) {
-            i++;
-            break;
-        }
-        if (!read_number(r, i, f, comma, v)) {
-            *v = NAN;
-            if (!trouble(r, &c->column[i], "%.200s:%zu: expected a number as %s, not '%.*s'", c->path,
-                         r->line, c->column[i].name, LEX_SHOWN(f.len), f.text))
-                return false;
+/* Only a file with both marks can be in doubt. */
+static bool check_marks(csv *c, calc_error *error) {
+    bool doubt =
+        c->separator != ',' ? strchr(c->text, ',') && strchr(c->text, '.') : strchr(c->text, '"') != NULL;
+    marking *m = doubt ? calloc(1, sizeof *m) : NULL;
+    if (doubt && !m)
+        return calc_no_memory(error);
+    for (size_t i = 0; i < c->rows && m; i++) {
+        const csv_row *row = &c->row[i];
+        size_t at = 0;
+        cell f;
+        for (size_t k = 0;
+             k < c->columns && next_cell(c->separator, c->text + row->at, row->len, &at, &plain_unit, &f);
+             k++) {
+            const char *hash = memchr(f.f.text, '#', f.f.len);
+            if (f.is == NUMBER)
+                see_marks(m, row->line, k, trimmed(f.f.text, hash ? (size_t)(hash - f.f.text) : f.f.len));
         }
     }
-    for (; i < c->columns; i++) {
-        c->column[i].v[c->rows] = NAN;
-        if (!trouble(r, &c->column[i], "%.200s:%zu: expected a number as %s, and the line ends", c->path,
-                     r->line, c->column[i].name))
-            return false;
-    }
-    c->line[c->rows++] = r->line;
-    return true;
+    const bool ok = !m || judge_marks(c, m, error);
+    free(m);
+    return ok;
 }
 
 /* ---- the file ---------------------------------------------------------------------------------- */
 
-/* The micro sign of Latin-1 is no UTF-8: it stands alone there. The new text is to be freed. */
-static char *micro_signs(const char *line, size_t *len) {
-    char *text = malloc(2 * *len + 1);
-    size_t n = 0;
-    for (size_t i = 0; text && i < *len; i++) {
-        const bool alone = (unsigned char)line[i] == 0xb5 && (i == 0 || (unsigned char)line[i - 1] < 0x80);
-        if (alone)
-            text[n++] = '\xc2';
-        text[n++] = line[i];
-    }
-    if (text)
-        text[n] = 0;
-    *len = n;
-    return text;
-}
-
-static bool read_line(reader *r, const char *line, size_t len) {
-    if (memchr(line, 0, len))
-        return fail(r, "this is no text, or UTF-16 without its mark: save it as UTF-8");
-    const field whole = trimmed(line, len);
-    if (whole.len == 0 || *whole.text == '#')
-        return true;
-    if (r->header)
-        return read_row(r, line, len);
-    char *text = micro_signs(line, &len);
-    bool ok = text ? read_header(r, text, len) : calc_no_memory(r->error);
-    free(text);
-    return ok;
+static bool find_table(finder *t, size_t len) {
+    csv *c = t->c;
+    size_t header;
+    if (!cut_lines(t, len))
+        return false;
+    c->separator = choose_separator(t);
+    find_usual(t);
+    if (calc_stopped(t->stop, t->error))
+        return false;
+    const size_t begin = t->usual ? find_begin(t, &header) : NO_LINE;
+    const bool ok =
+        begin == NO_LINE ||
+        ((header == NO_LINE || read_header(t, header, t->list[begin].fields)) && read_rows(t, begin, header));
+    for (size_t i = 0; i < c->columns; i++)
+        c->column[i].numbers = t->usual >> i & 1;
+    return ok && (c->rows > 0 || calc_fail(t->error, 0, 0, "%s holds no rows of numbers", c->path)) &&
+           check_marks(c, t->error);
 }
 
 bool csv_read(const char *path, file_stop stop, csv *c, calc_error *error) {
-    file_in in;
+    size_t len;
     *c = (csv){.path = malloc(strlen(path) + 1)};
     if (!c->path)
         return calc_no_memory(error);
     strcpy(c->path, path);
-    if (!file_in_open(&in, path, stop, error))
-        return false;
-    reader r = {.c = c, .error = error};
-    bool ok = true;
-    file_got got = FILE_GOT_END;
-    while (ok && (got = file_in_line(&in, error)) == FILE_GOT_LINE) {
-        r.line = (size_t)in.number;
-        ok = read_line(&r, in.line, in.length);
-    }
-    file_in_close(&in);
-    if (ok && got == FILE_GOT_STOP)
-        ok = calc_interrupted(error);
-    return ok && judge_marks(&r) && got != FILE_GOT_ERROR &&
-           (c->rows > 0 || calc_fail(error, 0, 0, "%s holds no rows of numbers", path));
+    finder *t = calloc(1, sizeof *t);
+    if (!t)
+        return calc_no_memory(error);
+    *t = (finder){.c = c, .error = error, .stop = stop};
+    const bool ok = read_text(c, stop, &len, error) && find_table(t, len);
+    free(t->list);
+    free(t);
+    return ok;
 }
 
 /* ---- columns ----------------------------------------------------------------------------------- */
 
-static const csv_values *find(const csv *c, const char *name) {
-    for (size_t i = 0; i < c->columns; i++)
-        if (!strcmp(c->column[i].name, name))
-            return &c->column[i];
+csv_values *csv_find(csv *c, const char *name) {
+    for (csv_values *v = c->column; v < c->column + c->columns && *name; v++)
+        if (!strcmp(v->name, name))
+            return v;
+    for (csv_values *v = c->column; v < c->column + c->columns && *name; v++)
+        if (!v->given && !strcmp(v->title, name))
+            return v;
     return NULL;
 }
 
-bool csv_has(const csv *c, const char *name) {
-    return find(c, name) != NULL;
+bool csv_has(csv *c, const char *name) {
+    return csv_find(c, name) != NULL;
+}
+
+void csv_rename(csv *c, csv_values *column, const char *name) {
+    for (csv_values *v = c->column; v < c->column + c->columns; v++)
+        if (v != column && !strcmp(v->name, name))
+            *v->name = 0;
+    column->given = column->given || strcmp(column->name, name) != 0;
+    column->twice = false;
+    snprintf(column->name, sizeof column->name, "%s", name);
 }
 
 void csv_names(const csv *c, char *buf, size_t size) {
     size_t n = 0;
     *buf = 0;
-    for (size_t i = 0; i < c->columns && n < size; i++)
-        n += (size_t)snprintf(buf + n, size - n, "%s%s", i ? ", " : "", c->column[i].name);
+    for (size_t i = 0; i < c->columns && n < size; i++) {
+        const csv_values *v = &c->column[i];
+        const char *own = v->given ? v->title : v->name;
+        n += (size_t)(*own ? snprintf(buf + n, size - n, "%s%s", i ? ", " : "", own)
+                           : snprintf(buf + n, size - n, "%s%zu", i ? ", " : "", i + 1));
+    }
 }
 
-const csv_values *csv_column(const csv *c, const char *name, calc_error *error) {
-    char names[CALC_ERROR_TEXT / 2];
-    const csv_values *column = find(c, name);
+void csv_layout(const csv *c, char *buf, size_t size) {
+    char names[CALC_ERROR_TEXT / 3];
+    const field head = trimmed(c->text + c->header.at, c->header.len);
     csv_names(c, names, sizeof names);
-    if (!column)
-        calc_fail(error, 0, 0, "%.200s has no column %s: its columns are %s, by its first line", c->path,
-                  name, names);
-    else if (column->twice)
-        calc_fail(error, 0, 0, "%.200s has two columns %s: rename one", c->path, name);
-    else if (column->trouble)
-        calc_fail(error, 0, 0, "%s", column->trouble);
-    return column && !column->twice && !column->trouble ? column : NULL;
+    if (c->header.line)
+        snprintf(buf, size, "its columns are %s, by line %zu, \"%.*s\"", names, c->header.line,
+                 (int)text_fit(head.text, head.len, 60), head.text);
+    else
+        snprintf(buf, size, "it has no line of names above its rows");
+}
+
+const csv_values *csv_column(csv *c, const char *name, calc_error *error) {
+    csv_values *column = csv_find(c, name);
+    char layout[CALC_ERROR_TEXT / 2];
+    if (!column) {
+        csv_layout(c, layout, sizeof layout);
+        calc_fail(error, 0, 0, "%.100s has no column %.60s: %s; say which it is: using %.60s=%s", c->path,
+                  name, layout, name, c->header.line ? "COLUMN" : "NUMBER UNIT");
+    } else if (column->twice) {
+        calc_fail(error, 0, 0,
+                  "%.200s has two columns %.60s: rename one, or say which by its number: using %.60s=%zu",
+                  c->path, name, name, (size_t)(column - c->column) + 1);
+    }
+    return column && !column->twice && csv_load(c, column, error) ? column : NULL;
+}
+
+/* The cell of a row in a column; false: the line ends before it. */
+static bool cell_at(const csv *c, const csv_row *row, size_t column, cell *out) {
+    size_t at = 0;
+    for (size_t i = 0; i < column; i++)
+        if (!next_cell(c->separator, c->text + row->at, row->len, &at, &plain_unit, out) ||
+            out->is == COMMENT)
+            return false;
+    return next_cell(c->separator, c->text + row->at, row->len, &at, &c->column[column].u, out) &&
+           out->is != COMMENT;
+}
+
+bool csv_load(csv *c, csv_values *column, calc_error *error) {
+    const size_t k = (size_t)(column - c->column);
+    double *v = column->v || column->trouble ? NULL : malloc(c->rows * sizeof *v);
+    bool ok = v || column->v || column->trouble || calc_no_memory(error);
+    for (size_t i = 0; i < c->rows && v && ok && !column->trouble; i++) {
+        const csv_row *row = &c->row[i];
+        cell f = {.v = NAN};
+        if (!cell_at(c, row, k, &f))
+            ok = trouble(column, error, "%.200s:%zu: expected a number as %.60s, and the line ends", c->path,
+                         row->line, column->name);
+        else if (f.is == WORD || (f.ends && k + 1 < c->columns))
+            ok = trouble(column, error, "%.200s:%zu: expected a number as %.60s, not '%.*s'", c->path,
+                         row->line, column->name, LEX_SHOWN(f.f.len), f.f.text);
+        v[i] = f.v;
+    }
+    if (ok && column->trouble)
+        ok = calc_fail(error, 0, 0, "%s", column->trouble);
+    if (ok && v)
+        column->v = v;
+    else
+        free(v);
+    return ok;
+}
+
+bool csv_settle(csv *c, calc_error *error) {
+    size_t kept = 0;
+    for (size_t i = 0; i < c->rows; i++) {
+        bool whole = true;
+        for (size_t k = 0; k < c->columns; k++)
+            whole = whole && !(c->column[k].v && isnan(c->column[k].v[i]));
+        for (size_t k = 0; k < c->columns && whole; k++)
+            if (c->column[k].v)
+                c->column[k].v[kept] = c->column[k].v[i];
+        c->row[kept] = c->row[i];
+        kept += whole;
+    }
+    c->without += c->rows - kept;
+    c->rows = kept;
+    return kept > 0 ||
+           calc_fail(error, 0, 0, "%s has no row with a value in each column that is asked for", c->path);
 }

@@ -172,6 +172,13 @@ static bool begins_mark(const char *bytes, size_t n) {
     return false;
 }
 
+/* UTF-16 that begins with two letters of ASCII needs no mark. */
+static file_order without_mark(const char *bytes, size_t n) {
+    const bool little = n >= 4 && bytes[0] && !bytes[1] && bytes[2] && !bytes[3],
+               big = n >= 4 && !bytes[0] && bytes[1] && !bytes[2] && bytes[3];
+    return little ? FILE_LITTLE : big ? FILE_BIG : FILE_BYTES;
+}
+
 /* The first bytes, without the mark. */
 static file_got read_beginning(file_in *in, calc_error *error) {
     file_got got = FILE_GOT_LINE;
@@ -182,7 +189,7 @@ static file_got read_beginning(file_in *in, calc_error *error) {
     }
     if (got == FILE_GOT_STOP || got == FILE_GOT_ERROR)
         return got;
-    in->order = FILE_BYTES;
+    in->order = without_mark(in->block, in->have);
     for (size_t i = 0; i < MARKS; i++)
         if (in->have >= marks[i].length && !memcmp(in->block, marks[i].bytes, marks[i].length)) {
             in->order = marks[i].order;

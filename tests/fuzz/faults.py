@@ -42,7 +42,7 @@ STATEMENTS = (
              "geometry cone angle=3 deg", "geometry sum 2:50 m^-1, 4:2e6 m^-3", "geometry power n=3 A=50 m^-2",
              "geometry file gap.csv", "geometry file gap.csv smooth",
              "geometry file rough.csv smooth", "geometry file rough.csv smooth 6",
-             "geometry file rough.csv smooth 20 um", "friction 0.3", "press FN=100 N", "press a=0.2 mm", "press dz=1 um", "reset all",
+             "geometry file rough.csv smooth 20 um", "geometry file rough.csv smooth using r=1, f=f", "friction 0.3", "press FN=100 N", "press a=0.2 mm", "press dz=1 um", "reset all",
              "set digits 9", "set format json", "set format json; help press; show commands", "show",
              "show variables", "show units", "show settings",
              "show commands", "show demos", "help", "help press", "help units", "apropos contact", "apropos radius",
@@ -77,7 +77,7 @@ STATEMENTS = (
     (NESTED + "; set report off; follow long.csv", ("W, a", "plot Fx along program to out.gp")),
     (STEEL, ("solve FN for a = 0.2 mm", "maximize dWd(0.5 um) over FN = 1 N .. 100 N",
              "minimize dz over FN = 20 N .. 100 N", "fit E0 for depth = dz(force) to measured.csv",
-             "fit mu along loop.csv", "uncertainty a, dWd(1 um) with mu +- 0.02, E0 +- 5 % samples 20",
+             "fit mu along loop.csv", "loop cycle.csv using dx=Weg um", "loop cycle.csv using dx=2 um to out.csv", "follow loop.csv", "uncertainty a, dWd(1 um) with mu +- 0.02, E0 +- 5 % samples 20",
              "set format csv; uncertainty a, dWd(1 um) with mu +- 0.02, E0 +- 5 % samples 20", "set format csv; fit E0 for depth = dz(force) to measured.csv",
              "solve unknown for unknown^2 = 2 from 1 to 2", "maximize unknown*(2-unknown) over unknown = 0 .. 3", "set format json; replay replay.txt",
              "export jenkins 8 to out.csv", "export jenkins 4 to out.h FA=20 N", "replay replay.txt", "accuracy within 0.001",
@@ -149,6 +149,7 @@ def prepare(where):
              "long.csv": "FN [N],Fx [N]\n" + "".join("%.9g,%.9g\n" % (100 + 10 * math.sin(i / 7), 20 * math.sin(i / 3)) for i in range(4500)),
              "measured.csv": "force [N],depth [um]\n" + "".join("%g,%g\n" % (10 * i, 0.75 * i ** 0.667)
                                                                 for i in range(1, 12)),
+             "cycle.csv": "N;Weg;Kraft [N]\n" + "".join("%d;%g;%g\n" % (i, 2 * math.cos(i / 5), 30 * math.cos(i / 5 + 0.4)) for i in range(70)),
              "loop.csv": "dx [um],Fx [N]\n" + "".join("%g,%g\n" % row for row in (
                  (0.1, 3.5), (0.3, 10.2), (0.6, 19.2), (0.3, 9.5), (0, 0), (-0.3, -9.5), (-0.6, -19.2))),
              "lesson.fret": "# A lesson\nstep Fx=20 N\n",

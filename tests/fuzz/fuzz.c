@@ -397,7 +397,8 @@ static void gap(const char *text, size_t size) {
               "geometry file given-gap.csv\nk = 0\nf(0.1 mm), g(0.1 mm), a, dz, FN\npress a=0.1 mm\nstep "
               "dx=0.1 um\n"
               "cycle dxA=0.2 um\nW, dW, c\np(0.05 mm), uz(0.2 mm)\nk = -0.5\na\ngeometry file given-gap.csv "
-              "smooth\na, c, dW");
+              "smooth\na, c, dW\ngeometry file given-gap.csv smooth 3 height using r=1, f=2\ngeometry file "
+              "given-gap.csv using r=2 mm, f=1 um\na\nshow");
 }
 
 static void follow(const char *text, size_t size) {
@@ -411,6 +412,9 @@ static void follow(const char *text, size_t size) {
 static void columns(const char *text, size_t size) {
     with_file("given-table.csv", text, size, SCENE "press FN=100 N",
               "fit E0 for depth = dz(force) to given-table.csv\nfit mu along given-table.csv\n"
+              "loop given-table.csv\nloop given-table.csv using dx=1 um, Fx=2 N\nfollow given-table.csv\n"
+              "fit mu along given-table.csv using dx=2 um, Fx=\"3\" N, FN=1 N\nset format json\nloop "
+              "given-table.csv\n"
               "plot dz(x) for x = 1 N .. 100 N steps 3 over given-table.csv to a.gp");
 }
 

@@ -91,6 +91,11 @@ FILES = ("r [mm],f [um]\n0,0\n0.1,0.5\n0.2,2\n0.4,8\n0.8,32\n1.6,128\n", "r,f\n0
          "# a note\nx [N],y [um]\n1,0.1\n\n2,0.2\n3,\n", "\ufeffr [mm],f [um]\r\n0,0\r\n1,50\r\n", "\"r [mm]\",\"f [um]\"\n\"0\",\"0\"\n\"1\",\"2\"\n")
 
 
+def forms():
+    """Tables in all the forms that are read."""
+    return [pathlib.Path(path).read_bytes() for path in sorted(glob.glob(os.path.join(ROOT, "tests/sessions/forms/*")))]
+
+
 def rows():
     """The functions of the library that its target calls."""
     with open(os.path.join(HERE, "library.h"), encoding="utf-8") as f:
@@ -108,10 +113,10 @@ def calls():
 
 def start(target, folder):
     """Seeds of a new corpus."""
-    texts = FILES if target in ("gap", "follow", "table") else calls() if target == "library" else seeds(target)
+    texts = [*FILES, *forms()] if target in ("gap", "follow", "table") else calls() if target == "library" else seeds(target)
     for i, text in enumerate(texts):
-        with open(os.path.join(folder, "seed-%d" % i), "w", encoding="utf-8", newline="") as f:
-            f.write(text[:LONGEST[target]])
+        data = text if isinstance(text, bytes) else text.encode()
+        pathlib.Path(folder, "seed-%d" % i).write_bytes(data[:LONGEST[target]])
 
 
 def dictionary(target, path):

@@ -69,7 +69,7 @@ ENDED = ("friction 0.4", "friction 0.4 ", "nu = 0.3", "nu = 0.3 ", "set digits 3
 DONE = (
     ("explain a a", "t "), ("explain a at k=0 c", "onditioning "), ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("1 + " * 140 + "breadt", "h "), ("geometry file gap1.csv s", "mooth "), ("second ri", "gid "),
     ("step dx=1 u", "m "), ("geometry flat-r", "ounded "), ("record o", "ff "), ("x = 3*kap", "pa "), ("?apr", "opos "),
-    ("reset ", "all "), ("geometry file gap1.csv ", "smooth "),
+    ("reset ", "all "), ("geometry file gap1.csv h", "eight "), ("loop gap1.csv us", "ing "),
     ("geometry file gap1.csv smo", "oth "), ("1; fric", "tion "), ("dW at m", "u="), ("wobbl", "e"), ("1;  fric", "tion "),
     ("?the", "ory "), ("wobbly(2) in ", "% "),
 )

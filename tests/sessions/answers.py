@@ -7,6 +7,7 @@ SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; 
 ROWS = "F [N],loss [uJ]\n5,0.02\n10,0.19\n20,1.95\n30,9.1\n"
 GAP = "r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 10, 50.001 * (i / 10) ** 2) for i in range(20))
 HISTORY = "FN [N],Fx [N]\n100,5\n100,10\n"
+LOOP = "dx [um],Fx [N]\n2,30\n1,-30\n-2,-30\n-1,30\n2,30\n"
 TRANSCRIPT = "fret> 1\n1 = 1\n"
 
 # a command, a statement of it, and the kinds of its lines, in their order; *: any number, at least one
@@ -19,7 +20,7 @@ STATEMENTS = (
     ("table", "table a for FN = 1 N .. 9 N steps 2 for mu = 0.3 .. 0.4 steps 1", "table row*"), ("table", "table a for FN = 1 N .. 9 N to t.json", "note"),
     ("plot", "plot loop", "text"), ("plot", "plot loop to p.gp", "note"), ("animate", "animate loop frames 2", "text"),
     ("solve", "solve mu for dW = 1.5 uJ from 0.31 to 1", "value solve"), ("maximize", "maximize x*(3-x) over x = 0 .. 2", "value value maximize"),
-    ("minimize", "minimize x^2 over x = 1 .. 2", "value value minimize note"), ("fit", "fit mu for loss = dW(F) to rows.csv", "value fit"),
+    ("minimize", "minimize x^2 over x = 1 .. 2", "value value minimize note"), ("fit", "fit mu for loss = dW(F) to rows.csv", "value fit"), ("loop", "loop loop.csv", "note measured loop"),
     ("uncertainty", "uncertainty dW(20 N) with mu +- 0.02, E0 +- 5 % samples 50", "value uncertainty"),
     ("export", "export jenkins 5 to m.json", "note value value export"), ("explain", "explain dW", "explain"), ("explain", "explain mu", "explain"),
     ("explain", "explain a/c conditioning", "explain*"), ("explain", "explain mismatch", "explain"),
@@ -32,7 +33,7 @@ STATEMENTS = (
 MESSAGES = ("note", "warning", "error")
 FIELDS = {"explain": {"name", "title", "formula", "model", "numbers", "value", "error"}, "solve": {"method", "evaluations", "bracket"},
           "fit": {"rows", "rms", "deviation", "correlation"}, "uncertainty": {"of", "deviation", "shares", "Monte Carlo"},
-          "press": {"FN", "a", "dz"}, "step": {"Fx", "dx", "c"}, "cycle": {"dW", "Fx", "dx", "c"}}
+          "press": {"FN", "a", "dz"}, "measured": {"cycle", "line", "dW", "dxA", "FA", "secant", "unloading", "flank", "energy_ratio", "flanks"}, "step": {"Fx", "dx", "c"}, "cycle": {"dW", "Fx", "dx", "c"}}
 
 
 def one_name_each(pairs):
@@ -79,7 +80,7 @@ def rows_fit_columns(rows):
 
 
 def run(tests):
-    for name, text in (("rows.csv", ROWS), ("gap.csv", GAP), ("h.csv", HISTORY), ("t.txt", TRANSCRIPT), ("s.fret", "a\n")):
+    for name, text in (("rows.csv", ROWS), ("gap.csv", GAP), ("h.csv", HISTORY), ("loop.csv", LOOP), ("t.txt", TRANSCRIPT), ("s.fret", "a\n")):
         with open(os.path.join(tests.dir, name), "w", encoding="ascii") as f:
             f.write(text)
     listed = json.loads(tests.run("--format=json", "-c", "show commands").stdout)["text"]

@@ -152,7 +152,6 @@ def equations(tests):
             ("; k = 0.2, c0 = 1 mm; fit k, E0, c0 for depth = dz(force) to " + name, "the data cannot tell E0 and c0 apart"),
             ("; fit mu for depth = dz(force) to " + name, "the data do not determine mu"),
             ("; fit E0 for dz = dz(60 N) to " + name, "no column of"),
-            ("; fit E0 along " + name, "has no column dx"),
             ("; fit zeta for depth = dz(force) to " + name, "'zeta' is no input and has no value to start from"),
             ("; fit E0 for depth = force to " + name, "the left side is a length, the right side is a force")):
         done = tests.run("-c", setup + script)
@@ -364,7 +363,7 @@ def shapes(tests):
             tests.check("fit: %s %s" % (shape.split()[0], what), event and abs(got["mu"] / mu - 1) < 3e-4
                         and abs(got.get("E0", E0) / E0 - 1) < 3e-4, tests.report(done))
         for load, want in ((0, "the data do not determine mu"), (-1, "FN = -1 N must not be negative")):
-            idle = write(tests, "shape-idle.csv", "dx [um],Fx [N],FN [N]", [row + (load,) for row in rows])
+            idle = write(tests, "shape-idle.csv", "dx [um],Fx [N],FN [N]", [row + (load if load == 0 or i else 1,) for i, row in enumerate(rows)])
             done = tests.run("-c", scene + "; fit mu along " + idle)
             tests.check("fit: %s under %d N" % (shape.split()[0], load), done.returncode == 1 and want in done.stderr, tests.report(done))
 
@@ -413,7 +412,7 @@ def refusals(tests):
             (scene + "fit mu along {down}", "FN = -3 N must not be negative (row 2 of the data)"),
             (scene + "fit FN for y = FN/(1 N) to {fn}", "column FN is a length: it needs the unit of a force in the header"),
             (scene + "fit mu along {along}", "column dx is a force: it needs the unit of a length in the header"),
-            (scene + "fit mu along {no}", "has no column Fx: a loop needs dx and Fx, and may have FN or dz"),
+            (scene + "fit mu along {no}", " (a loop needs dx and Fx, and may have FN or dz)\n"),
             (scene + "fit mu along {nowhere}", "cannot read "),
             (scene + "fit E0 for dW = u*(1 uJ) to {res}", "dW is a result of the scene and a column of the file: rename"),
             (scene + "fit E0 for u*(1 uJ) = dW to {res}", "dW is a result of the scene and a column of the file: rename"),

@@ -180,14 +180,14 @@ def read_tables(tests):
     for text, message in (("r [mm],f [um]\n0,0\n1,5\n2,1\n3,9\n", "is where g(x) begins to fall: the contact would not be a disc\n"),
                           ("r [mm],f [um]\n0,0\n2,5\n1,9\n", ":4: r = 1 mm is out of order: radii must start at 0 and grow (smooth"),
                           ("r [mm],f [um]\n0,0\n", " has one row: a gap needs two or more"),
-                          ("r,f\n0,0\n2,5\n", "r and f are lengths and need units in the header"),
-                          ("r [mm],q [um]\n0,0\n", "has no column f: its columns are r, q"),
-                          ("r [mm],f [um]\n0,0\n1,nan\n", ":3: expected a number as f, not 'nan'"),
+                          ("r,f\n0,0\n2,5\n", "column r is a number: it needs the unit of a length in the header, or here: using r=COLUMN UNIT"),
+                          ("r [mm],q [N]\n0,0\n", "has no column f: its columns are r, q"),
+                          ("r [mm],f [um]\n0,0\n1,nan\n", " has one row: a gap needs two or more"),
                           ("r [mm],f [um]\n0,0,7\n", ":2: more than 2 fields"),
                           ("r [mm],f [furlong]\n0,0\n", "unknown unit 'furlong'"),
                           ("r [mm],f [um],f/um\n0,1,1\n", " has two columns f: rename one"),
                           ("r [mm],f [um],g/um,g/um\n0,1,1,1\n", "f(0) = 1 um must be 0"),
-                          ("12\n", ":1: the header must name the columns"),
+                          ("12\n", "has no column r: it has no line of names above its rows; say which it is: using r=NUMBER UNIT"),
                           ("r [mm],f [um]\n", "holds no rows of numbers")):
         with tests.file(text) as path:
             done = tests.run("-c", SCENE + "geometry file %s" % path)
@@ -227,13 +227,13 @@ def read_tables(tests):
         done = tests.run("-c", bare + "\nfollow %s" % path)
         tests.check("follow must begin with a press", "begin with a row that presses (FN > 0, Fx = 0)" in done.stderr,
                     tests.report(done))
-    for text, message in (("a,b\n1,2\n", "the columns must be FN,Fx or dz,dx, not a, b"),
-                          ("FN,Fx\n1,2\n", "the columns need units in the header"),
-                          ("FN [N],Fx [mm]\n1,2\n", "column Fx is a length, not a force, by the unit in the header"),
-                          ("FN [N],Fx [N],dz [um],dx [um],W [N]\n1,2,3,4,5\n", "column W is a force, not an energy"),
-                          ("FN [N],Fx [N],dz [um],dx [um],W\n1,2,3,4,5\n", "the columns need units in the header, such as W [J]"),
-                          ("dz [N],dx [um]\n1,2\n", "column dz is a force, not a length, by the unit in the header"),
-                          ("dz [um],dx []\n1,2\n", "the columns need units in the header, such as dz [um],dx [um]")):
+    for text, message in (("a,b\n1,2\n", "has no column dx: its columns are a, b, by line 1, \"a,b\"; say which it is: using dx=COLUMN (FN,Fx or dz,dx are followed; dx,Fx compared)"),
+                          ("FN,Fx\n1,2\n", "column FN is a number: it needs the unit of a force in the header, or here: using FN=COLUMN UNIT\n"),
+                          ("FN [N],Fx [mm]\n1,2\n", "column Fx is a length: it needs the unit of a force in the header\n"),
+                          ("FN [N],Fx [N],dz [um],dx [um],W [N]\n1,2,3,4,5\n", "column W is a force: it needs the unit of an energy in the header\n"),
+                          ("FN [N],Fx [N],dz [um],dx [um],W\n1,2,3,4,5\n", "column W is a number: it needs the unit of an energy in the header, or here: using W=COLUMN UNIT\n"),
+                          ("dz [N],dx [um]\n1,2\n", "column dz is a force: it needs the unit of a length in the header\n"),
+                          ("dz [um],dx []\n1,2\n", "column dx is a number: it needs the unit of a length in the header, or here: using dx=COLUMN UNIT\n")):
         with tests.file(text) as path:
             done = tests.run("-c", SCENE + "follow %s" % path)
             tests.check("follow: " + message, message in done.stderr and done.returncode == 1, tests.report(done))

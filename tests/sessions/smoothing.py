@@ -258,7 +258,6 @@ WRONG = (
     (lambda r: -50 * r ** 2, "smooth 3", "the profile of 3 pieces falls from r = 0 m on, by ",
      " um, which is no noise: f is the gap and grows outward; the sign or the apex may be the cause\n"),
     (lambda r: 50 - 50 * (r - 0.2) ** 2, "smooth", " um, which is no noise: f is the gap and grows outward; the sign or the apex may"),
-    (lambda r: 50 * (r - 0.6) ** 2, "smooth", "falls from r = 0 m on, by ", " um, which is no noise: f is the gap and grows outward; the sign or the apex"),
     (lambda r: -50 * r ** 2, "smooth 1 um", "the profile of 1 piece falls from r = 0 m on, by ",
      " um, which is no noise: f is the gap and grows outward; the sign or the apex may be the cause\n"),
 )

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Materials by name, with their sources. */
-#ifndef COMMANDS_PRESETS_H
-#define COMMANDS_PRESETS_H
+#ifndef SCENE_PRESETS_H
+#define SCENE_PRESETS_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of materials: moduli at room temperature, as handbooks round them. */
-#include "commands/presets.h"
+#include "scene/presets.h"
 
 static const char callister[] = "Callister, Materials Science and Engineering, appendix B";
 

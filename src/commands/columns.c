@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which column is which. Changes the names, units and signs of columns, and which names are known. */
+#include "commands/columns.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/quantity.h"
+#include "text/unit_text.h"
+
+/* ---- using ------------------------------------------------------------------------------------- */
+
+/* The file that a `using` stands behind; NULL: there is none. */
+static const heard *file_before(const said *all, const heard *using) {
+    for (const heard *h = using; h-- > all->list;)
+        if (!strcmp(h->of->name, "at") || !strcmp(h->of->name, "over"))
+            return h;
+    return NULL;
+}
+
+bool choices_of(const said *all, const heard *of, choices *out, calc_error *error) {
+    out->count = 0;
+    for (const heard *h = all->list; h < all->list + all->count; h++) {
+        if (strcmp(h->of->name, "using") || (of && file_before(all, h) != of))
+            continue;
+        if (out->count == CHOICES)
+            return calc_fail(error, h->at, h->len, "more than %d columns", CHOICES);
+        out->name[out->count] = h->hole[0];
+        out->column[out->count++] = h->hole[1];
+    }
+    return true;
+}
+
+bool choices_placed(const said *all, calc_error *error) {
+    for (const heard *h = all->list; h < all->list + all->count; h++)
+        if (!strcmp(h->of->name, "using") && !file_before(all, h))
+            return calc_fail(error, h->at, h->len, "using stands behind at FILE.csv or over FILE.csv");
+    return true;
+}
+
+/* `3`, `Weg`, `"Load On Sample"`. */
+static csv_values *column_at(csv *c, lexer *lx) {
+    char name[CSV_NAME], layout[CALC_ERROR_TEXT / 2];
+    const size_t at = lx->at, quoted = lx->kind == T_STRING, word = strcspn(lx->text + at, " \t"),
+                 all = lx->end - at < word ? lx->end - at : word,
+                 len = quoted || lx->kind == T_NUMBER ? lx->len : all;
+    csv_values *column = NULL;
+    snprintf(name, sizeof name, "%.*s", (int)(len - 2 * quoted), lx->text + at + quoted);
+    char *end;
+    const unsigned long number = quoted || lx->kind != T_NUMBER ? 0 : strtoul(name, &end, 10);
+    if (lx->kind != T_NUMBER || quoted)
+        column = csv_find(c, name);
+    else if (*end == 0 && number > 0 && number <= c->columns)
+        column = &c->column[number - 1];
+    csv_layout(c, layout, sizeof layout);
+    if (!column)
+        calc_fail(lx->error, at, len, "%.100s has no column %.60s: %s", c->path, name, layout);
+    else if (column->given)
+        calc_fail(lx->error, at, len, "column %.60s is %.60s already", name, column->name);
+    else if (column->twice && lx->kind != T_NUMBER)
+        calc_fail(lx->error, at, len, "%.200s has two columns %.60s: say which by its number", c->path, name);
+    else
+        lex_seek(lx, at + len);
+    return lx->error->raised ? NULL : column;
+}
+
+/* Where the file has no unit, or none that is known, one may stand behind the column. */
+static bool read_choice(csv *c, const lexer *lx, const span *name, const span *part) {
+    lexer own = hole_lexer(lx, part);
+    char called[CSV_NAME];
+    unit u;
+    csv_values *column = column_at(c, &own);
+    if (!column)
+        return false;
+    if (own.kind != T_END) {
+        const size_t at = own.at;
+        if (!unit_parse(&own, &u) || !at_end(&own))
+            return false;
+        if (column->has_unit && !(same_dim(u.d, column->d) && unit_scale(&u) == unit_scale(&column->u)))
+            return calc_fail(own.error, at, own.last - at, "the file has another unit for it: \"%s\"",
+                             column->title);
+        free(column->trouble);
+        column->trouble = NULL;
+        column->u = u;
+        column->d = u.d;
+        column->has_unit = true;
+    }
+    snprintf(called, sizeof called, "%.*s", (int)name->len, lx->text + name->at);
+    csv_rename(c, column, called);
+    column->given = true;
+    return true;
+}
+
+bool columns_read(const lexer *lx, const span *file, const choices *chosen, csv *out) {
+    char name[FILE_NAME];
+    *out = (csv){.path = NULL};
+    if (!hole_file(lx, file, name) || !csv_read(name, &shell_stop, out, lx->error))
+        return calc_place(lx->error, file->at, file->len);
+    for (size_t i = 0; i < chosen->count; i++)
+        if (!read_choice(out, lx, &chosen->name[i], &chosen->column[i]))
+            return calc_place(lx->error, chosen->column[i].at, chosen->column[i].len);
+    return true;
+}
+
+/* ---- by dimension ------------------------------------------------------------------------------ */
+
+bool same_dim(dim a, dim b) {
+    return dim_equal(a, b) && (a.rad != 0) == (b.rad != 0);
+}
+
+csv_values *column_of_dim(csv *c, dim d, const csv_values *but, char *names, size_t size, size_t *count) {
+    csv_values *one = NULL;
+    size_t n = 0;
+    *names = 0;
+    *count = 0;
+    for (csv_values *v = c->column; v < c->column + c->columns; v++) {
+        if (v == but || v->v || v->given || !dim_equal(v->d, d) ||
+            ((v->trouble || !v->numbers) && !v->has_unit) || quantity_find(v->name, strlen(v->name)))
+            continue;
+        one = v;
+        if (n < size)
+            n += (size_t)snprintf(names + n, size - n, "%s%.60s", *count ? ", " : "", v->name);
+        ++*count;
+    }
+    return *count == 1 ? one : NULL;
+}
+
+csv_values *columns_take(csv *c, const char *name, dim d, calc_error *error) {
+    char wants[128], is[128], names[CALC_ERROR_TEXT / 3];
+    csv_values *column = csv_find(c, name);
+    size_t count = 0;
+    dim_describe(d, wants, sizeof wants);
+    if (!column && (column = column_of_dim(c, d, NULL, names, sizeof names, &count)))
+        csv_rename(c, column, name);
+    if (!column && count) {
+        calc_fail(error, 0, 0,
+                  "%.100s has no column %s, and %s is each of %s: say which it is: using %s=COLUMN", c->path,
+                  name, wants, names, name);
+        return NULL;
+    }
+    if (!column || column->twice) /* which tells what there is */
+        return csv_column(c, name, error), NULL;
+    if (same_dim(column->d, d))
+        return csv_load(c, column, error) ? column : NULL;
+    dim_describe(column->d, is, sizeof is);
+    if (column->trouble)
+        calc_fail(error, 0, 0, "%s", column->trouble);
+    else
+        calc_fail(error, 0, 0, "column %.60s is %s: it needs the unit of %s in the header%s%s%s%.60s", name,
+                  is, wants, column->has_unit ? "" : ", or here: using ", column->has_unit ? "" : name,
+                  column->has_unit ? "" : "=", column->has_unit ? "" : "COLUMN UNIT");
+    return NULL;
+}
+
+/* ---- signs ------------------------------------------------------------------------------------- */
+
+void columns_turn(const csv *c, csv_values *column) {
+    for (size_t i = 0; i < c->rows; i++)
+        column->v[i] = 0 - column->v[i];
+}
+
+bool columns_turn_pull(const csv *c, csv_values *FN) {
+    size_t i = 0;
+    while (FN && i < c->rows && FN->v[i] < 0)
+        i++;
+    if (!FN || i < c->rows)
+        return false;
+    columns_turn(c, FN);
+    return true;
+}
+
+bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
+    double sum = 0;
+    for (size_t i = 1; i < c->rows; i++)
+        sum += (dx->v[i] - dx->v[i - 1]) * (Fx->v[i] - Fx->v[i - 1]);
+    return sum < 0;
+}
+
+/* ---- as names ---------------------------------------------------------------------------------- */
+
+/* Those that are results, or no names, have no say, and are missed if they are asked for; one that is named
+ * in vain is no matter. */
+bool columns_wake(shell *sh, csv *data, size_t names, named_columns *out, calc_error *error) {
+    out->count = 0;
+    for (size_t i = 0; i < data->columns; i++) {
+        csv_values *of_file = &data->column[i];
+        calc_error *useless = error_quiet();
+        lexer lx;
+        knob *k = &out->column[out->count].name;
+        lex_start(&lx, of_file->name, strlen(of_file->name), useless);
+        if (useless->raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble ||
+            of_file->twice)
+            continue;
+        const quantity *known = quantity_find(of_file->name, strlen(of_file->name));
+        if ((known && !quantity_is_input(known)) ||
+            (!known && name_taken(of_file->name, strlen(of_file->name))))
+            continue;
+        if (!names_wake(sh, &lx, names))
+            return calc_no_memory(error);
+        knob_name(&sh->calc, &lx, k); /* there is one */
+        if (k->is_input && !calc_takes(&sh->calc, k->in, error_quiet()))
+            continue;
+        if (k->is_input && !same_dim(k->d, of_file->d))
+            return columns_take(data, of_file->name, k->d, error) != NULL;
+        k->d = of_file->d;
+        out->of[out->count++] = of_file;
+    }
+    return true;
+}
+
+static bool is_mentioned(const shell *sh, const knob *k, size_t expressions) {
+    const quantity *of = k->is_input ? quantity_of_input(k->in) : NULL;
+    for (size_t i = 0; i < expressions; i++)
+        if (expr_mentions(&sh->calc, &sh->list[i], of, of ? NULL : k->text))
+            return true;
+    return false;
+}
+
+bool columns_load(const shell *sh, csv *data, size_t expressions, named_columns *out, calc_error *error) {
+    size_t kept = 0;
+    csv_values *FN = NULL;
+    out->used = false;
+    for (size_t i = 0; i < out->count; i++) {
+        const knob k = out->column[i].name;
+        csv_values *of_file = out->of[i];
+        const bool mentioned = is_mentioned(sh, &k, expressions);
+        if (!mentioned && !(k.is_input && csv_load(data, of_file, error_quiet())))
+            continue;
+        if (!csv_load(data, of_file, error))
+            return false;
+        out->used = out->used || mentioned;
+        FN = k.is_input && k.in == IN_FN ? of_file : FN;
+        out->of[kept] = of_file;
+        out->column[kept++] = (column_knob){k, of_file->v};
+    }
+    out->count = kept;
+    if (!csv_settle(data, error))
+        return false;
+    out->turned = columns_turn_pull(data, FN);
+    return true;
+}
+
+bool columns_missed(const shell *sh, const lexer *lx, csv *data) {
+    char name[CSV_NAME];
+    calc_error wrong, *error = lx->error;
+    error_clear(&wrong);
+    snprintf(name, sizeof name, "%.*s", (int)(error->len < sizeof name ? error->len : 0),
+             lx->text + error->at);
+    if (csv_has(data, name) && !csv_column(data, name, &wrong)) {
+        calc_place(&wrong, error->at, error->len);
+        *error = wrong;
+    } else if (!strncmp(error->text, "unknown name", 12)) {
+        char names[CALC_ERROR_TEXT / 2];
+        csv_names(data, names, sizeof names);
+        calc_append(&sh->calc, error, " (the columns of %.100s are %s)", data->path, names);
+    }
+    return false;
+}
+
+/* ---- what was understood ----------------------------------------------------------------------- */
+
+void columns_say(shell *sh, const csv *c, const char *more) {
+    char text[CSV_COLUMNS * 160]; /* each clause is shorter */
+    bool plain = c->plain && !c->encoding && !c->without && !c->words && !*more;
+    size_t n = (size_t)snprintf(text, sizeof text, "%zu row%s from line %zu", c->rows,
+                                c->rows == 1 ? "" : "s", c->row[0].line);
+    for (size_t i = 0; i < c->columns; i++) {
+        const csv_values *v = &c->column[i];
+        if (!v->v || !v->given)
+            continue;
+        plain = false;
+        if (*v->title)
+            n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s from \"%.60s\"", v->name, v->title);
+        else
+            n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s from column %zu", v->name, i + 1);
+    }
+    if (c->without)
+        n += (size_t)snprintf(text + n, sizeof text - n, ", %zu row%s without a value left out", c->without,
+                              c->without == 1 ? "" : "s");
+    if (c->words)
+        n += (size_t)snprintf(text + n, sizeof text - n, ", %zu line%s of words left out (line %zu)",
+                              c->words, c->words == 1 ? "" : "s", c->first_word);
+    if (c->encoding)
+        n += (size_t)snprintf(text + n, sizeof text - n, ", read as %s", c->encoding);
+    if (!plain)
+        shell_note(sh, "%.200s: %s%s%s", c->path, text, *more ? ", " : "", more);
+}

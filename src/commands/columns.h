@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The columns of a file that a command asks for: by name, as `using NAME = COLUMN, ...` tells, by dimension,
+ * or as names of expressions; and what was understood, in one line. A command reads the file (columns_read),
+ * takes its columns (columns_take, or csv_column by name alone), leaves out the rows without a value
+ * (csv_settle), and says so (columns_say); as names they become known (columns_wake), and those that are used
+ * are taken and their rows settled (columns_load). */
+#ifndef COMMANDS_COLUMNS_H
+#define COMMANDS_COLUMNS_H
+
+#include "language/expr.h"
+#include "statement/reader.h"
+#include "study/points.h"
+#include "text/csv.h"
+
+/* What `using` has said. */
+enum { CHOICES = 16 };
+typedef struct choices {
+    span name[CHOICES], column[CHOICES];
+    size_t count;
+} choices;
+
+/* Those of a file, the clauses behind its own and before the next file's; of: NULL, all of a statement with
+ * one file. False: too many. */
+bool choices_of(const said *all, const heard *of, choices *out, calc_error *error);
+/* Does every `using` stand behind the file that it tells of, `at FILE` or `over FILE`? */
+bool choices_placed(const said *all, calc_error *error);
+
+/* The file that stands in the hole, its columns called as chosen. Errors have their place. Free with csv_free
+ * whatever comes. */
+bool columns_read(const lexer *lx, const span *file, const choices *chosen, csv *out);
+
+/* Of the same dimension, an angle being none of a number? */
+bool same_dim(dim a, dim b);
+/* The one column of this dimension that is called after no quantity, not `but` (may be NULL): NULL, names and
+ * how many where there are none or several. */
+csv_values *column_of_dim(csv *c, dim d, const csv_values *but, char *names, size_t size, size_t *count);
+/* The column of this name and dimension, with its values; where none has the name the one of the dimension,
+ * which has the name from then on. NULL with an error. */
+csv_values *columns_take(csv *c, const char *name, dim d, calc_error *error);
+/* A normal force that is negative throughout is compression: turned. */
+bool columns_turn_pull(const csv *c, csv_values *FN);
+void columns_turn(const csv *c, csv_values *column);
+/* Does F_x fall where d_x grows? */
+bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx);
+/* How these are told. */
+#define TURNED_FN "FN is negative throughout, which is compression here: its sign is turned"
+#define TURNED_FX "Fx falls where dx grows: its sign is turned"
+
+/* Columns as names of expressions: of inputs that the scene takes, or free ones. */
+typedef struct named_columns {
+    size_t count;
+    column_knob column[CSV_COLUMNS];
+    csv_values *of[CSV_COLUMNS];
+    bool used;   /* an expression mentions one */
+    bool turned; /* FN */
+} named_columns;
+
+/* They are known until names_forget(sh, names). */
+bool columns_wake(shell *sh, csv *data, size_t names, named_columns *out, calc_error *error);
+/* Leaves those that have a say, with their values, in rows where each has one: inputs, and what the first
+ * expressions in sh->list mention. An input that is not mentioned may be no number. */
+bool columns_load(const shell *sh, csv *data, size_t expressions, named_columns *out, calc_error *error);
+/* Says more of a name that is unknown because something is wrong in its column, or there is none; false. */
+bool columns_missed(const shell *sh, const lexer *lx, csv *data);
+
+/* "loop.csv: 800 rows from line 21, dx from "Weg [um]", ...", and what more there is to say (may be empty): a
+ * note, unless all is as the header says. */
+void columns_say(shell *sh, const csv *c, const char *more);
+
+#endif

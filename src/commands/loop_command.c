@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* loop: what a measured file says by itself. Asks no scene. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "commands/columns.h"
+#include "commands/study_commands.h"
+#include "statement/answer.h"
+#include "statement/target.h"
+#include "study/loop.h"
+
+/* What is told of a cycle, in the order of its table; the flag at the end is 1 or 0 there. */
+static const struct {
+    const char *name;
+    dim d;
+    size_t at;
+} told[] = {{"dW", {1, 1, 0, 0}, offsetof(loop_cycle, dW)},
+            {"dxA", {0, 1, 0, 0}, offsetof(loop_cycle, dxA)},
+            {"FA", {1, 0, 0, 0}, offsetof(loop_cycle, FA)},
+            {"dx0", {0, 1, 0, 0}, offsetof(loop_cycle, dx0)},
+            {"Fx0", {1, 0, 0, 0}, offsetof(loop_cycle, Fx0)},
+            {"secant", {1, -1, 0, 0}, offsetof(loop_cycle, secant)},
+            {"unloading", {1, -1, 0, 0}, offsetof(loop_cycle, unloading)},
+            {"flank", {0, 0, 0, 0}, offsetof(loop_cycle, flank)},
+            {"energy_ratio", {0, 0, 0, 0}, offsetof(loop_cycle, ratio)}};
+enum { TOLD = sizeof told / sizeof *told, LOOP_COLUMNS = TOLD + 3 };
+
+static double value_at(const loop_cycle *c, size_t i) {
+    return *(const double *)(const void *)((const char *)c + told[i].at);
+}
+
+static bool write_table(answer *a, const csv *data, const loop_answer *l, calc_error *error) {
+    column columns[LOOP_COLUMNS] = {{.name = NULL}};
+    bool ok = column_si(&columns[0], "cycle", DIM_NONE) && column_si(&columns[1], "line", DIM_NONE) &&
+              column_si(&columns[LOOP_COLUMNS - 1], "slides", DIM_NONE);
+    for (size_t i = 0; i < TOLD && ok; i++)
+        ok = column_si(&columns[2 + i], told[i].name, told[i].d);
+    ok = ok && answer_columns(a, "loop", columns, LOOP_COLUMNS);
+    for (size_t k = 0; k < l->cycles && ok; k++) {
+        const loop_cycle *c = &l->cycle[k];
+        long double row[LOOP_COLUMNS] = {(long double)(k + 1), (long double)data->row[c->first].line};
+        for (size_t i = 0; i < TOLD; i++)
+            row[2 + i] = value_at(c, i);
+        row[LOOP_COLUMNS - 1] = c->slides;
+        answer_row(a, row);
+    }
+    ok = (answer_end(a, ok) && ok) || calc_no_memory(error);
+    columns_free(columns, LOOP_COLUMNS);
+    return ok;
+}
+
+static void report_cycles(answer *a, const csv *data, const loop_answer *l) {
+    for (size_t k = 0; k < l->cycles; k++) {
+        const loop_cycle *c = &l->cycle[k];
+        answer_words(a, "cycle %zu, from line %zu\n", k + 1, data->row[c->first].line);
+        answer_page(a, "measured");
+        answer_number(a, "cycle", (double)(k + 1));
+        answer_number(a, "line", (double)data->row[c->first].line);
+        for (size_t i = 0; i < TOLD; i++)
+            if (isfinite(value_at(c, i)))
+                answer_quantity(a, told[i].name, (value){value_at(c, i), told[i].d});
+        answer_fact(a, "flanks", c->slides ? "slide" : "do not slide");
+        answer_done(a);
+    }
+    answer_words(a, "all\n");
+    answer_page(a, "loop");
+    answer_number(a, "rows", (double)data->rows);
+    answer_number(a, "cycles", (double)l->cycles);
+    answer_quantity(a, "drift_dx", (value){l->drift_dx, DIM_LENGTH});
+    answer_quantity(a, "drift_Fx", (value){l->drift_Fx, DIM_FORCE});
+    answer_quantity(a, "noise_dx", (value){l->noise_dx, DIM_LENGTH});
+    answer_quantity(a, "noise_Fx", (value){l->noise_Fx, DIM_FORCE});
+    answer_fact(a, "row_1", l->at_rest ? "at rest" : "not at rest");
+    answer_done(a);
+    answer_end(a, true);
+}
+
+static bool tell(shell *sh, lexer *lx, said *all, const csv *data, const loop_answer *l) {
+    target to;
+    answer a;
+    if (!target_open(sh, lx, all, &to))
+        return false;
+    answer_begin_as(&a, &sh->set, to.to, to.format);
+    if (to.file.to)
+        return target_close(sh, lx, &to, write_table(&a, data, l, lx->error));
+    report_cycles(&a, data, l);
+    return true;
+}
+
+static bool read_columns(csv *data, bool *turned, csv_values **dx, csv_values **Fx, calc_error *error) {
+    *dx = columns_take(data, "dx", DIM_LENGTH, error);
+    *Fx = *dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL;
+    if (!*Fx || !csv_settle(data, error))
+        return false;
+    *turned = columns_opposed(data, *dx, *Fx);
+    if (*turned)
+        columns_turn(data, *Fx);
+    return true;
+}
+
+bool do_loop(shell *sh, lexer *lx, const command *self) {
+    said all;
+    choices chosen;
+    csv data;
+    csv_values *dx, *Fx;
+    loop_answer l = {.cycle = NULL};
+    bool turned;
+    char more[128];
+    if (!said_read(sh, lx, command_form(self), &all) || !choices_of(&all, NULL, &chosen, lx->error))
+        return false;
+    bool ok = columns_read(lx, &all.list[0].hole[0], &chosen, &data) &&
+              read_columns(&data, &turned, &dx, &Fx, lx->error) &&
+              loop_find(dx->v, Fx->v, data.rows, &l, lx->error);
+    if (ok) {
+        snprintf(more, sizeof more, "%zu cycle%s%s", l.cycles, l.cycles == 1 ? "" : "s",
+                 turned ? ", " TURNED_FX : "");
+        columns_say(sh, &data, more);
+        ok = tell(sh, lx, &all, &data, &l);
+    }
+    loop_free(&l);
+    csv_free(&data);
+    said_drop(sh, &all);
+    return ok || heard_place(lx->error, &all.list[0]);
+}

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The least asymmetry, over a grid of places and then between two of them. */
+#include "study/apex.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct place {
+    double r, f;
+} place;
+
+/* What is left of the asymmetry about x, as a part of how the sum of both sides varies: a flank alone is
+ * symmetric but for a tilt, and hardly varies; and the tilt that was taken off. */
+typedef struct asymmetry {
+    double left, square, tilt; /* square: what is left, a mean square */
+    size_t pairs;
+} asymmetry;
+
+static int by_r(const void *a, const void *b) {
+    const double x = ((const place *)a)->r, y = ((const place *)b)->r;
+    return (x > y) - (x < y);
+}
+
+/* The parabola through three places, or what there is where two of them are one. */
+static double between(const place *p, double r) {
+    const double a = p[0].r, b = p[1].r, c = p[2].r;
+    if (!(a < b && b < c))
+        return p[1].f;
+    return p[0].f * (r - b) * (r - c) / ((a - b) * (a - c)) +
+           p[1].f * (r - a) * (r - c) / ((b - a) * (b - c)) +
+           p[2].f * (r - a) * (r - b) / ((c - a) * (c - b));
+}
+
+static asymmetry about(const place *p, size_t n, double x, bool tilted) {
+    asymmetry a = {INFINITY, INFINITY, 0, 0};
+    double DD = 0, Dd = 0, dd = 0, E = 0, EE = 0;
+    size_t right = 0;
+    while (right < n && p[right].r <= x)
+        right++;
+    for (size_t left = right; right < n; right++) {
+        const double d = p[right].r - x;
+        while (left > 0 && p[left - 1].r > x - d)
+            left--;
+        if (left == 0)
+            break;
+        const size_t first = left + 1 < n ? left - 1 : n - 3;
+        const double other = between(p + first, x - d), D = p[right].f - other,
+                     S = p[right].f + other - 2 * p[n / 2].f;
+        E += S;
+        EE += S * S;
+        DD += D * D;
+        Dd += D * d;
+        dd += d * d;
+        a.pairs++;
+    }
+    if (a.pairs < 4)
+        return a;
+    a.tilt = tilted ? Dd / dd / 2 : 0;
+    const double rest = fmax(0, DD - 2 * a.tilt * Dd), varies = EE - E * E / (double)a.pairs;
+    a.left = varies > 0 ? rest / varies : INFINITY;
+    a.square = rest / (double)a.pairs;
+    return a;
+}
+
+/* The place of the least asymmetry, within a tenth of both ends. */
+static asymmetry least(const place *p, size_t n, bool tilted, double *at) {
+    enum { PLACES = 160, STEPS = 60 };
+    const double first = 0.9 * p[0].r + 0.1 * p[n - 1].r, step = 0.8 * (p[n - 1].r - p[0].r) / PLACES;
+    asymmetry best = {INFINITY, INFINITY, 0, 0};
+    for (size_t i = 0; i <= PLACES; i++) {
+        const asymmetry now = about(p, n, first + (double)i * step, tilted);
+        if (now.left < best.left) {
+            best = now;
+            *at = first + (double)i * step;
+        }
+    }
+    double lo = *at - step, hi = *at + step;
+    for (int i = 0; i < STEPS; i++) {
+        const double a = lo + 0.382 * (hi - lo), b = lo + 0.618 * (hi - lo);
+        if (about(p, n, a, tilted).left < about(p, n, b, tilted).left)
+            hi = b;
+        else
+            lo = a;
+    }
+    *at = (lo + hi) / 2;
+    return about(p, n, *at, tilted);
+}
+
+/* Do both ends rise above the lowest place by a tenth of the highest? The mean of some places tells. */
+static bool rises_on_both(const place *p, size_t n) {
+    const size_t part = n / 20 + 1;
+    double low = INFINITY, high = -INFINITY, first = 0, last = 0;
+    for (size_t i = 0; i + part <= n; i += part) {
+        double mean = 0;
+        for (size_t j = i; j < i + part; j++)
+            mean += p[j].f / (double)part;
+        first = i == 0 ? mean : first;
+        last = mean;
+        low = fmin(low, mean);
+        high = fmax(high, mean);
+    }
+    return first - low > 0.1 * (high - low) && last - low > 0.1 * (high - low);
+}
+
+bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error) {
+    *out = (apex){.both = false};
+    place *p = malloc((rows + 1) * sizeof *p);
+    if (!p)
+        return calc_no_memory(error);
+    for (size_t i = 0; i < rows; i++)
+        p[i] = (place){r[i], f[i]};
+    qsort(p, rows, sizeof *p, by_r);
+    if (rows >= 8 && p[0].r < p[rows - 1].r && rises_on_both(p, rows)) {
+        double at = 0, tilted_at = 0;
+        const asymmetry plain = least(p, rows, false, &at), tilted = least(p, rows, true, &tilted_at),
+                        here = about(p, rows, 0, false);
+        out->both = true;
+        out->tilted = tilted.square < 0.5 * plain.square && 2 * tilted.pairs > plain.pairs;
+        out->at = out->tilted ? tilted_at : at;
+        out->tilt = out->tilted ? tilted.tilt : 0;
+        /* by chance the least is less than any by some deviations of a sum of squares */
+        out->moved = out->tilted || !(here.square <= plain.square * (1 + 6 * sqrt(2 / (double)plain.pairs)));
+    }
+    free(p);
+    for (size_t i = 0; i < rows && out->moved; i++) {
+        r[i] -= out->at;
+        f[i] -= out->tilt * r[i];
+    }
+    return true;
+}

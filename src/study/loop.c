@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Turning points part the rows into cycles; each is measured by itself. */
+#include "study/loop.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "study/turning.h"
+
+typedef struct measured {
+    const double *x, *F;
+    size_t rows;
+    size_t *turn; /* turning points, with the ends where they are as good as such */
+    size_t turns;
+    double noise_x, noise_F;
+} measured;
+
+/* ---- cycles ------------------------------------------------------------------------------------ */
+
+/* Is the row as far as the turning point two on, to a tenth of the way between? */
+static bool is_like(const measured *m, size_t row, size_t other, size_t between) {
+    return fabs(m->x[row] - m->x[other]) <= 0.1 * fabs(m->x[between] - m->x[other]);
+}
+
+/* Does a loop that begins in its midst come back there, to a tenth of its width or two rows? */
+static bool closes(const measured *m) {
+    const double gap = fabs(m->x[m->rows - 1] - m->x[0]), width = fabs(m->x[m->turn[1]] - m->x[m->turn[0]]);
+    return gap <= fmax(0.1 * width, 2 * fabs(m->x[1] - m->x[0]));
+}
+
+/* A file may begin and end where d_x turns. */
+static void add_ends(measured *m) {
+    const size_t last = m->rows - 1, n = m->turns;
+    size_t *turn = m->turn;
+    const bool both = n == 1 && is_like(m, 0, last, turn[0]),
+               begins = n > 1 && is_like(m, 0, turn[1], turn[0]),
+               ends = n > 1 && is_like(m, last, turn[n - 2], turn[n - 1]);
+    if (both || begins) {
+        for (size_t i = n; i > 0; i--)
+            turn[i] = turn[i - 1];
+        turn[0] = 0;
+        m->turns++;
+    }
+    if (both || ends)
+        turn[m->turns++] = last;
+}
+
+/* ---- one cycle --------------------------------------------------------------------------------- */
+
+/* The polygon, about its first corner. */
+static double area(const measured *m, size_t from, size_t to) {
+    const long double x0 = m->x[from], F0 = m->F[from];
+    long double sum = 0;
+    for (size_t i = from; i < to; i++)
+        sum += (m->F[i] - F0 + (m->F[i + 1] - F0)) / 2 * ((long double)m->x[i + 1] - m->x[i]);
+    return (double)(sum + (m->F[to] - F0) / 2 * (x0 - m->x[to]));
+}
+
+/* Rows from `from` on while v is within a part of its way to `to`; two at least. */
+static size_t within(const double *v, size_t from, size_t to, double part) {
+    const int step = to > from ? 1 : -1;
+    const double far = part * fabs(v[to] - v[from]);
+    size_t row = from, n = 1;
+    while (row != to && (n < 2 || fabs(v[row + (size_t)step] - v[from]) <= far)) {
+        row += (size_t)step;
+        n++;
+    }
+    return n;
+}
+
+/* d F_x/d d_x behind the turn at `from`: of d_x as a function of F_x, whose slope does not vanish there.
+ * Noise leaves it open which rows are the first, and whether a bend below three standard errors is there.
+ */
+static double unloading(const measured *m, size_t from, size_t to) {
+    double c[3];
+    const size_t end = from + within(m->F, from, to, 0.3);
+    size_t first = from;
+    while (first + 4 < end && (fabs(m->F[first] - m->F[from]) < 4 * m->noise_F ||
+                               fabs(m->x[first] - m->x[from]) < 4 * m->noise_x))
+        first++;
+    const double *x = m->x + first, *F = m->F + first, n = (double)(end - first),
+                 fall = fabs(m->F[end - 1] - m->F[first]);
+    bool ok = turning_parabola(F, x, end - first, m->F[from], false, c);
+    if (ok && fabs(c[2]) * fall * fall < 3 * sqrt(180 / n) * hypot(m->noise_x, m->noise_F * c[1]))
+        ok = turning_parabola(F, x, end - first, m->F[from], true, c);
+    return ok && c[1] != 0 ? 1 / c[1] : NAN;
+}
+
+/* Before the turn at `to`, by the line that is nearest, and its standard error. */
+static double flank(const measured *m, size_t from, size_t to, double *error) {
+    const size_t n = within(m->x, to, from, 0.1);
+    long double x = 0, F = 0, xx = 0, xF = 0;
+    for (size_t i = to + 1 - n; i <= to; i++) {
+        x += m->x[i] / (long double)n;
+        F += m->F[i] / (long double)n;
+    }
+    for (size_t i = to + 1 - n; i <= to; i++) {
+        xx += (m->x[i] - x) * (m->x[i] - x);
+        xF += (m->x[i] - x) * (m->F[i] - F);
+    }
+    *error = m->noise_F / (double)sqrtl(xx);
+    return (double)(xF / xx);
+}
+
+static loop_cycle measure(const measured *m, size_t a, size_t b, size_t c) {
+    const double *x = m->x, *F = m->F;
+    const double xb = turning_level(x, b, (a + 3 * b) / 4, (3 * b + c) / 4, m->noise_x, true),
+                 xc = turning_level(x, c, (b + 3 * c) / 4, c + 1 < m->rows ? c + (c - b) / 4 : c, m->noise_x,
+                                    true),
+                 Fb = turning_level(F, b, (a + b) / 2, b, m->noise_F, false),
+                 Fc = turning_level(F, c, (b + c) / 2, c, m->noise_F, false);
+    double error[2];
+    loop_cycle out = {.first = a,
+                      .dW = area(m, a, c),
+                      .dxA = fabs(xc - xb) / 2,
+                      .FA = fabs(Fc - Fb) / 2,
+                      .dx0 = (xb + xc) / 2,
+                      .Fx0 = (Fb + Fc) / 2};
+    out.secant = out.FA / out.dxA;
+    out.ratio = out.dW / (4 * out.FA * out.dxA);
+    out.unloading = (unloading(m, a, b) + unloading(m, b, c)) / 2;
+    out.flank = (flank(m, a, b, &error[0]) + flank(m, b, c, &error[1])) / 2 / out.unloading;
+    out.slides = out.flank < 0.05 + hypot(error[0], error[1]) / out.unloading; /* 2 errors of the mean */
+    return out;
+}
+
+/* ---- all of them ------------------------------------------------------------------------------- */
+
+static bool measure_all(measured *m, loop_answer *out, calc_error *error) {
+    const size_t cycles = m->turns < 3 ? 0 : (m->turns - 1) / 2;
+    if (cycles == 0)
+        return calc_fail(error, 0, 0, "no cycle is closed: dx turns %zu time%s in %zu rows", m->turns,
+                         m->turns == 1 ? "" : "s", m->rows);
+    out->cycle = malloc(cycles * sizeof *out->cycle);
+    if (!out->cycle)
+        return calc_no_memory(error);
+    out->cycles = cycles;
+    for (size_t i = 0; i < cycles; i++)
+        out->cycle[i] = measure(m, m->turn[2 * i], m->turn[2 * i + 1], m->turn[2 * i + 2]);
+    const loop_cycle *first = out->cycle, *last = first + cycles - 1;
+    const size_t begin = m->turn[0], end = m->turn[2];
+    out->drift_dx = cycles > 1 ? (last->dx0 - first->dx0) / (double)(cycles - 1) : m->x[end] - m->x[begin];
+    out->drift_Fx = cycles > 1 ? (last->Fx0 - first->Fx0) / (double)(cycles - 1) : m->F[end] - m->F[begin];
+    return true;
+}
+
+/* A loop that begins and ends in its midst is one from its first turning point on. */
+static bool measure_turned(measured *m, double *turned, loop_answer *out, calc_error *error) {
+    const size_t n = m->rows, begin = m->turn[0];
+    measured from = *m;
+    for (size_t i = 0; i <= n; i++) {
+        turned[i] = m->x[(begin + i) % n];
+        turned[n + 1 + i] = m->F[(begin + i) % n];
+    }
+    from.x = turned;
+    from.F = turned + n + 1;
+    from.rows = n + 1;
+    from.turn[1] -= begin;
+    from.turn[0] = 0;
+    from.turn[from.turns++] = n;
+    const bool ok = measure_all(&from, out, error);
+    if (ok)
+        out->cycle->first = begin;
+    out->drift_dx = m->x[n - 1] - m->x[0];
+    out->drift_Fx = m->F[n - 1] - m->F[0];
+    return ok;
+}
+
+bool loop_find(const double *dx, const double *Fx, size_t rows, loop_answer *out, calc_error *error) {
+    measured m = {.x = dx, .F = Fx, .rows = rows, .turn = malloc((rows + 2) * sizeof *m.turn)};
+    double *turned = malloc(2 * (rows + 1) * sizeof *turned);
+    *out = (loop_answer){.cycle = NULL};
+    bool ok = (m.turn && turned) || calc_no_memory(error);
+    if (ok && turning_noise(dx, rows, &m.noise_x, error) && turning_noise(Fx, rows, &m.noise_F, error)) {
+        m.turns = turning_points(dx, rows, m.noise_x, m.turn);
+        if (m.turns > 0)
+            add_ends(&m);
+        if (rows < 16 * (m.turns + 1)) /* too few to tell noise from a curve */
+            m.noise_x = m.noise_F = 0;
+        ok =
+            m.turns == 2 && closes(&m) ? measure_turned(&m, turned, out, error) : measure_all(&m, out, error);
+    } else {
+        ok = false;
+    }
+    out->noise_dx = m.noise_x;
+    out->noise_Fx = m.noise_F;
+    if (ok)
+        out->at_rest = fabs(dx[0]) <= fmax(0.05 * out->cycle->dxA, 4 * m.noise_x) &&
+                       fabs(Fx[0]) <= fmax(0.05 * out->cycle->FA, 4 * m.noise_F);
+    free(turned);
+    free(m.turn);
+    return ok;
+}
+
+void loop_free(loop_answer *a) {
+    free(a->cycle);
+    *a = (loop_answer){.cycle = NULL};
+}

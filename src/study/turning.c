@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Noise by differences, turning points by a threshold, levels by parabolas. */
+#include "study/turning.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int by_size(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+bool turning_noise(const double *v, size_t n, double *noise, calc_error *error) {
+    enum { ORDER = 6 };
+    double *d = malloc((2 * n + 1) * sizeof *d), over = 1; /* (2k over k) */
+    if (!d)
+        return calc_no_memory(error);
+    *noise = n > 2 * ORDER ? INFINITY : 0;
+    memcpy(d, v, n * sizeof *d);
+    for (size_t k = 1; k <= ORDER && n > 2 * ORDER; k++) {
+        double *size = d + n;
+        for (size_t i = 0; i + k < n; i++)
+            d[i] = d[i + 1] - d[i];
+        over *= 2 * (2 * (double)k - 1) / (double)k;
+        if (k % 2)
+            continue;
+        for (size_t i = 0; i + k < n; i++)
+            size[i] = fabs(d[i]);
+        qsort(size, n - k, sizeof *size, by_size);
+        *noise = fmin(*noise, size[(n - k) / 2] / (0.6745 * sqrt(over)));
+    }
+    free(d);
+    return true;
+}
+
+/* How far v must come back. */
+static double threshold(const double *v, size_t n, double noise) {
+    double lo = v[0], hi = v[0], step = INFINITY;
+    for (size_t i = 1; i < n; i++) {
+        lo = fmin(lo, v[i]);
+        hi = fmax(hi, v[i]);
+        step = v[i] != v[i - 1] ? fmin(step, fabs(v[i] - v[i - 1])) : step;
+    }
+    return fmin(0.1 * (hi - lo), fmax(8 * noise, 2.5 * step));
+}
+
+size_t turning_points(const double *v, size_t n, double noise, size_t *at) {
+    const double back = threshold(v, n, noise);
+    size_t count = 0, hi = 0, lo = 0;
+    int way = 0;
+    for (size_t i = 1; i < n; i++) {
+        hi = v[i] > v[hi] ? i : hi;
+        lo = v[i] < v[lo] ? i : lo;
+        if (way >= 0 && v[hi] - v[i] > back) {
+            if (way > 0)
+                at[count++] = hi;
+            way = -1;
+            lo = i;
+        } else if (way <= 0 && v[i] - v[lo] > back) {
+            if (way < 0)
+                at[count++] = lo;
+            way = 1;
+            hi = i;
+        }
+    }
+    return count;
+}
+
+bool turning_parabola(const double *x, const double *y, size_t n, double x0, bool line, double c[3]) {
+    long double M[3][4] = {{0}}, size = 0; /* the normal equations, their right side behind */
+    const size_t terms = n < 4 || line ? 2 : 3;
+    for (size_t i = 0; i < n; i++)
+        size = fmaxl(size, fabsl((long double)x[i] - x0));
+    for (size_t i = 0; i < n && size > 0; i++) {
+        const long double u = ((long double)x[i] - x0) / size, power[] = {1, u, u * u},
+                          v = (long double)y[i] - y[0];
+        for (size_t k = 0; k < terms; k++) {
+            for (size_t l = 0; l < terms; l++)
+                M[k][l] += power[k] * power[l];
+            M[k][3] += power[k] * v;
+        }
+    }
+    c[2] = 0;
+    for (size_t k = 0; k < terms; k++) { /* positive definite: no pivots */
+        if (!(M[k][k] > 1e-12L * (long double)n))
+            return false;
+        for (size_t r = 0; r < terms; r++)
+            for (size_t l = 4; l-- > k && r != k;)
+                M[r][l] -= M[r][k] / M[k][k] * M[k][l];
+    }
+    for (size_t k = 0; k < terms; k++)
+        c[k] = (double)(M[k][3] / M[k][k] / powl(size, (long double)k));
+    c[0] += y[0];
+    return true;
+}
+
+double turning_level(const double *v, size_t row, size_t from, size_t to, double noise, bool crest) {
+    enum { MOST = 400 };
+    double at[MOST], c[3];
+    size_t first = row, last = row;
+    while (first > from && last - first + 1 < MOST / 2 && fabs(v[first - 1] - v[row]) <= 6 * noise)
+        first--;
+    while (last < to && last - first + 1 < MOST && fabs(v[last + 1] - v[row]) <= 6 * noise)
+        last++;
+    const size_t n = last - first + 1;
+    for (size_t i = 0; i < n; i++)
+        at[i] = (double)i;
+    const double here = (double)(row - first);
+    if (n < 5 || !turning_parabola(at, v + first, n, here, false, c))
+        return v[row];
+    const double top = c[2] != 0 ? -c[1] / (2 * c[2]) : INFINITY;
+    const bool inside = crest && here + top >= 0 && here + top <= (double)(n - 1);
+    return inside ? c[0] + top * (c[1] + top * c[2]) : c[0];
+}

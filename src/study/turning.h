@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where a measured column turns, above its noise. Knows numbers alone. */
+#ifndef STUDY_TURNING_H
+#define STUDY_TURNING_H
+
+#include "text/error.h"
+
+/* The standard deviation of white noise in v: of the differences of orders 2, 4 and 6 the median size is
+ * 0.6745 s (2k over k)^(1/2) where there is but noise, and what else is in v shows least in one of them. */
+bool turning_noise(const double *v, size_t n, double *noise, calc_error *error);
+
+/* The rows where v turns: each the farthest before v has come back by more than 8 times its noise and some of
+ * its smallest steps, but at most a tenth of its range. The first row and the last are none. `at` has room
+ * for n. Returns how many. */
+size_t turning_points(const double *v, size_t n, double noise, size_t *at);
+
+/* v at a turning row, of the rows from..to about it: that of a parabola through those within 6 times its
+ * noise, where they are five or more; else as measured. crest: its highest or lowest, else its value at the
+ * row. */
+double turning_level(const double *v, size_t row, size_t from, size_t to, double noise, bool crest);
+
+/* y = c0 + c1 (x-x0) + c2 (x-x0)^2 nearest to n points, c2 = 0 of fewer than four or where a line is wanted;
+ * false: they do not tell. */
+bool turning_parabola(const double *x, const double *y, size_t n, double x0, bool line, double c[3]);
+
+#endif
