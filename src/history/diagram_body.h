@@ -466,7 +466,10 @@ FRET_INLINE void retreat(path *p, coordinate by) {
     DIAGRAM *d = p->d;
     const coordinate aside = other_than(by);
     const NUMBER to = p->to.y[by], forward = end_level(p, by, 1), backward = end_level(p, by, -1);
-    last_phase last = {.s = 0};
+    last_phase last; /* all of it would take as long as the rest */
+    last.s = 0;
+    last.end = NULL;
+    last.count = 0;
     NUMBER s = 0, part = 0, thick = to;
     if (p->counts)
         phases_back(p, by, &last);
