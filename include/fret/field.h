@@ -48,11 +48,13 @@ fret_status fret_press_by_mean(const fret_normal *normal, double pmean, fret_pre
 /* u_z(r) = (2 cos(pi k/2)/pi) int_0^a x^k (delta_z-g(x)) (r^2-x^2)^(-(1+k)/2) dx for r > a [m], both bodies
  * together; delta_z - f(r) inside. */
 fret_status fret_field_surface(const fret_field *field, fret_real r, fret_real *w);
-/* q_x(r) [Pa] and u_x(r) [m], the mean over the angle: the same with -u'(x) and c_T, and u(x). The local slip
- * is s(r) = delta_x - u_x(r): 0 where springs stick, and what friction works on within this theory, 2 pi int
- * mu p s r dr = W of first loading; mu p s, over a cycle 4 mu p s, is the work for each area. */
+/* q_x(r) [Pa] and u_x(r) [m], the mean over the angle: the same with -u'(x) and c_T, and u(x). */
 fret_status fret_field_traction(const fret_field *field, fret_real r, fret_real *q);
 fret_status fret_field_surface_x(const fret_field *field, fret_real r, fret_real *u);
+/* Local slip s(r) = delta_x - u_x(r) [m], exactly 0 where all springs within r stick since they touched; what
+ * friction works on within this theory: of first loading 2 pi int mu p s r dr = W. Outside the contact it is
+ * how far the surfaces there have moved past each other. Accuracy as of u_x, of delta_x. */
+fret_status fret_field_slip(const fret_field *field, fret_real r, fret_real *s);
 
 /* How far p, u_z, q_x and u_x are off by the law's polynomials and rounding, of their largest values [1]; NAN
  * where the law has a formula. */
