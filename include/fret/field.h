@@ -60,6 +60,32 @@ fret_status fret_field_slip(const fret_field *field, fret_real r, fret_real *s);
  * where the law has a formula. */
 double fret_field_error(const fret_field *field);
 
+/* Stress [Pa], tension positive, in homogeneous bodies (k = 0), x along F_x, z > 0 into the one that F_x
+ * pushes along x, z < 0 into the other. Of the line loads q_z = c_N w(t), q_x = c_T u(t) on the imaginary
+ * axis, sigma_ij(x,y,z) = (1/2 pi) Re int_-a^a [q_z P_ij + q_x Q_ij] dt,   zeta = z + i t, rho^2 =
+ * x^2+y^2+zeta^2, with V = 1/rho, L = ln(rho+zeta), chi = zeta L - rho, subscripts derivatives: P_xx = 2nu
+ * V_zeta - (1-2nu) L_xx - z V_xx, P_yy alike, P_zz = V_zeta - z V_zeta,zeta, P_xy = -(1-2nu) L_xy - z V_xy,
+ * P_xz = -z V_x,zeta, P_yz = -z V_y,zeta; Q_xx = 2(1+nu) V_x + 2nu chi_xxx - z L_xxx, Q_yy = 2nu V_x + 2nu
+ * chi_xyy - z L_xyy, Q_zz = -z V_x,zeta, Q_xy = V_y + 2nu chi_xxy - z L_xxy, Q_xz = V_zeta - z V_xx, Q_yz =
+ * -z V_xy (Boussinesq's and Cerruti's points). At the surface the limit from z > 0. */
+typedef struct fret_stress {
+    double xx, yy, zz, xy, xz, yz;
+} fret_stress;
+
+/* nu: of the body that (x, y, z) [m] lies in. Accuracy 1e-12 of the largest pressure; less where that is
+ * infinite, or the contact reaches but little beyond a flat end. Some 5 us of a power law and one slip zone,
+ * as much for every two cells of other laws. Errors: FRET_OUTSIDE: k != 0, for which no such form is known,
+ * and a contact that has swung (fret_contact_chords first: then 1e-6, and a thousand times as long);
+ * FRET_BAD_NU, FRET_NOT_FINITE; FRET_SINGULAR where p is infinite; FRET_INTERRUPTED. */
+fret_status fret_field_stress(const fret_field *field, double nu, double x, double y, double z,
+                              fret_stress *out);
+
+/* Of von Mises; principal stresses, the largest first, to 1e-8 of it where two are equal; of Tresca: the
+ * largest less the smallest. */
+double fret_stress_mises(const fret_stress *stress);
+void fret_stress_principal(const fret_stress *stress, double out[3]);
+double fret_stress_tresca(const fret_stress *stress);
+
 FRET_END
 
 #endif

@@ -217,8 +217,7 @@ double fret_field_error(const fret_field *f) {
 
 /* ---- pressure and traction --------------------------------------------------------------------- */
 
-/* Do all contacts that hold r press infinitely there? */
-static bool is_infinite(const fret_normal *n, fret_real r) {
+bool fret_field_infinite(const fret_normal *n, fret_real r) {
     const fret_real start = fret_gap_start(&n->gap), k = n->foundation.k;
     return r == start && (start > 0 ? fret_gap_sharp(&n->gap) && (k <= 0 || fret_normal_punch(n))
                                     : fret_gap_tip(&n->gap) + k <= 1);
@@ -264,7 +263,7 @@ static bool any_weight(const fret_field *f, int load) {
 /* int sigma g' (x^2-r^2)^((k-1)/2) dx. The core that spares a sharp edge ends where numbers can tell it. */
 static fret_status slope_sum(const fret_field *f, int load, fret_real r, fret_real *sum) {
     const fret_normal *n = f->normal;
-    const bool flat = fret_gap_start(&n->gap) > 0, infinite = is_infinite(n, r);
+    const bool flat = fret_gap_start(&n->gap) > 0, infinite = fret_field_infinite(n, r);
     fret_status st = fret_check_not_negative("r", (double)r);
     *sum = 0;
     if (st.code || !any_weight(f, load) || (!flat && r >= f->slice[f->slices - 1].a))

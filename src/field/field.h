@@ -30,6 +30,8 @@ struct fret_field {
  * To be asked once it is cut, not to be freed. */
 void fret_field_part(const fret_field *field, slice *end, fret_field *out);
 void fret_field_cut(const fret_field *field, fret_real depth, fret_field *part);
+/* Do all contacts that hold r press infinitely there? */
+bool fret_field_infinite(const fret_normal *normal, fret_real r);
 /* By how much of its depth the surface at r has not followed: depth - u_z(r); f(r) within. */
 fret_status fret_field_left(const fret_field *field, fret_real r, fret_real *left);
 
