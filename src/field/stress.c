@@ -130,7 +130,7 @@ static bool is_short(const place_inside *a, const profile_part *p, double t0, do
         if (is_rooted(a, p, t0, from)) /* of the square eight points tell less */
             off /= 3;
     }
-    return cabs(to - from) <= NEAR * off && (p->steep < 8 || (t1 - t0) * p->steep <= STEEP * t1) &&
+    return !(cabs(to - from) > NEAR * off) && (p->steep < 8 || (t1 - t0) * p->steep <= STEEP * t1) &&
            !(p->branches && t0 == 0 && pow(t1 / p->hi, p->n[0]) > TIP);
 }
 
