@@ -333,9 +333,9 @@ int main(int argc, char **argv) {
         if (i < 3)
             CASE(small_parts(i, true));
     }
-    for (int i = 0; i < unit_draws(16); i++)
+    for (int i = 0; i < unit_draws(8); i++)
         CASE(swinging(i));
-    for (int i = 0; i < unit_draws(300); i++)
+    for (int i = 0; i < (unit_skips(1) ? 16 : 300); i++)
         CASE(random_scene(i));
     return unit_finish();
 }
