@@ -92,7 +92,7 @@ static fret_real whole_work(const fret_normal *n, double mu, const fret_slips *s
     for (int i = 1; i < count; i++) {
         part p = {work, node[i - 1], node[i]};
         if (p.hi - p.lo > 1e-14L * node[count - 1])
-            sum += fret_integral_ends(rate, &p, unit_skips(1) ? 1e-9L : 1e-11L);
+            sum += fret_integral_ends(rate, &p, 1e-11L);
     }
     fret_work_free(work);
     return sum;
@@ -138,7 +138,9 @@ static void random_scene(int i) {
     }
     if (now.W > 0) {
         const fret_real W = whole_work(n, mu, s, 0);
-        CHECK_REL(W, now.W, unit_skips(1) ? 1e-10L : 1e-11L);
+        /* next to a sharp edge, where p ~ e^k, radii are no closer to it than their rounding */
+        const bool sharp = fret_gap_start(&n->gap) > 0 && fret_gap_sharp(&n->gap) && k < 0;
+        CHECK_REL(W, now.W, 1e-11L + (sharp ? 4 * powl(LDBL_EPSILON, 1 + k) : 0));
     }
     fret_slips_free(s);
     fret_contact_free(c);
@@ -163,13 +165,13 @@ static void swinging(int i) {
     CHECK_OK(fret_contact_swing(c, &sine, 0, 0.4));
     CHECK_OK(fret_contact_swing(c, &sine, 0.4, 1));
     fret_contact_state(c, &now);
-    CHECK_REL(whole_work(n, mu, s, 0), now.W, unit_skips(1) ? 1e-10L : 1e-11L);
+    CHECK_REL(whole_work(n, mu, s, 0), now.W, 1e-11L);
     const size_t first = fret_slips_count(s);
     CHECK_OK(fret_contact_swing(c, &sine, 0, 1));
-    CHECK_REL(whole_work(n, mu, s, first), fret_contact_last_loss(c), unit_skips(1) ? 1e-10L : 1e-11L);
+    CHECK_REL(whole_work(n, mu, s, first), fret_contact_last_loss(c), 1e-11L);
     CHECK_OK(fret_contact_step(c, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, 3e-6}));
     fret_contact_state(c, &now);
-    CHECK_REL(whole_work(n, mu, s, 0), now.W, unit_skips(1) ? 1e-10L : 1e-11L);
+    CHECK_REL(whole_work(n, mu, s, 0), now.W, 1e-11L);
     fret_slips_free(s);
     fret_contact_free(c);
 }
@@ -335,7 +337,7 @@ int main(int argc, char **argv) {
     }
     for (int i = 0; i < unit_draws(8); i++)
         CASE(swinging(i));
-    for (int i = 0; i < (unit_skips(1) ? 16 : 300); i++)
+    for (int i = 0; i < (unit_skips(1) ? 12 : 300); i++)
         CASE(random_scene(i));
     return unit_finish();
 }
