@@ -79,6 +79,21 @@ fret_status fret_contact_step(fret_contact *contact, const fret_step *step);
  * first they do; FRET_EXACT always does. */
 void fret_contact_count_loss(fret_contact *contact, bool on);
 
+/* What slips, phase by phase, as a contact is stepped: what friction does at each place can be told of it
+ * (fret/work.h). Some 150 bytes a phase, of a step one for each slice that its slip comes to; 700 of a
+ * swinging load, some ten a period. */
+typedef struct fret_slips fret_slips;
+/* Error: FRET_NO_MEMORY. */
+fret_status fret_slips_make(fret_slips **out);
+void fret_slips_free(fret_slips *slips);
+/* Nothing has slipped; keeps its storage. */
+void fret_slips_clear(fret_slips *slips);
+/* How many phases there are. */
+size_t fret_slips_count(const fret_slips *slips);
+/* Steps and swings of the contact add to slips from here on, which it borrows; NULL: to none. Copies of a
+ * contact are not watched, a copy to it changes nothing in this. Error: FRET_OUTSIDE (FRET_DOUBLE). */
+fret_status fret_contact_watch(fret_contact *contact, fret_slips *slips);
+
 /* F_x = FA cos s, F_N = FN + FNA cos(s + phase), s = 0 .. 2 pi. */
 typedef struct fret_sine {
     double FA, FNA, phase; /* [N], [N], [rad] */

@@ -48,15 +48,43 @@ fret_status fret_press_by_mean(const fret_normal *normal, double pmean, fret_pre
 /* u_z(r) = (2 cos(pi k/2)/pi) int_0^a x^k (delta_z-g(x)) (r^2-x^2)^(-(1+k)/2) dx for r > a [m], both bodies
  * together; delta_z - f(r) inside. */
 fret_status fret_field_surface(const fret_field *field, fret_real r, fret_real *w);
-/* q_x(r) [Pa] and u_x(r) [m], the mean over the angle: the same with -u'(x) and c_T, and u(x). The local slip
- * is s(r) = delta_x - u_x(r): 0 where springs stick, and what friction works on within this theory, 2 pi int
- * mu p s r dr = W of first loading; mu p s, over a cycle 4 mu p s, is the work for each area. */
+/* q_x(r) [Pa] and u_x(r) [m], the mean over the angle: the same with -u'(x) and c_T, and u(x). */
 fret_status fret_field_traction(const fret_field *field, fret_real r, fret_real *q);
 fret_status fret_field_surface_x(const fret_field *field, fret_real r, fret_real *u);
+/* Local slip s(r) = delta_x - u_x(r) [m], exactly 0 where all springs within r stick since they touched; what
+ * friction works on within this theory: of first loading 2 pi int mu p s r dr = W. Outside the contact it is
+ * how far the surfaces there have moved past each other. Accuracy as of u_x, of delta_x. */
+fret_status fret_field_slip(const fret_field *field, fret_real r, fret_real *s);
 
 /* How far p, u_z, q_x and u_x are off by the law's polynomials and rounding, of their largest values [1]; NAN
  * where the law has a formula. */
 double fret_field_error(const fret_field *field);
+
+/* Stress [Pa], tension positive, in homogeneous bodies (k = 0), x along F_x, z > 0 into the one that F_x
+ * pushes along x, z < 0 into the other. Of the line loads q_z = c_N w(t), q_x = c_T u(t) on the imaginary
+ * axis, sigma_ij(x,y,z) = (1/2 pi) Re int_-a^a [q_z P_ij + q_x Q_ij] dt,   zeta = z + i t, rho^2 =
+ * x^2+y^2+zeta^2, with V = 1/rho, L = ln(rho+zeta), chi = zeta L - rho, subscripts derivatives: P_xx = 2nu
+ * V_zeta - (1-2nu) L_xx - z V_xx, P_yy alike, P_zz = V_zeta - z V_zeta,zeta, P_xy = -(1-2nu) L_xy - z V_xy,
+ * P_xz = -z V_x,zeta, P_yz = -z V_y,zeta; Q_xx = 2(1+nu) V_x + 2nu chi_xxx - z L_xxx, Q_yy = 2nu V_x + 2nu
+ * chi_xyy - z L_xyy, Q_zz = -z V_x,zeta, Q_xy = V_y + 2nu chi_xxy - z L_xxy, Q_xz = V_zeta - z V_xx, Q_yz =
+ * -z V_xy (Boussinesq's and Cerruti's points). At the surface the limit from z > 0. */
+typedef struct fret_stress {
+    double xx, yy, zz, xy, xz, yz;
+} fret_stress;
+
+/* nu: of the body that (x, y, z) [m] lies in. Accuracy 1e-12 of the largest pressure; less where that is
+ * infinite, or the contact reaches but little beyond a flat end. Some 5 us of a power law and one slip zone,
+ * as much for every two cells of other laws. Errors: FRET_OUTSIDE: k != 0, for which no such form is known,
+ * and a contact that has swung (fret_contact_chords first: then 1e-6, and a thousand times as long);
+ * FRET_BAD_NU, FRET_NOT_FINITE; FRET_SINGULAR where p is infinite; FRET_INTERRUPTED. */
+fret_status fret_field_stress(const fret_field *field, double nu, double x, double y, double z,
+                              fret_stress *out);
+
+/* Of von Mises; principal stresses, the largest first, to 1e-8 of it where two are equal; of Tresca: the
+ * largest less the smallest. */
+double fret_stress_mises(const fret_stress *stress);
+void fret_stress_principal(const fret_stress *stress, double out[3]);
+double fret_stress_tresca(const fret_stress *stress);
 
 FRET_END
 

@@ -8,7 +8,8 @@
  *   fret/normal.h       the law F_N(delta_z): pressed by force, by depth, to a radius
  *   fret/cycle.h        constant F_N: first loading, gross slip, energy of a cycle, in closed form
  *   fret/contact.h      any history of both directions: steps, swinging loads, state
- *   fret/field.h        pressure, traction and surface displacement at a radius
+ *   fret/field.h        pressure, traction, surface displacement and slip at a radius
+ *   fret/work.h         the work of friction at a radius
  *   fret/arrays.h       closed forms for many loads at once
  *   fret/springs.h      springs of a cut foundation, to check by
  *   fret/status.h       what went wrong
@@ -49,6 +50,7 @@
 #include "fret/normal.h"
 #include "fret/springs.h"
 #include "fret/status.h"
+#include "fret/work.h"
 
 /* Of the headers: what is named in them stays until the first number grows. */
 #define FRET_VERSION_MAJOR 0

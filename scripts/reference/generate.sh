@@ -4,6 +4,6 @@
 set -eu
 cd "$(dirname "$0")"
 for script in dd material kappa loss slice scene history shape field rim corners \
-    figures spring_model swinging backwards damper; do
+    figures spring_model swinging backwards damper stress; do
     PYTHONDONTWRITEBYTECODE=1 "${PYTHON:-python3}" "$script.py" "$@"
 done

@@ -130,6 +130,20 @@ fret_status fret_field_of_press(const fret_normal *n, const fret_press *press, f
     return finish(*out, st, out);
 }
 
+void fret_field_part(const fret_field *f, slice *end, fret_field *out) {
+    *out = *f;
+    out->slice = end;
+    out->end = end;
+}
+
+void fret_field_cut(const fret_field *f, fret_real depth, fret_field *part) {
+    part->slices = part->heads = 0;
+    part->punch[PRESSED] = 0;
+    if (depth > 0)
+        add_slice(part, fminl(depth, f->slice->y), 0);
+    find_head(part);
+}
+
 static fret_real depth_at(const fret_swing *c, const fret_real at[2]) {
     const fret_real N = (at[M] + at[P]) / 2;
     return N > 0 ? fret_law_depth(c->normal, N) : 0;
@@ -158,6 +172,7 @@ static fret_status make_of_swing(const fret_swing *c, fret_field **out) {
         if (p->curved)
             f->swung.arcs[f->swung.count++] = *p;
     }
+    f->slid = c->slid;
     return finish(f, st, out);
 }
 
@@ -167,11 +182,19 @@ fret_status fret_field_make(const fret_contact *c, fret_field **out) {
     *out = NULL;
     if (c->diagram)
         return fret_fail(FRET_OUTSIDE, "exactness", 0, 0);
-    if (c->curved)
-        return make_of_swing(c->swing, out);
+    if (c->curved) {
+        fret_state now;
+        const fret_status st = make_of_swing(c->swing, out);
+        fret_contact_forces(c, &now);
+        if (!st.code)
+            (*out)->dx = now.dx;
+        return st;
+    }
     while (fret_contact_segment(c, slices, &s))
         slices++;
     fret_status st = begin(c->normal, c->mu, LOADS, slices, out);
+    if (!st.code)
+        (*out)->slid = c->memory->slid;
     for (size_t i = 0; !st.code && fret_contact_segment(c, i, &s) && !fret_stopped(c->normal); i++)
         add_slice(*out, s.outer, s.sigma);
     return st.code ? st : finish(*out, st, out);
@@ -194,8 +217,7 @@ double fret_field_error(const fret_field *f) {
 
 /* ---- pressure and traction --------------------------------------------------------------------- */
 
-/* Do all contacts that hold r press infinitely there? */
-static bool is_infinite(const fret_normal *n, fret_real r) {
+bool fret_field_infinite(const fret_normal *n, fret_real r) {
     const fret_real start = fret_gap_start(&n->gap), k = n->foundation.k;
     return r == start && (start > 0 ? fret_gap_sharp(&n->gap) && (k <= 0 || fret_normal_punch(n))
                                     : fret_gap_tip(&n->gap) + k <= 1);
@@ -241,7 +263,7 @@ static bool any_weight(const fret_field *f, int load) {
 /* int sigma g' (x^2-r^2)^((k-1)/2) dx. The core that spares a sharp edge ends where numbers can tell it. */
 static fret_status slope_sum(const fret_field *f, int load, fret_real r, fret_real *sum) {
     const fret_normal *n = f->normal;
-    const bool flat = fret_gap_start(&n->gap) > 0, infinite = is_infinite(n, r);
+    const bool flat = fret_gap_start(&n->gap) > 0, infinite = fret_field_infinite(n, r);
     fret_status st = fret_check_not_negative("r", (double)r);
     *sum = 0;
     if (st.code || !any_weight(f, load) || (!flat && r >= f->slice[f->slices - 1].a))
@@ -250,7 +272,7 @@ static fret_status slope_sum(const fret_field *f, int load, fret_real r, fret_re
         return fret_fail(FRET_SINGULAR, "r", (double)r, 0);
     *sum = r == 0 && !flat ? tip_slope(f, load) : head_slope(f, load, r);
     for (size_t i = 0; i < f->sums; i++)
-        *sum += fret_rings_slope(f->sum[i], load, r);
+        *sum += fret_rings_slope(f->sum[i], load, r, f->end);
     return fret_unless_stopped(n, isfinite(*sum) ? st : fret_fail(FRET_SINGULAR, "r", (double)r, 0));
 }
 
@@ -291,10 +313,10 @@ static fret_real contact_depth(const fret_field *f, size_t i, fret_real r, fret_
 }
 
 /* Slices that reach beyond r have the gap there, which all of them share; the others count by how much more
- * they weigh. */
-static fret_status depth_sum(const fret_field *f, int load, fret_real r, fret_real *sum) {
+ * they weigh. left: what a surface leaves of the depth, in its place. */
+static fret_status depth_sum(const fret_field *f, int load, fret_real r, bool left, fret_real *sum) {
     fret_status st = fret_check_not_negative("r", (double)r);
-    fret_real head = (fret_real)NAN, gap = 0, outside = 0;
+    fret_real head = (fret_real)NAN, gap = 0, outside = 0, depth = 0;
     size_t end = 0;
     *sum = 0;
     if (st.code || !any_weight(f, load))
@@ -305,27 +327,45 @@ static fret_status depth_sum(const fret_field *f, int load, fret_real r, fret_re
         const fret_real weight = weight_at(f, load, i) - weight_at(f, load, i + 1);
         if (weight != 0)
             outside += weight * contact_depth(f, i, r, &head);
+        depth += weight * f->slice[i].y;
     }
     for (size_t i = 0; i < f->sums && end > 0; i++)
-        outside -= fret_rings_depth(f->sum[i], load, r, end);
+        outside -= fret_rings_depth(f->sum[i], load, r, end, f->end);
     if (end < f->slices) {
         st = fret_gap_f(&f->normal->gap, r, &gap);
-        *sum = weight_at(f, load, end) * (f->slice[end].y - gap);
+        *sum = weight_at(f, load, end) * (left ? gap : f->slice[end].y - gap);
     }
-    for (size_t i = end + 1; i < f->slices; i++)
+    for (size_t i = end + 1; i < f->slices && !left; i++)
         *sum += weight_at(f, load, i) * (f->slice[i].y - f->slice[i - 1].y);
-    *sum += f->of_depth * outside;
+    *sum += left ? depth - f->of_depth * outside : f->of_depth * outside;
     return fret_unless_stopped(f->normal, st);
 }
 
 fret_status fret_field_surface(const fret_field *f, fret_real r, fret_real *w) {
-    return depth_sum(f, PRESSED, r, w);
+    return depth_sum(f, PRESSED, r, false, w);
+}
+
+fret_status fret_field_left(const fret_field *f, fret_real r, fret_real *left) {
+    return depth_sum(f, PRESSED, r, true, left);
 }
 
 fret_status fret_field_surface_x(const fret_field *f, fret_real r, fret_real *u) {
-    const fret_status st = depth_sum(f, DRAGGED, r, u);
+    const fret_status st = depth_sum(f, DRAGGED, r, false, u);
     if (!st.code && f->swung.count > 0)
         *u += fret_swing_surface(&f->swung, &f->flat, f->of_depth, r);
     *u *= f->mu * f->normal->foundation.eta;
     return fret_unless_stopped(f->normal, st);
+}
+
+/* Where no slice slips, no sum says so but for rounding. */
+fret_status fret_field_slip(const fret_field *f, fret_real r, fret_real *s) {
+    fret_status st;
+    if (f->swung.count > 0) {
+        st = fret_field_surface_x(f, r, s);
+        *s = f->dx - *s;
+    } else {
+        st = depth_sum(f, DRAGGED, r, true, s);
+        *s = f->slid + f->mu * f->normal->foundation.eta * *s;
+    }
+    return st;
 }

@@ -6,18 +6,21 @@
 #include "number/integral.h"
 #include "number/real.h"
 
-/* A question. end: slices from there on count as nothing, and those before by how much more they weigh. */
+/* A question. end: slices from there on count as nothing, and those before by how much more they weigh. Of a
+ * slice of its own instead of the one that there is, nothing is beyond the ring number `last`. */
 typedef struct question {
     const rings *all;
+    const slice *slice;
+    const rim *rim;
     int kind, load;
     fret_real r, less;
-    size_t end;
+    size_t end, last;
     fret_real unit, scale; /* of far blocks: of squares of lengths, and of the kernel */
     double log_unit;       /* in units of the rings */
 } question;
 
 static fret_real weight_at(const question *q, size_t i) {
-    return i < q->end ? weight_of(q->all->slice, q->all->slices, q->load, i) - q->less : 0;
+    return i < q->end ? weight_of(q->slice, q->all->slices, q->load, i) - q->less : 0;
 }
 
 /* ---- near -------------------------------------------------------------------------------------- */
@@ -75,19 +78,19 @@ static bool is_spared(const question *q, const ring *p, fret_real at) {
     const rings *all = q->all;
     const size_t i = p->first;
     return q->kind == SLOPES && i == 0 && p->cell->count[RISE_Q] && p->cell->q < 1 && i < all->slices &&
-           &all->ring[all->rim[i].ring] == p && weight_at(q, i) == 0 && 4 * fabsl(at) < all->rim[i].v;
+           &all->ring[q->rim[i].ring] == p && weight_at(q, i) == 0 && 4 * fabsl(at) < q->rim[i].v;
 }
 
 /* Where the slices from number i on end in a ring: 1 beyond it. */
-static fret_real end_in(const rings *all, const ring *p, size_t i) {
-    return i < all->slices && &all->ring[all->rim[i].ring] == p ? all->rim[i].v : 1;
+static fret_real end_in(const question *q, const ring *p, size_t i) {
+    return i < q->all->slices && &q->all->ring[q->rim[i].ring] == p ? q->rim[i].v : 1;
 }
 
 static fret_real spared_ring(const question *q, const ring *p, fret_real at) {
-    away c = {q, p->cell, at, end_in(q->all, p, 0), 0};
+    away c = {q, p->cell, at, end_in(q, p, 0), 0};
     fret_real sum = 0;
     for (size_t i = 1; c.lo < 1 && i < q->end; i++) {
-        c.hi = end_in(q->all, p, i);
+        c.hi = end_in(q, p, i);
         if (c.hi > c.lo && weight_at(q, i) != 0)
             sum += weight_at(q, i) * fret_integral(away_rate, &c, 1e-17L).value;
         c.lo = c.hi;
@@ -107,11 +110,11 @@ static fret_real near_ring(const question *q, const ring *p) {
         return spared_ring(q, p, at);
     bool more = true;
     for (size_t i = p->first; more && i < q->end; i++) {
-        more = i < all->slices && &all->ring[all->rim[i].ring] == p;
-        const fret_real x = more ? all->rim[i].v : 1,
+        more = i < all->slices && &all->ring[q->rim[i].ring] == p;
+        const fret_real x = more ? q->rim[i].v : 1,
                         weight = weight_at(q, i) - (more ? weight_at(q, i + 1) : 0);
-        const fret_real a = more ? all->slice[i].a : p->hi,
-                        rest = sign * (more && all->rim[i].by_v ? x - at : square_distance(a, q->r) / width);
+        const fret_real a = more ? q->slice[i].a : p->hi,
+                        rest = sign * (more && q->rim[i].by_v ? x - at : square_distance(a, q->r) / width);
         if (weight != 0 && x > 0 && (q->kind == DEPTHS || rest > 0))
             sum += weight * near_part(q, p, q->kind == DEPTHS ? fmaxl(at, x) : at, x, fmaxl(rest, 0));
     }
@@ -143,19 +146,24 @@ static fret_real sum_of(const question *q, int level, size_t i) {
     const rings *all = q->all;
     const block *b = &all->block[level][i];
     fret_real far;
+    const bool whole = (i + 1) << level <= q->last;
     if (q->kind == SLOPES ? b->hi <= q->r : all->ring[i << level].first >= q->end)
         return 0;
-    if (far_sum(q, b, &far))
+    if (whole && far_sum(q, b, &far))
         return far;
     if (level == 0)
-        return all->ring[i].cut ? 0 : near_ring(q, &all->ring[i]);
+        return !whole || all->ring[i].cut ? 0 : near_ring(q, &all->ring[i]);
     const size_t next = 2 * i + 1;
     return sum_of(q, level - 1, 2 * i) + (next << (level - 1) < all->count ? sum_of(q, level - 1, next) : 0);
 }
 
-static fret_real answer(question q) {
+static fret_real answer(question q, const slice *cut) {
     const rings *all = q.all;
+    const rim end = cut && all->count > 0 ? fret_rings_rim(all, cut) : (rim){all->count, 0, false};
     int level = 0;
+    q.slice = cut ? cut : all->slice;
+    q.rim = cut ? &end : all->rim;
+    q.last = cut ? end.ring : (size_t)-1;
     q.unit = all->unit + q.r * q.r;
     q.scale = fret_pow(q.unit, q.kind == SLOPES ? all->m - 1 : -all->m);
     q.log_unit = (double)logl(q.unit / all->unit);
@@ -163,20 +171,21 @@ static fret_real answer(question q) {
         level++;
     fret_real sum = all->count > 0 ? sum_of(&q, level, 0) : 0;
     for (size_t i = 0; i < q.end && all->count > 0; i++)
-        if (i == 0 || all->rim[i].ring != all->rim[i - 1].ring)
-            sum += near_ring(&q, &all->ring[all->rim[i].ring]);
+        if (i == 0 || q.rim[i].ring != q.rim[i - 1].ring)
+            sum += near_ring(&q, &all->ring[q.rim[i].ring]);
     return sum;
 }
 
-fret_real fret_rings_slope(const rings *all, int load, fret_real r) {
-    return answer((question){.all = all, .kind = SLOPES, .load = load, .r = r, .end = all->slices});
+fret_real fret_rings_slope(const rings *all, int load, fret_real r, const slice *cut) {
+    return answer((question){.all = all, .kind = SLOPES, .load = load, .r = r, .end = all->slices}, cut);
 }
 
-fret_real fret_rings_depth(const rings *all, int load, fret_real r, size_t end) {
+fret_real fret_rings_depth(const rings *all, int load, fret_real r, size_t end, const slice *cut) {
     return answer((question){.all = all,
                              .kind = DEPTHS,
                              .load = load,
                              .r = r,
                              .less = weight_of(all->slice, all->slices, load, end),
-                             .end = end});
+                             .end = end},
+                  cut);
 }

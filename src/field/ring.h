@@ -48,6 +48,8 @@ enum { OF_ONE, OF_SLOPE, OF_DEPTH, POWERS };
 
 typedef struct rings {
     const fret_normal *normal;
+    size_t first_cell;    /* of the law; */
+    fret_real steep;      /* or the power that it is of, else 0 */
     fret_real m, unit;    /* (k+1)/2; the square of the largest radius */
     powers power[POWERS]; /* q = 0, that of the slope at a kink, and of the depth */
     int loads;
@@ -64,11 +66,15 @@ fret_status fret_rings_make(const fret_normal *normal, size_t first, const fret_
                             const slice *slices, size_t count, int loads, rings **out);
 void fret_rings_free(rings *all);
 
-/* The sums at r: int g' (x^2-r^2)^(m-1) dx over x > r, each slice by its weight; */
-fret_real fret_rings_slope(const rings *all, int load, fret_real r);
+/* Where a slice ends, which lies within. */
+rim fret_rings_rim(const rings *all, const slice *s);
+
+/* The sums at r: int g' (x^2-r^2)^(m-1) dx over x > r, each slice by its weight; of rings that have one slice
+ * alone, as if that were `cut`, which lies within it; else NULL. */
+fret_real fret_rings_slope(const rings *all, int load, fret_real r, const slice *cut);
 /* int x^k g (r^2-x^2)^-m dx over the slices before number `end`, which r lies in or beyond, by how much more
  * they weigh than that one. */
-fret_real fret_rings_depth(const rings *all, int load, fret_real r, size_t end);
+fret_real fret_rings_depth(const rings *all, int load, fret_real r, size_t end, const slice *cut);
 
 /* What is integrated over a cell, by v: a polynomial, and one times v^q, or for slopes v^(q-1). */
 static inline int terms_of(const fret_cell *c, int kind, bool kinked) {

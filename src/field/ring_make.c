@@ -147,15 +147,18 @@ static rim rim_of_steep(const rings *all, fret_real n, const slice *s) {
                  false};
 }
 
-static void place_slices(rings *all, size_t first, const fret_term *steep) {
+rim fret_rings_rim(const rings *all, const slice *s) {
     static const fret_real NEAR = 0x1p-14L; /* an edge further away keeps 50 bits */
     const fret_real start = fret_gap_start(&all->normal->gap);
+    rim at = all->steep > 0 ? rim_of_steep(all, all->steep, s) : rim_by_depth(all, all->first_cell, s);
+    at.by_v = s->a - start < NEAR * start;
+    return at;
+}
+
+static void place_slices(rings *all) {
     size_t next = 0;
-    for (size_t i = 0; i < all->slices; i++) {
-        const slice *s = &all->slice[i];
-        all->rim[i] = steep ? rim_of_steep(all, steep->n, s) : rim_by_depth(all, first, s);
-        all->rim[i].by_v = s->a - start < NEAR * start;
-    }
+    for (size_t i = 0; i < all->slices; i++)
+        all->rim[i] = fret_rings_rim(all, &all->slice[i]);
     for (size_t i = 0; i < all->count; i++) {
         while (next < all->slices && all->rim[next].ring < i)
             next++;
@@ -285,13 +288,15 @@ fret_status fret_rings_make(const fret_normal *n, size_t first, const fret_term 
     if (room) {
         const fret_real a = slices[count - 1].a;
         *all = (rings){.normal = n, .m = (n->foundation.k + 1) / 2, .unit = a * a, .loads = loads};
+        all->first_cell = first;
+        all->steep = steep ? steep->n : 0;
         all->slices = count;
         all->slice = slices;
         all->rim = rims;
         mk->all = all;
         make_tables(mk);
         if ((steep ? add_steep(mk, steep) : add_cells(mk, first, &slices[count - 1])) && all->count > 0) {
-            place_slices(all, first, steep);
+            place_slices(all);
             make_blocks(mk);
         }
     } else {

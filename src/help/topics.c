@@ -268,7 +268,7 @@ static const char limits_text[] =
     "        a slope exceeds 20 deg\n"
     "    the contact is a disc: g(x) must not fall\n"
     "    quasi-static, no adhesion, one coefficient of friction\n"
-    "    the place where energy is lost inside the annulus is no result here\n\n"
+    "    slip and friction's work at a radius are means over the angle, along F_x\n\n"
     "`accuracy` tells the numerical error of every model in your scene, `explain`\n"
     "that of an answer, and `explain EXPR conditioning` what the last digit of each\n"
     "input does to it.\n";

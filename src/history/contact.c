@@ -54,6 +54,8 @@ fret_status fret_contact_copy(fret_contact *to, const fret_contact *from) {
     fret_status st = fret_ok();
     if (from->curved && !to->swing)
         st = fret_swing_make(from->memory, &to->swing);
+    if (to->swing)
+        to->swing->slips = to->slips;
     if (!st.code)
         st = from->curved    ? fret_swing_copy(to->swing, from->swing)
              : from->diagram ? fret_diagram_copy(to->diagram, from->diagram)
@@ -85,6 +87,15 @@ double fret_contact_friction(const fret_contact *c) {
 
 bool fret_contact_curved(const fret_contact *c) {
     return c->curved;
+}
+
+fret_status fret_contact_watch(fret_contact *c, fret_slips *slips) {
+    if (c->diagram)
+        return other_exactness();
+    c->slips = c->memory->slips = slips;
+    if (c->swing)
+        c->swing->slips = slips;
+    return fret_ok();
 }
 
 /* ---- loads ------------------------------------------------------------------------------------- */

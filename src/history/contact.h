@@ -17,6 +17,7 @@ struct fret_contact {
     fret_diagram *diagram; /* FRET_DOUBLE */
     fret_swing *swing;     /* room to swing in, or NULL */
     bool curved;
+    fret_slips *slips; /* borrowed, or NULL */
 };
 
 #endif

@@ -49,6 +49,16 @@ static fret_real law_radius(const fret_diagram *d) {
 
 #include "history/diagram_body.h"
 
+/* It keeps no account of places. */
+FRET_INLINE void law_slips(fret_diagram *d, coordinate by, double gain, const slip_front *a,
+                           const slip_front *b, double travel) {
+    (void)d, (void)by, (void)gain, (void)a, (void)b, (void)travel;
+}
+
+FRET_INLINE void law_slips_all(fret_diagram *d, double e, const place *from, const place *to) {
+    (void)d, (void)e, (void)from, (void)to;
+}
+
 static fret_status law_press(fret_diagram *d, coordinate by, double y) {
     const fret_status st = count_near(d, by, y);
     return st.code || law_shown(d, by, y) ? st : fret_fail(FRET_OVERFLOW, NULL, y, 1e290);

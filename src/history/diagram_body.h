@@ -8,6 +8,7 @@
  *   law_press   gets ready for an edge out of the ordinary, if they do
  *   law_left    the level of slip at an edge near gross slip, of which every digit counts
  *   law_radius  the contact radius
+ *   law_slips   is told each phase of slip that dissipates
  * LITTLE: what places are known to, of the largest. Allocates the layers of its contact. */
 #include <float.h>
 #include <stdlib.h>
@@ -100,7 +101,9 @@ static fret_status diagram_copy(DIAGRAM *to, const DIAGRAM *from) {
     layer *layers = to->layers;
     const size_t room = to->room;
     const bool bounded = to->bounded;
+    fret_slips *slips = to->slips;
     *to = *from;
+    to->slips = slips;
     to->layers = layers;
     to->room = room;
     to->bounded = bounded;
@@ -158,6 +161,10 @@ typedef struct slip_front {
     place edge, at;
     NUMBER thick; /* edge - at with its digits */
 } slip_front;
+
+static void law_slips(DIAGRAM *d, coordinate by, NUMBER gain, const slip_front *a, const slip_front *b,
+                      NUMBER travel);
+static void law_slips_all(DIAGRAM *d, NUMBER e, const place *from, const place *to);
 
 /* Edge and front go evenly from a to b, the front by `travel`. */
 APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_front *b, NUMBER travel) {
@@ -257,6 +264,7 @@ FRET_INLINE NUMBER end_level(const path *p, coordinate by, NUMBER s) {
 FRET_INLINE void dissipate(path *p, coordinate by, NUMBER gain, slip_front *a, slip_front *b, NUMBER travel) {
     if (!p->counts)
         return;
+    law_slips(p->d, by, gain, a, b, travel);
     p->loss += gain * phase_loss(p->d, by, a, b, travel);
 }
 
@@ -338,6 +346,7 @@ FRET_INLINE void dissipate_all(path *p, coordinate by, NUMBER e, place *from) {
     if (by == DEPTH && e > 0 && p->counts) {
         const place b = place_of(&p->to, DEPTH);
         law_know(p->d, DEPTH, from);
+        law_slips_all(p->d, e, from, &b);
         p->loss += e * mean_force(p->d, from, &b);
     }
 }
@@ -466,7 +475,10 @@ FRET_INLINE void retreat(path *p, coordinate by) {
     DIAGRAM *d = p->d;
     const coordinate aside = other_than(by);
     const NUMBER to = p->to.y[by], forward = end_level(p, by, 1), backward = end_level(p, by, -1);
-    last_phase last = {.s = 0};
+    last_phase last; /* all of it would take as long as the rest */
+    last.s = 0;
+    last.end = NULL;
+    last.count = 0;
     NUMBER s = 0, part = 0, thick = to;
     if (p->counts)
         phases_back(p, by, &last);

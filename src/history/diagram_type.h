@@ -43,7 +43,8 @@ struct DIAGRAM {
     NUMBER W, W_rest, last_loss;
     size_t count, room;
     bool bounded, lossless;
-    layer *layers; /* innermost first */
+    fret_slips *slips; /* borrowed, or NULL */
+    layer *layers;     /* innermost first */
 };
 
 /* How thick a layer is up to its outer end, in depth or load. Where all slips t tells it: that is small where

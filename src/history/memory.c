@@ -86,6 +86,19 @@ static fret_real law_radius(const fret_memory *m) {
 
 #include "history/diagram_body.h"
 
+static void law_slips(fret_memory *m, coordinate by, fret_real gain, const slip_front *a, const slip_front *b,
+                      fret_real travel) {
+    if (travel > 0)
+        fret_slips_add(m->slips, &(slip_phase){.kind = by == DEPTH ? BY_DEPTHS : BY_LOADS,
+                                               .edge = {a->edge.y, b->edge.y},
+                                               .front = {a->at.y, b->at.y},
+                                               .gain = gain});
+}
+
+static void law_slips_all(fret_memory *m, fret_real e, const place *from, const place *to) {
+    fret_slips_add(m->slips, &(slip_phase){.kind = GROSS, .edge = {from->y, to->y}, .gain = e});
+}
+
 /* What lies between loads that numbers have held is held too. */
 static fret_status law_press(fret_memory *m, coordinate by, double y) {
     fret_press p;

@@ -4,7 +4,7 @@
 #ifndef FRET_HISTORY_MEMORY_H
 #define FRET_HISTORY_MEMORY_H
 
-#include "fret/contact.h"
+#include "history/slips.h"
 #include "law/normal.h"
 
 typedef struct fret_memory fret_memory;

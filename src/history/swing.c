@@ -33,7 +33,7 @@ static fret_real noise(const fret_swing *c) {
     return 512 * LDBL_EPSILON * c->scale;
 }
 
-static fret_real arc_other(const arc *p, int which, fret_real level) {
+fret_real fret_swing_other(const arc *p, int which, fret_real level) {
     const int other = 1 - which;
     if (p->curved)
         return way_at(&p->way, other, way_when(&p->way, which, level, p->lo, p->hi));
@@ -41,14 +41,20 @@ static fret_real arc_other(const arc *p, int which, fret_real level) {
     return p->first[other] + (p->last[other] - p->first[other]) * part;
 }
 
-/* The other coordinate where the curve crosses the level of `which`. */
-static fret_real curve_other(const fret_swing *c, int which, fret_real level) {
+/* Which arc the level of `which` crosses; NULL: none. */
+static const arc *crossed(const fret_swing *c, int which, fret_real level) {
     for (size_t i = c->count; i-- > 0;) {
         const arc *p = &c->arcs[i];
         if (p->first[which] <= level && p->first[which] < p->last[which])
-            return arc_other(p, which, fminl(level, p->last[which]));
+            return p;
     }
-    return 0;
+    return NULL;
+}
+
+/* The other coordinate where the curve crosses it. */
+static fret_real curve_other(const fret_swing *c, int which, fret_real level) {
+    const arc *p = crossed(c, which, level);
+    return p ? fret_swing_other(p, which, fminl(level, p->last[which])) : 0;
 }
 
 static fret_status append(fret_swing *c, const arc *p) {
@@ -92,7 +98,7 @@ static fret_status cut(fret_swing *c, int which, fret_real level, const fret_rea
     if (c->count) {
         arc *top = &c->arcs[c->count - 1];
         if (top->last[which] > level) {
-            top->last[1 - which] = arc_other(top, which, level);
+            top->last[1 - which] = fret_swing_other(top, which, level);
             top->last[which] = level;
             if (top->curved)
                 top->hi = way_when(&top->way, which, level, top->lo, top->hi);
@@ -175,6 +181,21 @@ static fret_real part_end(const way *w, int which, fret_real lo, fret_real hi) {
     return hi - lo > 2 * distance && hi - lo > 1e-6L ? (lo + hi) / 2 : hi;
 }
 
+/* For who keeps what slips. */
+static void tell(const fret_swing *c, const slip *l) {
+    fret_slips *all = c->slips;
+    const arc *front = crossed(c, l->which, way_at(l->way, l->which, (l->lo + l->hi) / 2));
+    if (!all || !front)
+        return;
+    swung_phase *grown = fret_array_for(all->swung, &all->swing_room, all->swings + 1, sizeof *grown);
+    all->failed |= !grown;
+    if (!grown)
+        return;
+    all->swung = grown;
+    all->swung[all->swings] = (swung_phase){*l->way, l->which, l->lo, l->hi, *front};
+    fret_slips_add(all, &(slip_phase){.kind = SWUNG, .swung = all->swings++});
+}
+
 /* Between two instants with the front at the level of `which`, which falls. */
 static fret_status slip_between(fret_swing *c, const way *w, int which, fret_real lo, fret_real hi) {
     slip l = {.curve = c, .way = w, .which = which, .lo = lo};
@@ -183,6 +204,7 @@ static fret_status slip_between(fret_swing *c, const way *w, int which, fret_rea
         l.end = way_at(w, which, l.hi);
         const fret_real loss = (l.hi - l.lo) * fret_swing_integral(c, slip_rate, &l);
         c->last_loss += loss > 0 ? loss : 0;
+        tell(c, &l);
         l.lo = l.hi;
     }
     const fret_real end[2] = {way_at(w, M, hi), way_at(w, P, hi)};
@@ -413,6 +435,8 @@ static fret_status slide(fret_swing *c, double dx) {
     if (st.code)
         return st;
     c->last_loss += c->FN * left;
+    if (left > 0)
+        fret_slips_add(c->slips, &(slip_phase){.kind = GROSS, .edge = {c->dz, c->dz}, .gain = left});
     c->slid += sign * mu_eta * left;
     add_loss(c);
     c->Fx = c->mu * load;
@@ -461,6 +485,7 @@ fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
     }
     c->normal = m->normal;
     c->mu = m->mu;
+    c->slips = m->slips;
     c->FN = m->edge.y[LOAD];
     const fret_press edge = fret_memory_pressed(m);
     c->dz = edge.dz;
@@ -500,7 +525,9 @@ fret_status fret_swing_copy(fret_swing *to, const fret_swing *from) {
         return st;
     arc *arcs = to->arcs;
     const size_t room = to->room;
+    fret_slips *slips = to->slips;
     *to = *from;
+    to->slips = slips;
     to->arcs = arcs;
     to->room = room;
     memcpy(arcs, from->arcs, from->count * sizeof *arcs);

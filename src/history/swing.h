@@ -59,6 +59,15 @@ typedef struct arc {
     fret_real sum[2];
 } arc;
 
+/* Slip by a swinging load, or a straight one of a curve that is none: the level of `which` falls from the
+ * time lo to hi of the way, and crosses the arc `front`. */
+typedef struct swung_phase {
+    way way;
+    int which;
+    fret_real lo, hi;
+    arc front;
+} swung_phase;
+
 struct fret_swing {
     const fret_normal *normal;
     double mu;
@@ -71,8 +80,12 @@ struct fret_swing {
     fret_sum W;
     fret_real last_loss, scale; /* scale: the largest of M and P so far */
     size_t count, room;
-    arc *arcs; /* innermost first */
+    arc *arcs;         /* innermost first */
+    fret_slips *slips; /* borrowed, or NULL */
 };
+
+/* On an arc, where the coordinate `which` has the level, the other one. */
+fret_real fret_swing_other(const arc *p, int which, fret_real level);
 
 /* ---- along the curve --------------------------------------------------------------------------- */
 

@@ -24,6 +24,8 @@ typedef struct world {
     fret_contact *contact, *other_contact; /* exact, or in double */
     fret_springs *springs;
     fret_field *field;
+    fret_slips *slips;
+    fret_work *work;
     fret_sine sine;
     fret_state state;
     fret_real sink[16]; /* where results go */
@@ -51,6 +53,10 @@ static void drop_contacts(world *w) {
     fret_springs_free(w->springs);
     fret_contact_free(w->contact);
     fret_contact_free(w->other_contact);
+    fret_slips_free(w->slips);
+    fret_work_free(w->work);
+    w->slips = NULL;
+    w->work = NULL;
     w->field = NULL;
     w->springs = NULL;
     w->contact = w->other_contact = NULL;
@@ -197,6 +203,63 @@ CALL(fret_field_traction) {
 CALL(fret_field_surface_x) {
     if (have_field(w))
         (void)known_code(fret_field_surface_x(w->field, x[0], w->sink));
+}
+CALL(fret_field_slip) {
+    if (have_field(w))
+        (void)known_code(fret_field_slip(w->field, x[0], w->sink));
+}
+CALL(fret_field_stress) {
+    fret_stress s;
+    if (have_field(w) && known_code(fret_field_stress(w->field, x[0], x[1], x[2], x[3], &s)))
+        w->sink[0] = s.xx;
+}
+CALL(fret_stress_mises) {
+    w->sink[0] = fret_stress_mises(&(fret_stress){x[0], x[1], x[2], x[3], x[4], x[5]});
+}
+CALL(fret_stress_tresca) {
+    w->sink[0] = fret_stress_tresca(&(fret_stress){x[0], x[1], x[2], x[3], x[4], x[5]});
+}
+CALL(fret_stress_principal) {
+    fret_stress_principal(&(fret_stress){x[0], x[1], x[2], x[3], x[4], x[5]}, w->row);
+}
+CALL(fret_slips_make) {
+    (void)x;
+    if (have_contact(w) && !w->slips)
+        (void)known_code(fret_slips_make(&w->slips));
+}
+CALL(fret_contact_watch) {
+    if (have_contact(w) && w->slips)
+        (void)known_code(fret_contact_watch(w->contact, x[0] > 0 ? w->slips : NULL));
+}
+CALL(fret_slips_clear) {
+    (void)x;
+    if (w->slips)
+        fret_slips_clear(w->slips);
+}
+CALL(fret_slips_count) {
+    (void)x;
+    if (w->slips)
+        w->sink[0] = (fret_real)fret_slips_count(w->slips);
+}
+CALL(fret_slips_free) {
+    (void)x;
+    drop_contacts(w);
+}
+CALL(fret_work_make) {
+    fret_work_free(w->work);
+    w->work = NULL;
+    if (have_contact(w) && w->slips)
+        (void)known_code(fret_work_make(fret_contact_normal(w->contact), fret_contact_friction(w->contact),
+                                        w->slips, whole(x[0], 8), &w->work));
+}
+CALL(fret_work_at) {
+    if (w->work)
+        (void)known_code(fret_work_at(w->work, x[0], w->sink));
+}
+CALL(fret_work_free) {
+    (void)x;
+    fret_work_free(w->work);
+    w->work = NULL;
 }
 CALL(fret_field_error) {
     (void)x;
@@ -585,6 +648,19 @@ static const struct row {
     ROW(fret_field_surface),
     ROW(fret_field_traction),
     ROW(fret_field_surface_x),
+    ROW(fret_field_slip),
+    ROW(fret_field_stress),
+    ROW(fret_stress_mises),
+    ROW(fret_stress_tresca),
+    ROW(fret_stress_principal),
+    ROW(fret_slips_make),
+    ROW(fret_contact_watch),
+    ROW(fret_slips_clear),
+    ROW(fret_slips_count),
+    ROW(fret_slips_free),
+    ROW(fret_work_make),
+    ROW(fret_work_at),
+    ROW(fret_work_free),
     ROW(fret_field_error),
     ROW(fret_kappa),
     ROW(fret_gap_check),

@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stress inside homogeneous bodies, from the line loads of the one-dimensional model put on the imaginary
+ * axis. Reads fields, and changes nothing. */
+#include <complex.h>
+#include <math.h>
+#undef I /* an integral elsewhere */
+
+#include "field/field.h"
+#include "law/check.h"
+#include "number/integral.h"
+
+/* With zeta = z + i t, rho^2 = r^2 + zeta^2, V = 1/rho, L = ln(rho+zeta), chi = zeta L - rho, psi the
+ * integral of chi over zeta, line loads q(t) with -q' = cN0 sigma g' (sigma = 1 of the pressure), by parts
+ *   stress = cN0/pi Im int_0^a g'(t) [P + mu sigma Q] dt,
+ *   P_xx = 2 nu V - (1-2nu) chi_xx - z L_xx      Q_xx = 2(1+nu) L_x + 2nu psi_xxx - z chi_xxx
+ *   P_yy alike                                   Q_yy = 2nu L_x + 2nu psi_xyy - z chi_xyy
+ *   P_zz = V - z V_zeta                          Q_zz = -z V_x
+ *   P_xy = -(1-2nu) chi_xy - z L_xy              Q_xy = L_y + 2nu psi_xxy - z chi_xxy
+ *   P_xz = -z V_x, P_yz = -z V_y                 Q_xz = V - z L_xx, Q_yz = -z L_xy.
+ * In lambda = rho + zeta, where dt = rho d lambda/(i lambda), all of this is rational: the singularity at the
+ * surface is none, and parts of the way may be straight lines of lambda, on which g' is taken as it is off
+ * the real axis. */
+enum { XX, YY, ZZ, XY, XZ, YZ };
+
+typedef struct place_inside {
+    double x, y, z, r, nu; /* in units of the contact radius; z >= 0 */
+    double mu_sigma;
+} place_inside;
+
+/* What g' is between two radii, in those units: powers, or a cell of the law. */
+typedef struct profile_part {
+    double lo, hi, unit; /* unit: contact radius [m] */
+    const fret_cell *cell;
+    int terms;
+    double of[FRET_MOST_TERMS], n[FRET_MOST_TERMS]; /* sum of x^(n-1) */
+    double steep;                                   /* the largest n */
+    bool kinked, branches;                          /* half powers at its inner end; others at the centre */
+} profile_part;
+
+static double complex slope_at(const profile_part *p, double complex t) {
+    double complex sum = 0, kink = 0;
+    if (p->terms == 1 && p->n[0] == 2)
+        return p->of[0] * t;
+    for (int i = 0; i < p->terms; i++)
+        sum += p->of[i] * (p->n[i] == 1 ? 1 : cexp((p->n[i] - 1) * clog(t)));
+    if (p->terms)
+        return sum;
+    const fret_cell *c = p->cell;
+    const double scale = (double)(c->width / p->unit / p->unit), lo = (double)(c->x / p->unit);
+    const double complex v = (t - lo) * (t + lo) / scale;
+    for (int j = terms_of(c, SLOPES, false) - 1; j >= 0; j--)
+        sum = sum * v + (double)term_of(c, SLOPES, false, j);
+    for (int j = terms_of(c, SLOPES, true) - 1; j >= 0; j--)
+        kink = kink * v + (double)term_of(c, SLOPES, true, j);
+    if (kink != 0)
+        sum += kink * cexp(((double)c->q - 1) * clog(v));
+    return 2 * t / (scale * p->unit) * sum;
+}
+
+/* rho + zeta */
+static double complex lambda_at(const place_inside *a, double t) {
+    const double complex zeta = a->z + _Complex_I * t;
+    return csqrt((a->r - t) * (a->r + t) + a->z * a->z + _Complex_I * (2 * a->z * t)) + zeta;
+}
+
+/* Adds rho (P + mu sigma Q) times `factor`, of which the real part counts. */
+static void add_node(const place_inside *a, double complex lambda, double complex factor, double sum[6]) {
+    const double x = a->x, y = a->y, z = a->z, nu = a->nu, xx = x * x, yy = y * y, xy = x * y,
+                 s = a->mu_sigma;
+    const double complex l = 1 / lambda, rho = (lambda + a->r * a->r * l) / 2, v = z / rho, l2 = l * l,
+                         b = (lambda + rho) * l2 * v / rho, /* z (lambda + rho)/(rho lambda)^2 */
+        chi = (1 - 2 * nu), zeta = lambda - rho;
+    double complex c[6] = {2 * nu + chi * (rho * l - xx * l2) - z * l + xx * b,
+                           2 * nu + chi * (rho * l - yy * l2) - z * l + yy * b,
+                           1 + zeta * v / rho,
+                           -chi * xy * l2 + xy * b,
+                           x * v / rho,
+                           y * v / rho};
+    if (s != 0) {
+        const double complex d = (lambda + 2 * rho) * l2 * l * v / rho, psi = -rho * l2 / 2, l3 = l2 * l,
+                             e = l2 * z;
+        c[XX] += s * (x * (2 * (1 + nu) * l + 2 * nu * (3 * psi + xx * l3) - 3 * e + xx * d));
+        c[YY] += s * (x * (2 * nu * l + 2 * nu * (psi + yy * l3) - e + yy * d));
+        c[ZZ] += s * (x * v / rho);
+        c[XY] += s * (y * (l + 2 * nu * (psi + xx * l3) - e + xx * d));
+        c[XZ] += s * (1 - z * l + xx * b);
+        c[YZ] += s * (xy * b);
+    }
+    for (int i = 0; i < 6; i++)
+        sum[i] += creal(factor * c[i]);
+}
+
+/* Eight points; from a kink on evenly in the square root. */
+static void add_straight(const place_inside *a, const profile_part *p, double complex from, double complex to,
+                         bool rooted, double sum[6]) {
+    for (int i = 0; i < 8; i++) {
+        const double node = (double)fret_gauss_node[i], w = (double)fret_gauss_weight[i];
+        const double complex lambda = from + (to - from) * (rooted ? node * node : node),
+                             t = (lambda - a->r * a->r / lambda) / (2 * _Complex_I) - a->z / _Complex_I;
+        add_node(a, lambda, (rooted ? 2 * node : 1) * w * slope_at(p, t) * (to - from) / lambda, sum);
+    }
+}
+
+/* Where g' has its kink lambda comes twice: on the way, and at -r^2/lambda. */
+static double complex mirrored(const place_inside *a, double complex lambda) {
+    return lambda != 0 ? -a->r * a->r / lambda : 0;
+}
+
+/* Evenly in the root: not where those two are one. */
+static bool is_rooted(const place_inside *a, const profile_part *p, double t0, double complex from) {
+    static const double ONE = 1e-7;
+    return p->kinked && t0 == p->lo && !(cabs(from - mirrored(a, from)) < ONE);
+}
+
+/* Short enough for eight points, seen from what is singular: lambda = 0, rho = 0 but on the surface, and
+ * kinks. */
+static bool is_short(const place_inside *a, const profile_part *p, double t0, double t1, double complex from,
+                     double complex to) {
+    static const double NEAR = 0.5, STEEP = 2, TIP = 1e-6;
+    const double complex middle = (from + to) / 2;
+    double off = cabs(middle);
+    if (a->z > 0)
+        off = fmin(off, cabs(middle - _Complex_I * a->r));
+    if (p->kinked) {
+        const double complex kink = lambda_at(a, p->lo);
+        if (t0 > p->lo)
+            off = fmin(off, cabs(middle - kink));
+        if (t0 > p->lo || is_rooted(a, p, t0, from))
+            off = fmin(off, cabs(middle - mirrored(a, kink)));
+        if (is_rooted(a, p, t0, from)) /* of the square eight points tell less */
+            off /= 3;
+    }
+    return !(cabs(to - from) > NEAR * off) && (p->steep < 8 || (t1 - t0) * p->steep <= STEEP * t1) &&
+           !(p->branches && t0 == 0 && pow(t1 / p->hi, p->n[0]) > TIP);
+}
+
+static void add_between(const place_inside *a, const profile_part *p, double t0, double t1,
+                        double complex from, double complex to, double sum[6]) {
+    static const double LEAST = 1e-40;
+    const double mid = t0 < a->r && a->r < t1 ? a->r : t0 + (t1 - t0) / 2;
+    if (t1 < LEAST)
+        return;
+    if (is_short(a, p, t0, t1, from, to) || !(mid > t0 && mid < t1)) {
+        add_straight(a, p, from, to, is_rooted(a, p, t0, from), sum);
+        return;
+    }
+    const double complex between = lambda_at(a, mid);
+    add_between(a, p, t0, mid, from, between, sum);
+    add_between(a, p, mid, t1, between, to, sum);
+}
+
+/* Of a steep power what is far within is nothing. */
+static void add_part(const place_inside *a, const profile_part *p, double lo, double hi, double sum[6]) {
+    static const double NOTHING = 45;
+    double from = fmax(lo, p->lo), to = fmin(hi, p->hi);
+    if (p->terms == 1 && p->steep > 8)
+        from = fmax(from, exp(-NOTHING / p->steep));
+    if (to > from)
+        add_between(a, p, from, to, lambda_at(a, from), lambda_at(a, to), sum);
+}
+
+static void put_powers(profile_part *p, double n, double of) {
+    p->n[p->terms] = n;
+    p->of[p->terms++] = of;
+    p->steep = fmax(p->steep, n);
+    p->branches |= p->lo == 0 && 2 * n != floor(2 * n);
+    p->kinked |= p->lo == 0 && n != floor(n);
+}
+
+/* Of a power law all of it. */
+static void part_of_law(const fret_normal *n, fret_real a, profile_part *p) {
+    fret_term term[FRET_MOST_TERMS];
+    const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
+    *p = (profile_part){.hi = 1, .unit = (double)a};
+    for (int i = 0; i < terms; i++)
+        put_powers(p, (double)term[i].n, (double)(term[i].G * term[i].n / a));
+}
+
+static void part_of_cell(const fret_cell *c, fret_real a, profile_part *p) {
+    const fret_real last = fret_cell_radius(c, c->powers ? fminl(c->width, a / c->x) : 1);
+    *p = (profile_part){.lo = (double)((c->powers ? fret_cell_radius(c, c->begin) : c->x) / a),
+                        .hi = (double)(last / a),
+                        .unit = (double)a,
+                        .cell = c,
+                        .kinked = !c->powers && c->count[RISE_Q] > 0};
+    for (int i = 0; c->powers && i < c->count[RISE]; i++) {
+        const double m = (double)c->of[RISE_Q][i];
+        put_powers(p, m, (double)(c->of[RISE][i] * m / c->x) * pow((double)(a / c->x), m - 1));
+    }
+}
+
+static void add_all(const fret_field *f, place_inside *a, double sum[6]) {
+    const fret_real unit = f->slice[f->slices - 1].a;
+    const fret_cells *cells = f->normal->cells;
+    const size_t parts = cells ? cells->count : 1;
+    size_t next = 0; /* the first part that reaches beyond the slice before */
+    profile_part p;
+    for (size_t i = 0; i < f->slices; i++) {
+        const double lo = i > 0 ? (double)(f->slice[i - 1].a / unit) : 0, hi = (double)(f->slice[i].a / unit);
+        a->mu_sigma = f->loads > DRAGGED ? f->mu * (double)f->slice[i].weight[DRAGGED] : 0;
+        for (size_t j = next; j < parts; j++) {
+            if (cells)
+                part_of_cell(&cells->cell[j], unit, &p);
+            else
+                part_of_law(f->normal, unit, &p);
+            if (p.lo >= hi)
+                break;
+            add_part(a, &p, lo, hi, sum);
+            if (p.hi > hi)
+                break;
+            next = j + 1;
+        }
+    }
+}
+
+/* Beyond so many contact radii there is less than is promised of. */
+static const double FAR = 1e6;
+/* So close below the surface a radius of double does not tell how close. */
+static const double SURFACE = 1e-15;
+
+static fret_status check(const fret_field *f, double nu, const double at[3]) {
+    static const char *const names[] = {"x", "y", "z"};
+    const fret_foundation *of = &f->normal->foundation;
+    if (of->k != 0)
+        return fret_fail(FRET_OUTSIDE, "k", (double)of->k, 0);
+    if (!(nu > -1 && nu <= 0.5))
+        return fret_fail(FRET_BAD_NU, "nu", nu, 0.5);
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(at[i]))
+            return fret_fail(FRET_NOT_FINITE, names[i], at[i], 0);
+    return f->swung.count > 0 ? fret_fail(FRET_OUTSIDE, "contact", 0, 0) : fret_ok();
+}
+
+fret_status fret_field_stress(const fret_field *f, double nu, double x, double y, double z,
+                              fret_stress *out) {
+    const double at[3] = {x, y, z}, r = hypot(x, y);
+    const fret_status st = check(f, nu, at);
+    double sum[6] = {0};
+    *out = (fret_stress){.xx = 0};
+    if (st.code || f->slices == 0)
+        return st;
+    if (z == 0 && fret_field_infinite(f->normal, r))
+        return fret_fail(FRET_SINGULAR, "r", r, 0);
+    const double unit = (double)f->slice[f->slices - 1].a, side = z < 0 ? -1 : 1;
+    /* the other body is pushed the other way: turned about z, and seen from its own side */
+    place_inside a = {
+        .x = side * x / unit, .y = side * y / unit, .z = fabs(z) / unit, .r = r / unit, .nu = nu};
+    if (a.z < SURFACE)
+        a.z = 0;
+    if (a.r < FAR && a.z < FAR)
+        add_all(f, &a, sum);
+    const double scale = -(double)(f->normal->foundation.cN0 / FRET_PI);
+    for (int i = XX; i <= YZ; i++)
+        sum[i] = scale * sum[i] + 0.0; /* and no -0 */
+    *out = (fret_stress){sum[XX], sum[YY], sum[ZZ], sum[XY], sum[XZ], sum[YZ]};
+    return fret_unless_stopped(f->normal, st);
+}
+
+/* ---- of a state -------------------------------------------------------------------------------- */
+
+double fret_stress_mises(const fret_stress *s) {
+    const double a = s->xx - s->yy, b = s->yy - s->zz, c = s->zz - s->xx;
+    return sqrt((a * a + b * b + c * c) / 2 + 3 * (s->xy * s->xy + s->xz * s->xz + s->yz * s->yz));
+}
+
+/* By the angle of the deviator's cubic. */
+void fret_stress_principal(const fret_stress *s, double out[3]) {
+    const double mean = (s->xx + s->yy + s->zz) / 3, size = fret_stress_mises(s) * 2 / 3;
+    const double x = s->xx - mean, y = s->yy - mean, z = s->zz - mean;
+    const double det = x * (y * z - s->yz * s->yz) - s->xy * (s->xy * z - s->yz * s->xz) +
+                       s->xz * (s->xy * s->yz - y * s->xz),
+                 cosine = size > 0 ? 4 * det / size / size / size : 1,
+                 angle = acos(fmax(-1, fmin(1, cosine))) / 3, turn = 2 * (double)FRET_PI / 3;
+    out[0] = mean + size * cos(angle);
+    out[2] = mean + size * cos(angle + turn);
+    out[1] = 3 * mean - out[0] - out[2];
+}
+
+double fret_stress_tresca(const fret_stress *s) {
+    double principal[3];
+    fret_stress_principal(s, principal);
+    return principal[0] - principal[2];
+}

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The work of friction at a place, phase by phase of slip. Allocates works. */
+#include "fret/work.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "field/field.h"
+#include "law/check.h"
+
+struct fret_work {
+    const fret_normal *normal; /* borrowed */
+    double mu;
+    fret_field *whole; /* of the deepest contact, or NULL */
+    size_t count;
+    slip_phase *phase;
+    swung_phase *swung;
+};
+
+static fret_real load_of(const way *w, fret_real s) {
+    return (way_at(w, M, s) + way_at(w, P, s)) / 2;
+}
+
+/* When the load of a way turns between two times: at most once as long as M falls or P does. */
+static bool turns(const way *w, fret_real lo, fret_real hi, fret_real *when) {
+    way loads;
+    if (!w->harmonic)
+        return false;
+    fret_swing_loads(w, &loads);
+    *when = loads.lag[M] + FRET_PI * ceill((lo - loads.lag[M]) / FRET_PI);
+    return *when > lo && *when < hi;
+}
+
+/* ---- making ------------------------------------------------------------------------------------ */
+
+/* The largest depth of the edge over a phase. */
+static fret_real deepest(const fret_work *w, const slip_phase *p) {
+    const fret_real most = fmaxl(p->edge[0], p->edge[1]);
+    fret_real when;
+    if (p->kind != SWUNG)
+        return p->kind == BY_LOADS ? fret_law_depth(w->normal, most) : most;
+    const swung_phase *s = &w->swung[p->swung];
+    fret_real N = fmaxl(load_of(&s->way, s->lo), load_of(&s->way, s->hi));
+    if (turns(&s->way, s->lo, s->hi, &when))
+        N = fmaxl(N, load_of(&s->way, when));
+    return fret_law_depth(w->normal, N);
+}
+
+static fret_status copy_phases(fret_work *w, const fret_slips *slips, size_t first) {
+    w->count = first < slips->count ? slips->count - first : 0;
+    w->phase = calloc(w->count + 1, sizeof *w->phase);
+    w->swung = calloc(slips->swings + 1, sizeof *w->swung);
+    if (slips->failed || !w->phase || !w->swung)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    if (w->count > 0)
+        memcpy(w->phase, slips->phase + first, w->count * sizeof *w->phase);
+    if (slips->swings > 0)
+        memcpy(w->swung, slips->swung, slips->swings * sizeof *w->swung);
+    return fret_ok();
+}
+
+fret_status fret_work_make(const fret_normal *normal, double mu, const fret_slips *slips, size_t first,
+                           fret_work **out) {
+    fret_work *w = calloc(1, sizeof *w);
+    fret_press press = {.dz = 0};
+    *out = w;
+    if (!w)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    w->normal = normal;
+    w->mu = mu;
+    fret_status st = copy_phases(w, slips, first);
+    for (size_t i = 0; i < w->count && !st.code; i++)
+        press.dz = fmaxl(press.dz, deepest(w, &w->phase[i]));
+    if (!st.code && press.dz > 0)
+        st = fret_field_of_press(normal, &press, &w->whole);
+    if (st.code) {
+        fret_work_free(w);
+        *out = NULL;
+    }
+    return st;
+}
+
+void fret_work_free(fret_work *w) {
+    if (!w)
+        return;
+    fret_field_free(w->whole);
+    free(w->phase);
+    free(w->swung);
+    free(w);
+}
+
+/* ---- a place ----------------------------------------------------------------------------------- */
+
+/* A place, and the contact that ends there by depth and load: y = N = 0 up to the beginning of the gap,
+ * infinite beyond its end. */
+typedef struct place_asked {
+    const fret_work *work;
+    fret_real r, at[2];
+    fret_field part;
+    slice end;
+    fret_real depth, p; /* the last pressure that was asked for */
+    fret_status st;
+} place_asked;
+
+static void keep(place_asked *a, fret_status st) {
+    if (!a->st.code)
+        a->st = st;
+}
+
+/* p of the contact that is so deep. */
+static fret_real pressure(place_asked *a, fret_real depth) {
+    if (depth != a->depth) {
+        fret_field_cut(a->work->whole, depth, &a->part);
+        keep(a, fret_field_pressure(&a->part, a->r, &a->p));
+        a->depth = depth;
+    }
+    return a->p;
+}
+
+/* int K dd up to the front at a depth. */
+static fret_real carried(place_asked *a, fret_real depth) {
+    fret_real left;
+    fret_field_cut(a->work->whole, depth, &a->part);
+    keep(a, fret_field_left(&a->part, a->r, &left));
+    return left;
+}
+
+/* K of a front at the radius d. */
+static fret_real carry(const place_asked *a, fret_real d) {
+    const fret_field *f = a->work->whole;
+    return d >= a->r ? 0 : d > 0 ? 1 - f->of_depth * fret_kernel_flat(&f->flat, d, a->r) : 1;
+}
+
+static fret_real depth_of(const place_asked *a, coordinate by, fret_real at) {
+    return by == DEPTH ? at : at > 0 ? fret_law_depth(a->work->normal, at) : 0;
+}
+
+static fret_real tolerance(const place_asked *a) {
+    return fret_normal_closed(a->work->normal) ? 1e-14L : 1e-12L;
+}
+
+/* ---- straight phases --------------------------------------------------------------------------- */
+
+/* Between two depths of the front, or of the edge where all slips. */
+typedef struct straight {
+    place_asked *place;
+    const slip_phase *phase;
+    fret_real from, to;
+} straight;
+
+static fret_real straight_rate(fret_real t, fret_real rest, void *context) {
+    const straight *s = context;
+    const slip_phase *p = s->phase;
+    place_asked *a = s->place;
+    const fret_real depth = s->from * rest + s->to * t;
+    if (fret_stopped(a->work->normal))
+        return 0;
+    if (p->kind == GROSS)
+        return pressure(a, depth);
+    const coordinate by = p->kind == BY_LOADS ? LOAD : DEPTH;
+    const fret_real at = by == LOAD ? fret_law_force(a->work->normal, depth) : depth,
+                    part = (p->front[0] - at) / (p->front[0] - p->front[1]),
+                    edge = p->edge[0] + (p->edge[1] - p->edge[0]) * part;
+    return pressure(a, depth_of(a, by, edge)) * carry(a, fret_law_radius(a->work->normal, depth));
+}
+
+static fret_real gross_work(place_asked *a, const slip_phase *p) {
+    straight s = {a, p, fmaxl(p->edge[0], a->at[DEPTH]), fmaxl(p->edge[1], a->at[DEPTH])};
+    const fret_real rise = p->edge[1] - p->edge[0];
+    if (rise == 0)
+        return p->edge[0] > a->at[DEPTH] ? p->gain * pressure(a, p->edge[0]) : 0;
+    return s.from == s.to
+               ? 0
+               : p->gain * (s.to - s.from) / rise * fret_integral_ends(straight_rate, &s, tolerance(a));
+}
+
+/* The front is within the place, and the edge beyond it, from one time to another. */
+static fret_real straight_work(place_asked *a, const slip_phase *p) {
+    const coordinate by = p->kind == BY_LOADS ? LOAD : DEPTH;
+    const fret_real at = a->at[by], travel = p->front[0] - p->front[1], rise = p->edge[1] - p->edge[0];
+    const fret_real crosses = rise != 0 ? (at - p->edge[0]) / rise : 0;
+    fret_real from = p->front[0] > at ? (p->front[0] - at) / travel : 0, to = 1;
+    if (!(travel > 0) || !(p->front[1] < at) || !(fmaxl(p->edge[0], p->edge[1]) > at))
+        return 0;
+    if (p->edge[0] < at)
+        from = fmaxl(from, crosses);
+    else if (p->edge[1] < at)
+        to = crosses;
+    if (!(to > from))
+        return 0;
+    const fret_real first = from > 0 ? p->front[0] - travel * from : p->front[0],
+                    last = to < 1 ? p->front[0] - travel * to : p->front[1];
+    straight s = {a, p, first < at ? depth_of(a, by, first) : a->at[DEPTH], depth_of(a, by, last)};
+    return p->gain * (rise == 0 ? pressure(a, depth_of(a, by, p->edge[0])) *
+                                     (carried(a, s.from) - carried(a, s.to))
+                               : (s.from - s.to) * fret_integral_ends(straight_rate, &s, tolerance(a)));
+}
+
+/* ---- swinging ---------------------------------------------------------------------------------- */
+
+typedef struct swinging {
+    place_asked *place;
+    const swung_phase *phase;
+    fret_real lo, hi, end; /* end: the level at hi */
+} swinging;
+
+/* As slip_rate of history/swing.c: from the end, where the level may be 0. */
+static fret_real swung_rate(fret_real t, fret_real rest, void *context) {
+    const swinging *l = context;
+    const swung_phase *p = l->phase;
+    place_asked *a = l->place;
+    const fret_normal *n = a->work->normal;
+    const fret_real s = l->lo * rest + l->hi * t,
+                    level = p->way.harmonic ? way_at(&p->way, p->which, s)
+                                            : l->end - p->way.span[p->which] * ((l->hi - l->lo) * rest),
+                    inner = fret_swing_other(&p->front, p->which, fminl(level, p->front.last[p->which]));
+    const fret_point front = fret_law_at_force(n, (level + inner) / 2);
+    if (fret_stopped(n) || !(front.K > 0))
+        return 0;
+    return pressure(a, fret_law_depth(n, load_of(&p->way, s))) * carry(a, front.a) *
+           way_fall(&p->way, p->which, s) / front.K;
+}
+
+/* While the load goes one way: as long as it is beyond that of the place. */
+static fret_real swung_part(place_asked *a, const swung_phase *p, fret_real lo, fret_real hi) {
+    const fret_real N = a->at[LOAD], first = load_of(&p->way, lo), last = load_of(&p->way, hi);
+    way loads = p->way;
+    swinging s = {a, p, lo, hi, 0};
+    if (!(fmaxl(first, last) > N) || !(hi > lo))
+        return 0;
+    if (fminl(first, last) < N) {
+        fret_real when = lo + (hi - lo) * ((N - first) / (last - first));
+        if (p->way.harmonic) {
+            fret_swing_loads(&p->way, &loads);
+            when = way_when(&loads, M, N, lo, hi);
+        }
+        *(first < N ? &s.lo : &s.hi) = when;
+    }
+    s.end = way_at(&p->way, p->which, s.hi);
+    return (s.hi - s.lo) * fret_integral_ends(swung_rate, &s, tolerance(a));
+}
+
+/* On an arc the level of `which` where the load is N, within it. */
+static fret_real level_at(const arc *p, int which, fret_real N) {
+    const fret_real first = (p->first[M] + p->first[P]) / 2, last = (p->last[M] + p->last[P]) / 2;
+    way loads;
+    if (!(N < last))
+        return (fret_real)INFINITY;
+    if (!(N > first))
+        return -(fret_real)INFINITY;
+    if (!p->curved)
+        return p->first[which] + (p->last[which] - p->first[which]) * ((N - first) / (last - first));
+    fret_swing_loads(&p->way, &loads);
+    return way_at(&p->way, which, way_when(&loads, M, N, p->lo, p->hi));
+}
+
+static fret_real swung_work(place_asked *a, const swung_phase *p) {
+    const fret_real level = level_at(&p->front, p->which, a->at[LOAD]), first = way_at(&p->way, p->which, p->lo),
+                    last = way_at(&p->way, p->which, p->hi);
+    const fret_real from = level < first ? way_when(&p->way, p->which, level, p->lo, p->hi) : p->lo;
+    fret_real turn;
+    if (!(last < level))
+        return 0;
+    return turns(&p->way, from, p->hi, &turn)
+               ? swung_part(a, p, from, turn) + swung_part(a, p, turn, p->hi)
+               : swung_part(a, p, from, p->hi);
+}
+
+/* ---- all --------------------------------------------------------------------------------------- */
+
+fret_status fret_work_at(const fret_work *w, fret_real r, fret_real *out) {
+    const fret_normal *n = w->normal;
+    place_asked a = {.work = w, .r = r, .depth = -1, .st = fret_check_not_negative("r", (double)r)};
+    fret_sum sum = {0, 0};
+    *out = 0;
+    if (a.st.code || !w->whole || r >= w->whole->slice->a)
+        return a.st;
+    fret_field_part(w->whole, &a.end, &a.part);
+    if (r > fret_gap_start(&n->gap)) {
+        const fret_point at = fret_law_at_radius(n, r);
+        a.at[DEPTH] = at.y;
+        a.at[LOAD] = at.F;
+    }
+    for (size_t i = 0; i < w->count && !a.st.code; i++) {
+        const slip_phase *p = &w->phase[i];
+        fret_sum_add(&sum, fmaxl(0, p->kind == GROSS   ? gross_work(&a, p)
+                                    : p->kind == SWUNG ? swung_work(&a, &w->swung[p->swung])
+                                                       : straight_work(&a, p)));
+    }
+    *out = w->mu * w->mu * n->foundation.eta * fret_sum_value(&sum);
+    return fret_unless_stopped(n, a.st);
+}

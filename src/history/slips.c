@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The list of what has slipped. Allocates it. */
+#include "history/slips.h"
+
+#include <stdlib.h>
+
+#include "law/check.h"
+#include "number/array.h"
+
+fret_status fret_slips_make(fret_slips **out) {
+    *out = calloc(1, sizeof **out);
+    return *out ? fret_ok() : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+}
+
+void fret_slips_free(fret_slips *s) {
+    if (!s)
+        return;
+    free(s->phase);
+    free(s->swung);
+    free(s);
+}
+
+void fret_slips_clear(fret_slips *s) {
+    s->count = s->swings = 0;
+    s->failed = false;
+}
+
+size_t fret_slips_count(const fret_slips *s) {
+    return s->count;
+}
+
+void fret_slips_add(fret_slips *s, const slip_phase *phase) {
+    if (!s)
+        return;
+    slip_phase *grown = fret_array_for(s->phase, &s->room, s->count + 1, sizeof *grown);
+    s->failed |= !grown;
+    if (!grown)
+        return;
+    s->phase = grown;
+    s->phase[s->count++] = *phase;
+}
