@@ -124,7 +124,8 @@ static fret_real off_at_rig(fret_real dx, fret_real *slope, void *context) {
     if (s->st.code)
         return 0; /* the search ends */
     engine_state(&s->tried, &now);
-    *slope = 1 + now.kt / s->K;
+    if (s->step.normal_by == FRET_KEEP_NORMAL) /* else kt is not what F_x grows by */
+        *slope = 1 + now.kt / s->K;
     return dx - s->d + (now.Fx + now.kt * (dx - (double)dx)) / s->K;
 }
 
@@ -141,8 +142,11 @@ fret_status engine_at_rig(const engine *e, double K_rig, fret_step *step) {
         step->tangential_by = FRET_KEEP_DX; /* rounding must not make it a reversal */
         return s.st;
     }
-    const fret_real off = off_at_rig(s.d, &slope, &s), end = s.d - off * (1 + 64 * LDBL_EPSILON);
-    const fret_real dx = fret_root(off_at_rig, &s, fminl(s.d, end), fmaxl(s.d, end), s.d - off / slope);
+    const fret_real off = off_at_rig(s.d, &slope, &s),
+                    end = s.d - off -
+                          copysignl(DBL_EPSILON * (fabsl(s.d) + fabsl(off)), off), /* surely beyond */
+        guess = now.dx + (s.d - now.dx - now.Fx / s.K) / (1 + now.kt / s.K);
+    const fret_real dx = fret_root(off_at_rig, &s, fminl(s.d, end), fmaxl(s.d, end), guess);
     step->tangential = (double)dx;
     engine_end(&s.tried);
     return s.st;
