@@ -155,13 +155,12 @@ const command commands[] = {
              "machine's displacement; the loop of Fx over drig has the same area dW. K_rig, d0\n"
              "and F0 are inputs; `rig none` takes them off.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-             "    fret> step Fx=20 N; kt\n"
-             "    kt = 27.7 N/um\n"
-             "    fret> rig stiffness=80 N/um; drig\n"
-             "    drig = 1 um\n"
+             "    fret> rig stiffness=80 N/um; step Fx=20 N; dx, drig\n"
+             "    dx = 625.995 nm\n"
+             "    drig = 875.995 nm\n"
              "    fret> cycle drigA=1 um; dW, dx\n"
-             "    dW = 1 uJ\n"
-             "    dx = 1 um\n"},
+             "    dW = 2.93388 uJ\n"
+             "    dx = 718.25 nm\n"},
     {.name = "press",
      .run = do_press,
      .group = "the load",

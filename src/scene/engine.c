@@ -130,24 +130,27 @@ static fret_real off_at_rig(fret_real dx, fret_real *slope, void *context) {
 }
 
 /* F_x grows with the delta_x that a straight step ends at. From d itself it falls on the way to the root,
- * which so lies within F_x/K of d. */
+ * which so lies within F_x/K of d; and at constant F_N on the side of d. */
 fret_status engine_at_rig(const engine *e, double K_rig, fret_step *step) {
     rig_search s = {.from = e, .step = *step, .K = K_rig, .d = step->tangential};
+    const bool keeps = step->normal_by == FRET_KEEP_NORMAL;
     fret_state now;
     fret_real slope = 0;
     engine_state(e, &now);
-    const fret_real little = fabsl(now.dx) * (1 + now.kt / s.K) + fabsl(now.Fx) / s.K;
-    if (step->normal_by == FRET_KEEP_NORMAL &&
-        fabsl(now.dx + now.Fx / s.K - s.d) <= 2 * (fret_real)DBL_EPSILON * little) {
+    const fret_real way = s.d - now.dx - now.Fx / s.K,
+                    digits = fabsl(now.dx) * (1 + now.kt / s.K) + fabsl(now.Fx) / s.K;
+    if (keeps && fabsl(way) <= 2 * (fret_real)DBL_EPSILON * digits) {
         step->tangential_by = FRET_KEEP_DX; /* rounding must not make it a reversal */
         return s.st;
     }
     const fret_real off = off_at_rig(s.d, &slope, &s),
-                    end = s.d - off -
-                          copysignl(DBL_EPSILON * (fabsl(s.d) + fabsl(off)), off), /* surely beyond */
-        guess = now.dx + (s.d - now.dx - now.Fx / s.K) / (1 + now.kt / s.K);
-    const fret_real dx = fret_root(off_at_rig, &s, fminl(s.d, end), fmaxl(s.d, end), guess);
-    step->tangential = (double)dx;
+                    beyond = s.d - off - copysignl(DBL_EPSILON * (fabsl(s.d) + fabsl(off)), off);
+    fret_real lo = fminl(s.d, beyond), hi = fmaxl(s.d, beyond);
+    if (keeps && way > 0)
+        lo = fmaxl(lo, now.dx);
+    else if (keeps)
+        hi = fminl(hi, now.dx);
+    step->tangential = (double)fret_root(off_at_rig, &s, lo, hi, now.dx + way / (1 + now.kt / s.K));
     engine_end(&s.tried);
     return s.st;
 }

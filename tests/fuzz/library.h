@@ -460,6 +460,14 @@ CALL(fret_springs_make) {
         w->springs = made;
     }
 }
+CALL(fret_springs_clone) {
+    fret_springs *made;
+    (void)x;
+    if (have_springs(w) && known_code(fret_springs_clone(w->springs, &made))) {
+        fret_springs_free(w->springs);
+        w->springs = made;
+    }
+}
 CALL(fret_springs_free) {
     (void)x;
     fret_springs_free(w->springs);
