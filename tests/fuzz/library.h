@@ -701,6 +701,7 @@ static const struct row {
     ROW(fret_cycle_loss_by_definition),
     ROW(fret_springs_make),
     ROW(fret_springs_free),
+    ROW(fret_springs_clone),
     ROW(fret_springs_step),
     ROW(fret_springs_state),
     ROW(fret_status_category),
