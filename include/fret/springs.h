@@ -38,6 +38,8 @@ typedef enum fret_weight {
  * FRET_NO_MEMORY, FRET_INTERRUPTED. */
 fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count, double radius,
                               fret_weight rule, fret_springs **out);
+/* A copy with a state of its own. Error: FRET_NO_MEMORY. */
+fret_status fret_springs_clone(const fret_springs *from, fret_springs **out);
 void fret_springs_free(fret_springs *springs);
 
 /* One step with the targets and paths of fret_contact_step, in `substeps` equal parts; F_N means its sum

@@ -12,8 +12,8 @@ FRET_BEGIN
  *   ds = mu eta K(d/r) dm,   K = 1 - (2 cos(pi k/2)/pi) int_0^d x^k (r^2-x^2)^(-(1+k)/2) dx,
  * so that w is a sum over the phases of slip, none of them negative; 2 pi int w r dr = W. At constant F_N
  * each has a closed form, of a closed cycle together D(r) = 4 mu p(r) s(r; F_A), and beyond gross slip
- * 4 mu p (delta_A - delta_x,max) more; where F_N changes it is integrated, of a swinging load the sine itself.
- * A wear law V = alpha W [m^3/J] makes a depth alpha w(r) of it. */
+ * 4 mu p (delta_A - delta_x,max) more; where F_N changes it is integrated, of a swinging load the sine
+ * itself. A wear law V = alpha W [m^3/J] makes a depth alpha w(r) of it. */
 typedef struct fret_work fret_work;
 
 /* Of the phases from number `first` on, which it copies: what had slipped before the last period, say, was
@@ -23,8 +23,8 @@ fret_status fret_work_make(const fret_normal *normal, double mu, const fret_slip
                            fret_work **out);
 void fret_work_free(fret_work *work);
 
-/* w(r) [J/m^2], >= 0, for r >= 0 [m], else FRET_NEGATIVE, FRET_NOT_FINITE; threads may share it. FRET_SINGULAR
- * where it slips and pressure is infinite (fret/field.h), FRET_INTERRUPTED. */
+/* w(r) [J/m^2], >= 0, for r >= 0 [m], else FRET_NEGATIVE, FRET_NOT_FINITE; threads may share it.
+ * FRET_SINGULAR where it slips and pressure is infinite (fret/field.h), FRET_INTERRUPTED. */
 fret_status fret_work_at(const fret_work *work, fret_real r, fret_real *w);
 
 FRET_END

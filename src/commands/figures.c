@@ -87,10 +87,15 @@ const grammar *figure_form(size_t i) {
 
 /* ---- running conditions ------------------------------------------------------------------------- */
 
-/* Amplitudes over the other name where c still sticks: delta = mu eta (g(a) - g(c)). Up to the first all
- * does: at c = a a flat end has a jump of g, and other shapes nothing. */
+/* Amplitudes over the other name where c still sticks: delta = mu eta (g(a) - g(c)), and at the rig
+ * mu [F_N(a) - F_N(c)]/K_rig more. Up to the first all does: at c = a a flat end has a jump of g, and other
+ * shapes nothing. */
 enum { STICK, HALF, GROSS, BORDERS, PLACES = 200 };
-static const char *const borders[] = {"mu*eta*(dz - g(a))", "mu*eta*(dz - g(a/2))", "dxmax"};
+static const char *const amplitudes[] = {"dxA", "drigA"};
+static const char *const borders[][BORDERS] = {{"mu*eta*(dz - g(a))", "mu*eta*(dz - g(a/2))", "dxmax"},
+                                               {"mu*eta*(dz - g(a)) + mu*(FN - FN(g(a)))/K_rig",
+                                                "mu*eta*(dz - g(a/2)) + mu*(FN - FN(g(a/2)))/K_rig",
+                                                "dxmax + mu*FN/K_rig"}};
 static const char *const titles[] = {"c = a", "c = a/2", "c = 0"};
 
 /* Between two borders, or the ends; in blue, yellow and gray, which the colour-blind tell apart. */
@@ -103,7 +108,7 @@ enum { REGIONS = sizeof regions / sizeof *regions };
 typedef struct regimes {
     plot_panel *p;
     sweep_range ends;         /* of amplitudes */
-    bool across, log;         /* they are the ordinate; in ratios */
+    bool rig, across, log;    /* they are at the rig; are the ordinate; in ratios */
     size_t count;             /* so far */
     double other[PLACES + 1]; /* the other name, */
     double amplitude[BORDERS][PLACES + 1];
@@ -191,7 +196,7 @@ static bool run_borders(shell *sh, range *over, regimes *r) {
     error_clear(&mine);
     for (int i = 0; i < BORDERS && ok; i++) {
         lexer lx;
-        lex_start(&lx, borders[i], strlen(borders[i]), &mine);
+        lex_start(&lx, borders[r->rig][i], strlen(borders[r->rig][i]), &mine);
         ok = expr_parse(&sh->calc, &lx, &sh->list[i]);
     }
     over->sweep.steps = PLACES;
@@ -221,10 +226,11 @@ static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const
     range r[2];
     sweep_range ends[2] = {{.lo = 0}, {.lo = 0}};
     axis_of axis[2];
-    bool amplitude[2] = {false, false};
+    bool amplitude[2] = {false, false}, rig = false;
     for (size_t i = 0; i < 2 && said_of(all, "for", i); i++) {
         const lexer name = hole_lexer(lx, &said_of(all, "for", i)->hole[0]);
-        amplitude[i] = lex_is(&name, "dxA");
+        rig = rig || lex_is(&name, amplitudes[1]);
+        amplitude[i] = lex_is(&name, amplitudes[rig]);
     }
     if (amplitude[0] == amplitude[1] || !said_of(all, "for", 1) || said_of(all, "for", 2) ||
         said_of(all, "with", 0) || said_of(all, "along", 0) || said_of(all, "steps", 0))
@@ -242,7 +248,8 @@ static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const
     }
     p->logx = p->logx || r[0].sweep.log;
     p->logy = p->logy || r[1].sweep.log;
-    regimes drawn = {.p = p, .ends = ends[amplitude[1]], .across = amplitude[1], .error = lx->error};
+    regimes drawn = {
+        .rig = rig, .p = p, .ends = ends[amplitude[1]], .across = amplitude[1], .error = lx->error};
     drawn.log = drawn.across ? p->logy : p->logx;
     p->title = p->title ? p->title : strdup("running conditions");
     if (!p->title)

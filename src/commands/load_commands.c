@@ -47,7 +47,7 @@ static void report_event(shell *sh, const char *event, const char *const *names)
 /* ---- press, step, cycle ------------------------------------------------------------------------ */
 
 static load_by by_of(const char *name) {
-    return *name == 'F' ? BY_FORCE : BY_DISPLACEMENT;
+    return *name == 'F' ? BY_FORCE : name[1] == 'r' ? BY_RIG : BY_DISPLACEMENT;
 }
 
 /* Is it the normal force or displacement? Else it is the tangential one. */
@@ -150,8 +150,9 @@ bool do_press(shell *sh, lexer *lx, const command *self) {
 }
 
 bool do_step(shell *sh, lexer *lx, const command *self) {
-    static const char *const names[] = {"Fx", "dx", "c", NULL}, *const oblique[] = {"FN", "Fx", "dx", "c",
-                                                                                    NULL};
+    static const char *const names[] = {"Fx", "dx", "c", "drig", NULL}, *const oblique[] = {"FN",   "Fx",
+                                                                                            "dx",   "c",
+                                                                                            "drig", NULL};
     said s;
     load_step step;
     cycle_extra extra;
@@ -178,7 +179,7 @@ static void bind_all(inputs *in, void *context) {
 }
 
 bool do_cycle(shell *sh, lexer *lx, const command *self) {
-    static const char *const names[] = {"dW", "Fx", "dx", "c", NULL};
+    static const char *const names[] = {"dW", "Fx", "dx", "c", "drig", NULL};
     said s;
     load_step step;
     cycle_extra extra;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands that set material, second body, friction and geometry. Each reads everything, then changes
+/* Commands that set material, second body, friction, rig and geometry. Each reads everything, then changes
  * everything or nothing. */
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ typedef struct edit {
     bool has[INPUTS];
     double v[INPUTS];
     counted *bound[INPUTS]; /* borrowed */
-    bool clear_material, clear_second;
+    bool clear_material, clear_second, clear_rig;
     second_body second;
     const geometry *geometry;
     double radii[2];
@@ -41,6 +41,8 @@ static void apply(inputs *in, void *context) {
         inputs_unset(in, INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2));
         in->second = e->second;
     }
+    if (e->clear_rig)
+        inputs_unset(in, INPUT_RIG);
     if (e->geometry)
         inputs_geometry(in, e->geometry, e->sum, e->table);
     for (input i = 0; i < INPUTS; i++)
@@ -173,6 +175,28 @@ bool do_friction(shell *sh, lexer *lx, const command *self) {
         return false;
     edit_put(&e, IN_MU, s.list[0].v.v);
     return scene_edit(&sh->calc.scene, apply, &e, lx->error) || heard_place(lx->error, &s.list[0]);
+}
+
+/* Of a rig that is taken off nothing is left, its offsets neither. */
+bool do_rig(shell *sh, lexer *lx, const command *self) {
+    said s;
+    edit e = {.clear_rig = true};
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    gather(&e, &s);
+    const heard *none = said_of(&s, "none", 0);
+    char usage[GRAMMAR_USAGE];
+    command_usage(self, usage);
+    bool ok = false;
+    if (none ? s.count > 1 : !has(&e, IN_K_RIG))
+        lex_fail(lx,
+                 none ? "where there is no rig there are no offsets; usage: %s"
+                      : "stiffness is missing; usage: %s",
+                 usage);
+    else
+        ok = scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    said_drop(sh, &s);
+    return ok;
 }
 
 /* ---- geometry ---------------------------------------------------------------------------------- */

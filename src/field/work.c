@@ -191,9 +191,9 @@ static fret_real straight_work(place_asked *a, const slip_phase *p) {
     const fret_real first = from > 0 ? p->front[0] - travel * from : p->front[0],
                     last = to < 1 ? p->front[0] - travel * to : p->front[1];
     straight s = {a, p, first < at ? depth_of(a, by, first) : a->at[DEPTH], depth_of(a, by, last)};
-    return p->gain * (rise == 0 ? pressure(a, depth_of(a, by, p->edge[0])) *
-                                     (carried(a, s.from) - carried(a, s.to))
-                               : (s.from - s.to) * fret_integral_ends(straight_rate, &s, tolerance(a)));
+    return p->gain * (rise == 0
+                          ? pressure(a, depth_of(a, by, p->edge[0])) * (carried(a, s.from) - carried(a, s.to))
+                          : (s.from - s.to) * fret_integral_ends(straight_rate, &s, tolerance(a)));
 }
 
 /* ---- swinging ---------------------------------------------------------------------------------- */
@@ -255,15 +255,14 @@ static fret_real level_at(const arc *p, int which, fret_real N) {
 }
 
 static fret_real swung_work(place_asked *a, const swung_phase *p) {
-    const fret_real level = level_at(&p->front, p->which, a->at[LOAD]), first = way_at(&p->way, p->which, p->lo),
-                    last = way_at(&p->way, p->which, p->hi);
+    const fret_real level = level_at(&p->front, p->which, a->at[LOAD]),
+                    first = way_at(&p->way, p->which, p->lo), last = way_at(&p->way, p->which, p->hi);
     const fret_real from = level < first ? way_when(&p->way, p->which, level, p->lo, p->hi) : p->lo;
     fret_real turn;
     if (!(last < level))
         return 0;
-    return turns(&p->way, from, p->hi, &turn)
-               ? swung_part(a, p, from, turn) + swung_part(a, p, turn, p->hi)
-               : swung_part(a, p, from, p->hi);
+    return turns(&p->way, from, p->hi, &turn) ? swung_part(a, p, from, turn) + swung_part(a, p, turn, p->hi)
+                                              : swung_part(a, p, from, p->hi);
 }
 
 /* ---- all --------------------------------------------------------------------------------------- */

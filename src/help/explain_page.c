@@ -306,11 +306,10 @@ static void put_numbers(const page *p, const quantity *q, const influence_study 
 
 /* Does it matter what pushes sideways? */
 static bool is_pushed(const influence_study *study) {
-    const unsigned amplitudes = INPUT_BIT(IN_FA) | INPUT_BIT(IN_DXA);
     for (size_t i = 0; i < study->count; i++) {
         const cause *c = &study->cause[i];
-        const bool pushes =
-            c->kind == CAUSE_INPUT ? amplitudes & INPUT_BIT(c->in) : c->kind == CAUSE_STEP && c->tangential;
+        const bool pushes = c->kind == CAUSE_INPUT ? INPUT_AMPLITUDE & INPUT_BIT(c->in)
+                                                   : c->kind == CAUSE_STEP && c->tangential;
         if (pushes && c->influence != INFLUENCE_NONE)
             return true;
     }

@@ -7,6 +7,7 @@
 #include <float.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "law/check.h"
 #include "law/normal.h"
@@ -114,6 +115,21 @@ fret_status fret_springs_make(const fret_normal *normal, double mu, size_t count
     }
     *out = s;
     return fret_ok();
+}
+
+fret_status fret_springs_clone(const fret_springs *from, fret_springs **out) {
+    fret_springs *s = malloc(sizeof *s);
+    if (s) {
+        *s = *from;
+        if (allocate(s, from->count)) {
+            memcpy(s->g, from->g, 3 * s->count * sizeof *s->g);
+            memcpy(s->held, from->held, (2 * s->count + 1) * sizeof *s->held);
+            *out = s;
+            return fret_ok();
+        }
+        fret_springs_free(s);
+    }
+    return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
 }
 
 void fret_springs_free(fret_springs *s) {

@@ -30,16 +30,20 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
                          q->imposed ? "%s is a result here: press by it to make it an input (press %s=...)"
                                     : "the press was not given as %s: press again (press %s=...)",
                          q->name, q->name);
+    if (in == IN_D0 || in == IN_F0)
+        return inputs_any(&s->in, INPUT_BIT(IN_K_RIG)) || calc_missing(error, IN_K_RIG);
     if (!(INPUT_BIT(in) & INPUT_CYCLE))
         return true;
     if (!s->end.cycles)
         return calc_fail(error, 0, 0,
                          "there is no cycle that %s could belong to: run one first (cycle FA=20 N)", q->name);
-    if (in == IN_FA && !s->in.set[IN_FA])
-        return calc_fail(error, 0, 0, "the last cycle was given by displacement: dxA, not FA");
-    if (in == IN_DXA && !s->in.set[IN_DXA])
-        return calc_fail(error, 0, 0, "the last cycle was given by force: FA, not dxA");
-    return true;
+    const load_by by = cycle_by(&s->in);
+    return cycle_input(by) == in || !(INPUT_BIT(in) & INPUT_AMPLITUDE) ||
+           calc_fail(error, 0, 0, "the last cycle was given by %s: %s, not %s",
+                     by == BY_FORCE ? "force"
+                     : by == BY_RIG ? "displacement at the rig"
+                                    : "displacement",
+                     quantity_of_input(cycle_input(by))->name, q->name);
 }
 
 /* Is a unit of angles written there? What atan() answers counts as a number too, in radians. */

@@ -144,6 +144,24 @@ const command commands[] = {
              "    fret> friction 0.4\n"
              "    fret> mu\n"
              "    mu = 0.4\n"},
+    {.name = "rig",
+     .run = do_rig,
+     .group = "the load",
+     .keywords = "compliance machine stiffness series tribometer offset reading",
+     .changes = true,
+     .takes = "stiffness:=80 N/um | none [d0:=1 um] [F0:=1 N]",
+     .summary = "a spring between contact and machine",
+     .help = "What a machine moves or measures is drig = dx + Fx/K_rig, and what it reads may\n"
+             "be off: drig + d0 and Fx + F0. `step drig=...` and `cycle drigA=...` go by the\n"
+             "machine's displacement; the loop of Fx over drig has the same area dW. K_rig, d0\n"
+             "and F0 are inputs; `rig none` takes them off.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> rig stiffness=80 N/um; step Fx=20 N; dx, drig\n"
+             "    dx = 625.995 nm\n"
+             "    drig = 875.995 nm\n"
+             "    fret> cycle drigA=1 um; dW, dx\n"
+             "    dW = 2.93388 uJ\n"
+             "    dx = 718.25 nm\n"},
     {.name = "press",
      .run = do_press,
      .group = "the load",
@@ -169,13 +187,13 @@ const command commands[] = {
      .run = do_step,
      .group = "the load",
      .keywords = "tangential load",
-     .takes = "[Fx+=20 N | dx+=0.5 um] [FN+=120 N | dz+=1 um] [steps N:1000000]",
+     .takes = "[Fx+=20 N | dx+=0.5 um | drig+=1 um] [FN+=120 N | dz+=1 um] [steps N:1000000]",
      .summary = "a straight step of the load",
      .help = "A tangential target, a normal target, or both for a straight ramp; += adds to\n"
              "what is there now. A normal step alone holds dx. Both together go straight in FN\n"
              "and Fx, or to a dx straight in dz and dx. Force cannot go beyond mu*FN;\n"
-             "displacement can, and then the contact slides. `steps` records points on the\n"
-             "way for `history`.\n\n"
+             "displacement can, and then the contact slides. To a drig (help rig) it goes as\n"
+             "to the dx that ends there. `steps` records points on the way for `history`.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N\n"
              "    fret> step Fx=20 N; step Fx+=-10 N\n"
@@ -188,7 +206,8 @@ const command commands[] = {
      .group = "the load",
      .keywords = "oscillation fretting hysteresis loop dissipation",
      .changes = true,
-     .takes = "FA:=20 N | dxA:=0.5 um [times N:1000000] [steps N:1000000] [FNA:=30 N] [phase:=90 deg]",
+     .takes = "FA:=20 N | dxA:=0.5 um | drigA:=1 um [times N:1000000] [steps N:1000000] [FNA:=30 N] "
+              "[phase:=90 deg]",
      .summary = "close tangential cycles",
      .help = "Goes to +FA, then through whole cycles +FA, -FA, +FA; dW is the energy that\n"
              "the last one dissipated. With FNA the normal force swings too,\n"

@@ -225,6 +225,17 @@ static void write_friction(writer *w) {
     putc('\n', w->to);
 }
 
+static void write_rig(writer *w) {
+    if (!is_set(w, IN_K_RIG))
+        return;
+    write_start(w, "rig");
+    write_argument(w, "stiffness", IN_K_RIG);
+    for (input i = IN_D0; i <= IN_F0; i++)
+        if (is_set(w, i))
+            write_argument(w, quantity_of_input(i)->name, i);
+    putc('\n', w->to);
+}
+
 /* ---- the user's names -------------------------------------------------------------------------- */
 
 static void write_name(writer *w, const own_name *name) {
@@ -281,8 +292,8 @@ static void write_target(writer *w, const char *name, bool relative, double v, d
 
 static void write_cycle(writer *w, const load_item *item) {
     const load_step *step = &item->step;
-    const bool force = step->tangential == BY_FORCE;
-    write_target(w, force ? "FA" : "dxA", false, step->tangential_value, force ? DIM_FORCE : DIM_LENGTH);
+    const quantity *amplitude = quantity_of_input(cycle_input((load_by)step->tangential));
+    write_target(w, amplitude->name, false, step->tangential_value, amplitude->d);
     if (step->normal_value != 0 || item->extra.phase != 0) { /* the phase also alone: an FNA may be added */
         write_target(w, "FNA", false, step->normal_value, DIM_FORCE);
         write_target(w, "phase", false, item->extra.phase, DIM_ANGLE);
@@ -302,9 +313,10 @@ static void write_step(writer *w, const load_item *item) {
             const quantity *q = quantity_of_input(press_input((load_by)step->normal));
             write_target(w, q->name, step->relative & RELATIVE_NORMAL, step->normal_value, q->d);
         }
-        if (step->tangential)
-            write_target(w, step->tangential == BY_FORCE ? "Fx" : "dx", step->relative & RELATIVE_TANGENTIAL,
-                         step->tangential_value, step->tangential == BY_FORCE ? DIM_FORCE : DIM_LENGTH);
+        if (step->tangential) {
+            const quantity *q = quantity_of_step((load_by)step->tangential);
+            write_target(w, q->name, step->relative & RELATIVE_TANGENTIAL, step->tangential_value, q->d);
+        }
     }
     if (step->points)
         fprintf(w->to, " steps %u", step->points);
@@ -347,6 +359,7 @@ bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
     write_second(&w);
     write_geometry(&w);
     write_friction(&w);
+    write_rig(&w);
     write_load(&w, whole);
     const bool ok = write_names(&w);
     for (input i = 0; i < INPUTS; i++)

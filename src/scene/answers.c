@@ -198,7 +198,8 @@ void scene_used_closed(scene *s) {
 static const load_reach *closed_reach(scene *s) {
     const load_reach *reach;
     const bool allowed = (s->automatic || s->model == MODEL_CLOSED) && !s->now && s->end.steps > 0;
-    return allowed && scene_reach(s, &reach, error_quiet()) && !reach->normal_varies ? reach : NULL;
+    const bool closed = allowed && scene_reach(s, &reach, error_quiet());
+    return closed && !reach->normal_varies && !reach->rig ? reach : NULL; /* at the rig a root is sought */
 }
 
 bool scene_closed_state(scene *s) {

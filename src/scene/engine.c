@@ -2,6 +2,11 @@
 /* The table of models and how they step. */
 #include "scene/engine.h"
 
+#include <float.h>
+#include <math.h>
+
+#include "number/root.h"
+
 const model_row models[MODELS] = {
     [MODEL_CLOSED] = {.name = "closed", .title = "closed form", .chosen = true},
     [MODEL_MEMORY] = {.name = "memory", .title = "memory diagram", .chosen = true, .steps = true},
@@ -79,16 +84,75 @@ fret_status engine_copy(engine *to, const engine *from) {
     fret_status st = {FRET_OK, NULL, 0, 0};
     if (to->kind != from->kind)
         engine_end(to);
-    if (!to->contact)
+    if (from->springs) {
+        fret_springs_free(to->springs);
+        to->springs = NULL;
+        st = fret_springs_clone(from->springs, &to->springs);
+    } else if (!to->contact) {
         st = fret_contact_make(fret_contact_normal(from->contact), fret_contact_friction(from->contact),
                                FRET_EXACT, &to->contact);
-    if (!st.code)
+    }
+    if (from->contact && !st.code)
         st = fret_contact_copy(to->contact, from->contact);
     to->kind = from->kind;
     to->sine = from->sine;
     to->spent = from->spent;
     to->more = from->more;
     return st;
+}
+
+/* ---- at the rig -------------------------------------------------------------------------------- */
+
+/* A displacement at the rig that is sought, tried on copies of what goes there. */
+typedef struct rig_search {
+    const engine *from;
+    engine tried;
+    fret_step step;
+    fret_real K, d;
+    fret_status st;
+} rig_search;
+
+/* delta_x + F_x/K - d behind a step to dx. That goes to a double: the rest is linear. */
+static fret_real off_at_rig(fret_real dx, fret_real *slope, void *context) {
+    rig_search *s = context;
+    fret_state now = {.Fx = 0};
+    s->step.tangential = (double)dx;
+    if (!s->st.code)
+        s->st = engine_copy(&s->tried, s->from);
+    if (!s->st.code)
+        s->st = engine_step(&s->tried, &s->step);
+    if (s->st.code)
+        return 0; /* the search ends */
+    engine_state(&s->tried, &now);
+    if (s->step.normal_by == FRET_KEEP_NORMAL) /* else kt is not what F_x grows by */
+        *slope = 1 + now.kt / s->K;
+    return dx - s->d + (now.Fx + now.kt * (dx - (double)dx)) / s->K;
+}
+
+/* F_x grows with the delta_x that a straight step ends at. From d itself it falls on the way to the root,
+ * which so lies within F_x/K of d; and at constant F_N on the side of d. */
+fret_status engine_at_rig(const engine *e, double K_rig, fret_step *step) {
+    rig_search s = {.from = e, .step = *step, .K = K_rig, .d = step->tangential};
+    const bool keeps = step->normal_by == FRET_KEEP_NORMAL;
+    fret_state now;
+    fret_real slope = 0;
+    engine_state(e, &now);
+    const fret_real way = s.d - now.dx - now.Fx / s.K,
+                    digits = fabsl(now.dx) * (1 + now.kt / s.K) + fabsl(now.Fx) / s.K;
+    if (keeps && fabsl(way) <= 2 * (fret_real)DBL_EPSILON * digits) {
+        step->tangential_by = FRET_KEEP_DX; /* rounding must not make it a reversal */
+        return s.st;
+    }
+    const fret_real off = off_at_rig(s.d, &slope, &s),
+                    beyond = s.d - off - copysignl(DBL_EPSILON * (fabsl(s.d) + fabsl(off)), off);
+    fret_real lo = fminl(s.d, beyond), hi = fmaxl(s.d, beyond);
+    if (keeps && way > 0)
+        lo = fmaxl(lo, now.dx);
+    else if (keeps)
+        hi = fminl(hi, now.dx);
+    step->tangential = (double)fret_root(off_at_rig, &s, lo, hi, now.dx + way / (1 + now.kt / s.K));
+    engine_end(&s.tried);
+    return s.st;
 }
 
 void engine_repeat(engine *e, unsigned times, long double loss) {

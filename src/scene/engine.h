@@ -52,7 +52,10 @@ fret_status engine_step(engine *e, const fret_step *step);
 fret_status engine_chord(engine *e, const fret_step *step);
 void engine_state(const engine *e, fret_state *out);
 void engine_forces(const engine *e, fret_state *out);
-/* A copy made anew in `to`, of the same contact; springs have none. */
+/* The step whose tangential target is one of delta_x + F_x/K_rig becomes one to the delta_x that ends there,
+ * to rounding; where that is where it is now, one that keeps it. */
+fret_status engine_at_rig(const engine *e, double K_rig, fret_step *step);
+/* A copy made anew in `to`, of the same contact or cells. */
 fret_status engine_copy(engine *to, const engine *from);
 /* `times` more periods that begin and end in the present state, each with the loss. */
 void engine_repeat(engine *e, unsigned times, long double loss);

@@ -10,7 +10,7 @@ typedef bool quantity_call_function(scene *s, value arg, long double *out, calc_
 
 /* results.c */
 quantity_get_function get_FN, get_p0, get_pmean, get_Un, get_dW, get_kn, get_a0, get_dz0, get_dxmax,
-    get_dx0max, get_kappa, get_W1D, get_time;
+    get_dx0max, get_kappa, get_W1D, get_time, get_drig;
 
 /* functions.c: of the scene, tangentially unloaded */
 quantity_call_function call_a, call_dz, call_FN, call_p0, call_c, call_dx, call_Fx, call_dW, call_dWd;

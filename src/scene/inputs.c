@@ -258,7 +258,7 @@ bool inputs_same(const inputs *a, const inputs *b, unsigned which) {
 
 void input_range(input in, double *lo, double *hi) {
     const bool nu = in == IN_NU || in == IN_NU_2;
-    *lo = in == IN_K || nu ? -1 : in == IN_PHASE ? -(double)INFINITY : 0;
+    *lo = in == IN_K || nu ? -1 : in == IN_PHASE || in == IN_D0 || in == IN_F0 ? -(double)INFINITY : 0;
     *hi = in == IN_K ? 1 : nu ? 0.5 : (double)INFINITY;
 }
 
@@ -403,7 +403,11 @@ bool inputs_get(const inputs *in, input which, long double *out, calc_error *err
     case IN_K:
     case IN_FNA:
     case IN_PHASE:
-        here = here || which == IN_K || in->set[IN_FA] || in->set[IN_DXA];
+        here = here || which == IN_K || inputs_any(in, INPUT_AMPLITUDE);
+        break;
+    case IN_D0:
+    case IN_F0:
+        here = here || inputs_any(in, INPUT_BIT(IN_K_RIG));
         break;
     case IN_NU_2:
         if (in->second == SECOND_RIGID)

@@ -25,10 +25,14 @@ typedef enum input {
     IN_CONTACT,
     IN_P0,
     IN_PMEAN,
-    IN_FA,  /* these four: of the last cycle */
-    IN_DXA, /* one of FA and dxA is set */
+    IN_FA,  /* these five: of the last cycle */
+    IN_DXA, /* one of FA, dxA and drigA is set */
+    IN_DRIGA,
     IN_FNA,
     IN_PHASE,
+    IN_K_RIG, /* these three: of the rig */
+    IN_D0,
+    IN_F0,
     IN_N, /* from here on: parameters of the geometry */
     IN_A,
     IN_H,
@@ -49,7 +53,9 @@ typedef enum input {
 #define INPUT_PRESS                                                                                          \
     (INPUT_BIT(IN_FN) | INPUT_BIT(IN_DZ) | INPUT_BIT(IN_CONTACT) | INPUT_BIT(IN_P0) | INPUT_BIT(IN_PMEAN))
 #define INPUT_GEOMETRY ((~0u << IN_N) & ((1u << INPUTS) - 1))
-#define INPUT_CYCLE (INPUT_BIT(IN_FA) | INPUT_BIT(IN_DXA) | INPUT_BIT(IN_FNA) | INPUT_BIT(IN_PHASE))
+#define INPUT_AMPLITUDE (INPUT_BIT(IN_FA) | INPUT_BIT(IN_DXA) | INPUT_BIT(IN_DRIGA))
+#define INPUT_CYCLE (INPUT_AMPLITUDE | INPUT_BIT(IN_FNA) | INPUT_BIT(IN_PHASE))
+#define INPUT_RIG (INPUT_BIT(IN_K_RIG) | INPUT_BIT(IN_D0) | INPUT_BIT(IN_F0))
 
 typedef struct inputs inputs;
 

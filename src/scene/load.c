@@ -14,6 +14,17 @@ static bool friction_for_program(scene *s, const load_reach *reach, double *mu, 
     return (!reach->by && !(given && inputs_know_nu(in))) || scene_friction(s, mu, error);
 }
 
+static bool rig_for_program(scene *s, double *K_rig, calc_error *error) {
+    long double v = 0;
+    if (!inputs_any(&s->in, INPUT_BIT(IN_K_RIG)))
+        return calc_fail(
+            error, 0, 0,
+            "the load goes to a displacement at the rig, and there is no rig (rig stiffness=80 N/um)");
+    const bool ok = scene_get(s, IN_K_RIG, &v, error);
+    *K_rig = (double)v;
+    return ok;
+}
+
 bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error *error) {
     const load_by by = (load_by)s->program->steps[0].normal;
     long double to;
@@ -33,7 +44,8 @@ bool scene_load_of(scene *s, load_view *out, calc_error *error) {
         (load_view){.program = s->program, .end = s->end, .in = &s->in, .stop = s->stop, .pulse = s->pulse};
     if (!scene_reach(s, &reach, error) || !scene_normal(s, &out->normal, error) ||
         !friction_for_program(s, reach, &out->mu, error) ||
-        !scene_get(s, press_input((load_by)s->program->steps[0].normal), &imposed, error))
+        !scene_get(s, press_input((load_by)s->program->steps[0].normal), &imposed, error) ||
+        (reach->rig && !rig_for_program(s, &out->K_rig, error)))
         return false;
     out->last_cycle = reach->last_cycle;
     return true;
@@ -47,7 +59,7 @@ static void drop_runs(answers *a) {
 
 /* From the first swinging cycle on: by force, or to a displacement at constant F_N. */
 static bool goes_with_sine(const load_step *step) {
-    return step->tangential == BY_FORCE || (step->tangential == BY_DISPLACEMENT && !load_moves_normal(step));
+    return step->tangential == BY_FORCE || (step->tangential && !load_moves_normal(step));
 }
 
 bool load_takes_sine(const load_view *load) {

@@ -70,6 +70,14 @@ input press_input(load_by by) {
     return presses[by].in;
 }
 
+input cycle_input(load_by by) {
+    return by == BY_FORCE ? IN_FA : by == BY_RIG ? IN_DRIGA : IN_DXA;
+}
+
+load_by cycle_by(const inputs *in) {
+    return in->set[IN_FA] ? BY_FORCE : in->set[IN_DRIGA] ? BY_RIG : BY_DISPLACEMENT;
+}
+
 load_by press_by(input in) {
     load_by by = BY_MEAN;
     while (by > BY_NONE && presses[by].in != in)
@@ -89,8 +97,8 @@ load_item program_item(const program *p, load_mark here, size_t last_cycle, cons
     if (step->kind == LOAD_PRESS) {
         step->normal_value = in->v[press_input((load_by)step->normal)];
     } else if (here.steps == last_cycle) {
-        step->tangential = in->set[IN_FA] ? BY_FORCE : BY_DISPLACEMENT;
-        step->tangential_value = in->v[in->set[IN_FA] ? IN_FA : IN_DXA];
+        step->tangential = (unsigned char)cycle_by(in);
+        step->tangential_value = in->v[cycle_input(cycle_by(in))];
         step->normal_value = in->v[IN_FNA];
         item.extra.phase = in->v[IN_PHASE];
     }
@@ -103,7 +111,7 @@ void program_to_inputs(const load_step *step, const cycle_extra *extra, inputs *
         inputs_put(in, press_input((load_by)step->normal), step->normal_value);
     } else if (step->kind == LOAD_CYCLE) {
         inputs_unset(in, INPUT_CYCLE);
-        inputs_put(in, step->tangential == BY_FORCE ? IN_FA : IN_DXA, step->tangential_value);
+        inputs_put(in, cycle_input((load_by)step->tangential), step->tangential_value);
         inputs_put(in, IN_FNA, step->normal_value);
         inputs_put(in, IN_PHASE, extra->phase);
     }

@@ -14,8 +14,9 @@ typedef enum load_by {
     BY_DISPLACEMENT,
     BY_RADIUS,
     BY_PEAK,
-    BY_MEAN
-} load_by; /* press: all */
+    BY_MEAN,
+    BY_RIG
+} load_by; /* press: all but the last; tangentially: the first ones and the last */
 enum { RELATIVE_NORMAL = 1, RELATIVE_TANGENTIAL = 2 };
 
 /* One command of the load program: 24 bytes, since programs of 1e6 steps are kept for re-running. */
@@ -23,7 +24,7 @@ typedef struct load_step {
     unsigned char kind, normal, tangential, relative;
     unsigned points;         /* to record on the way */
     double normal_value;     /* cycle: amplitude FNA */
-    double tangential_value; /* cycle: amplitude FA or dxA */
+    double tangential_value; /* cycle: amplitude FA, dxA or drigA */
 } load_step;
 
 /* What only a cycle has; the i-th cycle of the program owns entry i. */
@@ -58,6 +59,9 @@ size_t program_last_cycle(const program *p, load_mark mark);
 /* The input that a press imposes by this, and by what such an input presses; BY_NONE: none. */
 input press_input(load_by by);
 load_by press_by(input in);
+/* That is the amplitude of a cycle by this, and by what the inputs say that the last cycle is. */
+input cycle_input(load_by by);
+load_by cycle_by(const inputs *in);
 fret_status press_to(const fret_normal *normal, load_by by, double value, fret_press *out);
 
 /* The step as it runs: what the press imposes, and the amplitudes of the last cycle, are inputs. */
@@ -77,9 +81,9 @@ static inline bool load_moves_normal(const load_step *step) {
     return step->kind == LOAD_STEP ? step->normal != BY_NONE : step->normal_value != 0;
 }
 
-/* A step straight to a displacement, the normal force as it is. */
+/* A step straight to a displacement, of the contact or at the rig, the normal force as it is. */
 static inline bool load_is_slide(const load_step *step) {
-    return step->kind == LOAD_STEP && !step->normal && step->tangential == BY_DISPLACEMENT && !step->relative;
+    return step->kind == LOAD_STEP && !step->normal && step->tangential > BY_FORCE && !step->relative;
 }
 
 #endif

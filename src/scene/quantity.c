@@ -68,10 +68,18 @@ static const quantity quantities[] = {
      .formulas = {{"F_x = FA sin(2 pi t)", NULL, 0}}},
     {.name = "dxA", .title = "displacement amplitude of the last cycle", .d = LENGTH, INPUT(IN_DXA),
      .formulas = {{"delta_x = dxA sin(2 pi t)", NULL, 0}}},
+    {.name = "drigA", .title = "displacement amplitude at the rig of the last cycle", .keywords = "stroke machine", .d = LENGTH, INPUT(IN_DRIGA),
+     .formulas = {{"drig = drigA sin(2 pi t)", NULL, 0}}},
     {.name = "FNA", .title = "amplitude of the normal force in the last cycle", .d = FORCE, INPUT(IN_FNA),
      .formulas = {{"F_N + FNA sin(2 pi t + phase)", NULL, 0}}},
     {.name = "phase", .title = "phase of the normal force in the last cycle", .d = ANGLE, INPUT(IN_PHASE),
      .formulas = {{"F_N + FNA sin(2 pi t + phase)", NULL, 0}}},
+    {.name = "K_rig", .title = "stiffness of the rig", .keywords = "compliance machine series frame", .d = STIFFNESS, INPUT(IN_K_RIG),
+     .formulas = {{"drig = dx + Fx/K_rig", NULL, 0}}},
+    {.name = "d0", .title = "offset of the rig's displacements", .keywords = "zero machine reading", .d = LENGTH, INPUT(IN_D0),
+     .formulas = {{"reading = drig + d0", NULL, 0}}},
+    {.name = "F0", .title = "offset of the rig's forces", .keywords = "zero machine reading", .d = FORCE, INPUT(IN_F0),
+     .formulas = {{"reading = Fx + F0", NULL, 0}}},
     {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN), CALL(FN, d, LENGTH),
      .reads = READS_NORMAL, .load = true,
      .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(13)", WHEN_POWER},
@@ -104,6 +112,8 @@ static const quantity quantities[] = {
                   {"delta_x = mu eta [g(a)-g(c)]", "(15)", WHEN_FIRST},
                   {"Masing: (delta_1-delta_x)/2 = delta_first((F_1-F_x)/2), from the turning point (F_1, delta_1)", NULL, WHEN_LATER},
                   {"delta_x = mu eta int sigma dy, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
+    {.name = "drig", .imposed = "step", .title = "tangential displacement at the rig", .keywords = "machine compliance", .d = LENGTH,
+     GETTER(drig), .reads = READS_TANGENTIAL, .load = true, .formulas = {{"drig = dx + Fx/K_rig", NULL, 0}}},
     {.name = "c", .title = "stick radius", .keywords = "slip annulus Cattaneo", .d = LENGTH, LOADING(c), CALL(c, F, FORCE),
      .reads = READS_TANGENTIAL,
      .formulas = {{"c/a = (1-F_x/(mu F_N))^(1/(n+k+1))", "(18)", WHEN_FIRST | WHEN_POWER},
@@ -230,6 +240,11 @@ const quantity *quantity_of_input(input in) {
     return &quantities[i];
 }
 
+const quantity *quantity_of_step(load_by by) {
+    const char *name = by == BY_FORCE ? "Fx" : by == BY_RIG ? "drig" : "dx";
+    return quantity_find(name, strlen(name));
+}
+
 static long double member(const void *of, size_t at) {
     long double v;
     memcpy(&v, (const char *)of + at, sizeof v);
@@ -333,6 +348,8 @@ model_id quantity_model(const quantity *q, scene *s, bool call) {
     case OF_GETTER:
         if (q->get == get_dW)
             return scene_closed_loss(s) ? closed : stepped;
+        if (q->get == get_drig)
+            return scene_closed_state(s) ? closed : stepped;
         return q->get == get_W1D ? MODEL_MEMORY : q->by ? q->by : closed;
     default:
         return closed;

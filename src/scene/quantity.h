@@ -37,7 +37,7 @@ typedef struct formula {
 /* Inputs that results have in common. */
 #define READS_MATERIAL (INPUT_MATERIAL | INPUT_BIT(IN_C0))
 #define READS_NORMAL (READS_MATERIAL | INPUT_GEOMETRY | INPUT_PRESS)
-#define READS_TANGENTIAL (READS_NORMAL | INPUT_BIT(IN_MU) | INPUT_CYCLE)
+#define READS_TANGENTIAL (READS_NORMAL | INPUT_BIT(IN_MU) | INPUT_CYCLE | INPUT_BIT(IN_K_RIG))
 
 enum { FORMULAS = 5 };
 
@@ -69,6 +69,8 @@ const quantity *quantity_row(size_t i); /* NULL after the last */
 const char *quantity_name(size_t i);    /* for suggest() */
 /* The row of an input. */
 const quantity *quantity_of_input(input in);
+/* The row of what a step goes to by this. */
+const quantity *quantity_of_step(load_by by);
 /* Is it an input that can be set? */
 static inline bool quantity_is_input(const quantity *q) {
     return q->in > 0;

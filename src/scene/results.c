@@ -148,6 +148,24 @@ bool get_W1D(scene *s, long double *out, calc_error *error) {
     return true;
 }
 
+bool get_drig(scene *s, long double *out, calc_error *error) {
+    fret_loading first;
+    const fret_state *now;
+    long double K_rig = 0;
+    if (!scene_get(s, IN_K_RIG, &K_rig, error))
+        return false;
+    if (scene_closed_state(s)) {
+        if (!scene_first_loading(s, &first, error))
+            return false;
+        *out = first.dx + first.Fx / K_rig;
+        return true;
+    }
+    if (!scene_forces(s, &now, error))
+        return false;
+    *out = now->dx + now->Fx / K_rig;
+    return true;
+}
+
 bool get_time(scene *s, long double *out, calc_error *error) {
     const load_reach *reach;
     if (!scene_reach(s, &reach, error))

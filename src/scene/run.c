@@ -105,13 +105,17 @@ static fret_step as_it_goes(const runner *r, const fret_step *to) {
     return step;
 }
 
+static fret_real at_rig(const runner *r, const fret_state *now) {
+    return now->dx + now->Fx / r->load->K_rig;
+}
+
 /* In double, as targets are: what was asked for is where it begins, and half of the way back is 0. */
 static void set_out(runner *r) {
     fret_state from;
     engine_forces(&r->engine, &from);
     r->way = as_it_goes(r, &r->leg.to);
     r->n = (double)(r->way.normal_by == FRET_TO_FORCE ? from.FN : from.dz);
-    r->t = (double)(r->way.tangential_by == FRET_TO_FX ? from.Fx : from.dx);
+    r->t = (double)(r->leg.rig ? at_rig(r, &from) : r->way.tangential_by == FRET_TO_FX ? from.Fx : from.dx);
 }
 
 static fret_status swing_part(runner *r) {
@@ -124,10 +128,13 @@ static fret_status swing_part(runner *r) {
     return r->chorded ? interrupted : st;
 }
 
-static fret_status step_of(runner *r, const fret_step *step) {
-    return r->leg.sine    ? swing_part(r)
-           : r->leg.chord ? engine_chord(&r->engine, step)
-                          : engine_step(&r->engine, step);
+static fret_status step_of(runner *r, const fret_step *to) {
+    fret_step step = *to;
+    const fret_status st = r->leg.rig ? engine_at_rig(&r->engine, r->load->K_rig, &step) : fine;
+    return st.code        ? st
+           : r->leg.sine  ? swing_part(r)
+           : r->leg.chord ? engine_chord(&r->engine, &step)
+                          : engine_step(&r->engine, &step);
 }
 
 static fret_status take_part(runner *r, double x) {
@@ -171,10 +178,15 @@ static bool move(runner *r) {
     return x <= 1;
 }
 
+/* A ramp to the rig goes straight in (delta_z, delta_x), wherever it is looked at: its end is found first. */
 static bool set_leg(runner *r, leg l) {
+    if (l.rig && !l.chord && l.to.normal_by != FRET_KEEP_NORMAL) {
+        r->status = engine_at_rig(&r->engine, r->load->K_rig, &l.to);
+        l.rig = false;
+    }
     r->leg = l;
     r->part = 0;
-    return r->moving = true;
+    return r->moving = !r->status.code;
 }
 
 /* ---- cycles ------------------------------------------------------------------------------------ */
@@ -188,6 +200,7 @@ static bool next_branch(runner *r) {
     const load_step *c = &r->item.step;
     const int sign = r->place.part++ ? 1 : -1;
     return set_leg(r, (leg){.to = {FRET_KEEP_NORMAL, tangential_by(c), 0, sign * c->tangential_value},
+                            .rig = c->tangential == BY_RIG,
                             .begin = r->time,
                             .end = r->time + 0.5,
                             .law = LEG_HALF,
@@ -223,20 +236,21 @@ typedef struct swing {
 } swing;
 
 /* d/d(angle) of the tangential load + sign x its bound at gross slip; by displacement the bound is mu eta
- * delta_z, which moves with d(F_N)/k_n. */
+ * delta_z, which moves with d(F_N)/k_n, and at the rig mu F_N/K_rig more. */
 static fret_real slip_rate(fret_real angle, fret_real *slope, void *about) {
     const swing *w = about;
     const double A = w->cycle->step.tangential_value, FNA = w->cycle->step.normal_value;
     const double phase = w->cycle->extra.phase;
     double bound = w->load->mu * FNA * (double)sinl(angle + phase);
     (void)slope;
-    if (w->cycle->step.tangential == BY_DISPLACEMENT) {
+    if (w->cycle->step.tangential != BY_FORCE) {
         fret_press press;
         const double FN = (double)(w->FN + FNA * cosl(angle + phase));
         if (!(FN > 0) || fret_press_by_force(w->load->normal, FN, &press).code)
             return NAN;
         bound *= (double)(fret_normal_foundation(w->load->normal)->eta /
-                          fret_normal_stiffness(w->load->normal, press.a));
+                          fret_normal_stiffness(w->load->normal, press.a)) +
+                 (w->cycle->step.tangential == BY_RIG ? 1 / w->load->K_rig : 0);
     }
     return -A * sinl(angle) - w->sign * bound;
 }
@@ -299,6 +313,7 @@ static bool next_chord(runner *r) {
     run_place *k = &r->place;
     const load_item *c = &r->item;
     leg l = {.to = {FRET_TO_FORCE, tangential_by(&c->step), 0, 0},
+             .rig = c->step.tangential == BY_RIG,
              .chord = true,
              .sine = r->engine.sine,
              .points = c->step.points ? c->step.points : RUN_CHORDS,
@@ -356,6 +371,7 @@ static bool first_leg(runner *r) {
     leg l = {.to = {FRET_KEEP_NORMAL, tangential_by(&c->step), 0, c->step.tangential_value},
              .begin = r->time,
              .end = r->time + 0.25,
+             .rig = c->step.tangential == BY_RIG,
              .law = LEG_RISE,
              .even = r->watch.next == next_point};
     if (c->step.normal_value != 0) {
@@ -421,7 +437,8 @@ static bool leg_of_step(runner *r) {
     leg l = {.to = {FRET_KEEP_NORMAL, FRET_KEEP_DX, c->normal_value, c->tangential_value},
              .points = c->points,
              .begin = r->time,
-             .end = r->time + 1};
+             .end = r->time + 1,
+             .rig = c->tangential == BY_RIG};
     if (!c->normal && (c->relative & RELATIVE_TANGENTIAL) && c->tangential_value == 0) {
         r->time++; /* nothing to do, and rounding must not make it a reversal */
         return false;
@@ -436,7 +453,10 @@ static bool leg_of_step(runner *r) {
         if (c->relative & RELATIVE_NORMAL)
             l.to.normal = (double)((c->normal == BY_FORCE ? now.FN : now.dz) + l.to.normal);
         if (c->relative & RELATIVE_TANGENTIAL)
-            l.to.tangential = (double)((c->tangential == BY_FORCE ? now.Fx : now.dx) + l.to.tangential);
+            l.to.tangential = (double)((l.rig                       ? at_rig(r, &now)
+                                        : c->tangential == BY_FORCE ? now.Fx
+                                                                    : now.dx) +
+                                       l.to.tangential);
     }
     return set_leg(r, l);
 }
@@ -484,7 +504,8 @@ void run_more(runner *r) {
 static bool on_the_way(const load_view *load, size_t i) {
     const load_step *step = &load->program->steps[i];
     if (i + 1 >= load->end.steps || !load_is_slide(step) || !load_is_slide(step + 1) ||
-        !load_is_slide(step - 1))
+        !load_is_slide(step - 1) || step[1].tangential != step->tangential ||
+        step[-1].tangential != step->tangential)
         return false;
     const double here = step->tangential_value, last = step[-1].tangential_value,
                  next = step[1].tangential_value;

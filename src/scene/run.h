@@ -15,7 +15,7 @@ typedef struct load_view {
     size_t last_cycle;
     const inputs *in;
     const fret_normal *normal;
-    double mu;
+    double mu, K_rig; /* of a rig that some step or cycle goes by */
     const volatile sig_atomic_t *stop;
     void (*pulse)(void); /* or NULL */
 } load_view;
@@ -29,6 +29,7 @@ typedef struct leg {
     fret_step to;
     double begin, end; /* time */
     leg_law law;       /* how the load goes in time: evenly, as a quarter or a half of a sine */
+    bool rig;          /* to a displacement at the rig, of which delta_x follows */
     bool chord;        /* of a swinging normal force: its ends are no turning points */
     bool sine;         /* a part of the sine itself, as the place in the cycle says */
     bool even;         /* part it evenly in load, not in time */

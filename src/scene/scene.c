@@ -61,7 +61,7 @@ void scene_used_law(scene *s, const fret_normal *normal) {
 }
 
 /* The others are of the bodies and of the shape. */
-static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE;
+static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE | INPUT_RIG;
 
 /* Bodies and shape that follow definitions may follow these. */
 void scene_forget(scene *s, bool keep) {
@@ -320,6 +320,7 @@ static void reach_step(load_reach *r, const load_step *step, unsigned times) {
     r->most = fmax(r->most, size);
     r->end = v;
     r->normal_varies = r->normal_varies || load_moves_normal(step);
+    r->rig = r->rig || step->tangential == BY_RIG;
     if (step->kind == LOAD_CYCLE) { /* a second period is closed whatever came before */
         r->closed = r->first || times > 1;
         r->swings = r->swings || step->normal_value != 0;

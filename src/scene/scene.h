@@ -23,6 +23,7 @@ typedef struct load_reach {
     double end;         /* where it ends */
     bool closed;        /* the last period of the last cycle returned to the state that it began in */
     bool normal_varies; /* some step changes F_N */
+    bool rig;           /* some goes to a displacement at the rig */
     bool swings;        /* a cycle does */
     size_t last_cycle;  /* its index, or NO_CYCLE */
 } load_reach;

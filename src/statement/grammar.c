@@ -15,9 +15,13 @@ static const struct {
     dim d;
     value_must must;
     int in; /* as of a clause */
-} others[] = {{"angle", {0, 0, 1, 0}, ANY, 0},  {"half_angle", {0, 0, 1, 0}, ANY, 0},
-              {"R1", {0, 1, 0, 0}, CURVED, 0},  {"R2", {0, 1, 0, 0}, CURVED, 0},
-              {"D", {0, 1, 0, 0}, POSITIVE, 0}, {"G", {1, -2, 0, 0}, ANY, 1 + IN_G0}};
+} others[] = {{"angle", {0, 0, 1, 0}, ANY, 0},
+              {"half_angle", {0, 0, 1, 0}, ANY, 0},
+              {"R1", {0, 1, 0, 0}, CURVED, 0},
+              {"R2", {0, 1, 0, 0}, CURVED, 0},
+              {"D", {0, 1, 0, 0}, POSITIVE, 0},
+              {"G", {1, -2, 0, 0}, ANY, 1 + IN_G0},
+              {"stiffness", {1, -1, 0, 0}, ANY, 1 + IN_K_RIG}};
 
 typedef struct parsing {
     grammar *out;

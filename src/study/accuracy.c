@@ -478,7 +478,7 @@ static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_stud
         scene_last_cycle(s, &cycle, error); /* cannot fail: scene_reach has read it */
         out->by_force = cycle.step.tangential == BY_FORCE;
         out->amplitude = cycle.step.tangential_value;
-        out->program = reach->normal_varies;
+        out->program = reach->normal_varies || reach->rig;
         out->from = FROM_CYCLE;
         return true;
     }

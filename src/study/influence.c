@@ -58,7 +58,7 @@ static void add_names(const calc *c, const expr *e, influence_study *out) {
 /* In the order in which a session gives them. */
 static void find_causes(const calc *c, const expr *e, program *own, const quantity *call, value argument,
                         influence_study *out) {
-    static const input of_cycle[] = {IN_FNA, IN_PHASE, IN_FA, IN_DXA};
+    static const input of_cycle[] = {IN_FNA, IN_PHASE, IN_FA, IN_DXA, IN_DRIGA};
     const scene *s = c->now;
     for (input in = 0; in < INPUTS; in++)
         if (!(INPUT_BIT(in) & INPUT_CYCLE))
@@ -70,7 +70,7 @@ static void find_causes(const calc *c, const expr *e, program *own, const quanti
         add_step(out, last->normal == BY_FORCE ? "step FN" : "step dz", (load_by)last->normal,
                  &last->normal_value, false, last->relative & RELATIVE_NORMAL);
     if (own && last->kind == LOAD_STEP && last->tangential)
-        add_step(out, last->tangential == BY_FORCE ? "Fx" : "dx", (load_by)last->tangential,
+        add_step(out, quantity_of_step((load_by)last->tangential)->name, (load_by)last->tangential,
                  &last->tangential_value, true, last->relative & RELATIVE_TANGENTIAL);
     add_names(c, e, out);
     if (call && argument.v != 0)

@@ -460,6 +460,14 @@ CALL(fret_springs_make) {
         w->springs = made;
     }
 }
+CALL(fret_springs_clone) {
+    fret_springs *made;
+    (void)x;
+    if (have_springs(w) && known_code(fret_springs_clone(w->springs, &made))) {
+        fret_springs_free(w->springs);
+        w->springs = made;
+    }
+}
 CALL(fret_springs_free) {
     (void)x;
     fret_springs_free(w->springs);
@@ -693,6 +701,7 @@ static const struct row {
     ROW(fret_cycle_loss_by_definition),
     ROW(fret_springs_make),
     ROW(fret_springs_free),
+    ROW(fret_springs_clone),
     ROW(fret_springs_step),
     ROW(fret_springs_state),
     ROW(fret_status_category),

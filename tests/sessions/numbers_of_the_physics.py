@@ -333,6 +333,19 @@ class Springs:
                 self.u[j] = u
             self.dz, self.dx = z, x
 
+    def to_rig(self, dz, d, K):
+        """To delta_x + F_x/K = d, in one step: by the secant, on copies."""
+        before, last = (self.u[:], self.dz, self.dx, self.W), (self.dx, d)
+        for _ in range(12):
+            off = []
+            for x in last:
+                self.u, self.dz, self.dx, self.W = before[0][:], *before[1:]
+                self.to(dz, x, 1)
+                off.append(x + self.force() / K - d)
+            if abs(off[1]) < 1e-15 or last[0] == last[1]:
+                return
+            last = last[1], last[1] - off[1] * (last[1] - last[0]) / (off[1] - off[0])
+
     def force(self):
         return self.cT * sum(w * u for w, u in zip(self.weight, self.u))
 
@@ -367,6 +380,50 @@ def histories(tests):
             close(tests, name + "W", W, got.get("W"), 2.5e-2)
             close(tests, name + "dz", z * 1e-6, got.get("dz"), 1e-14)
             close(tests, name + "dx", x * 1e-6, got.get("dx"), 1e-14)
+
+
+def rig(tests):
+    """By the displacement at the rig a history is the same; a loop over it has the same area; a swinging F_N against
+    springs."""
+    K, names = 80e6, ("Fx", "dx", "dz", "W", "U", "c")
+    for k in tests.some((0.5, 0.0, -0.3)):
+        scene = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry sphere R=10 mm; friction 0.4; rig stiffness=80 N/um\n" % k
+        own = by_rig = scene + "press dz=3 um\n"
+        for i, (z, x) in enumerate(PATH):
+            own += "step dz=%g um dx=%g um\n" % (z, x)
+            want = values(tests, own + "drig, " + ", ".join(names))
+            by_rig += "step dz=%g um drig=%.17g m\n" % (z, want["drig"])
+            got = values(tests, by_rig + ", ".join(names))
+            for name in names:
+                close(tests, "rig, k = %g, step %d: %s" % (k, i + 1, name), want[name], got.get(name), 1e-13 if name != "W" else 1e-12)
+            close(tests, "rig, k = %g, step %d: drig" % (k, i + 1), want["dx"] + want["Fx"] / K, want["drig"], 1e-15)
+        for amplitude in ("1.3 um", "4 um"):  # some slips; all slides
+            M = 400
+            done = tests.run("--format=json", "-c", scene + "press dz=3 um; cycle drigA=%s\ntable drig, dx, Fx, dW along cycle steps %d" % (amplitude, M))
+            rows = [row for row in harness.told(done.stdout) if "time" in row]
+            if not tests.check("rig, k = %g: the loop of %s" % (k, amplitude), len(rows) == M + 1, tests.report(done)):
+                continue
+            area = [sum((a["Fx"] + b["Fx"]) / 2 * (b[x] - a[x]) for a, b in zip(rows, rows[1:])) for x in ("drig", "dx")]
+            close(tests, "rig, k = %g, %s: the area is that over dx" % (k, amplitude), area[1], area[0], 1e-12)
+            close(tests, "rig, k = %g, %s: and dW" % (k, amplitude), rows[-1]["dW"], area[0], (2 * pi / M) ** 2)
+            at = max(abs(row["drig"] - rows[0]["drig"] * math.cos(2 * pi * (row["time"] - rows[0]["time"]))) for row in rows)
+            tests.check("rig, k = %g, %s: a sine in time" % (k, amplitude), at < 1e-14 * 1e-6, "%g" % at)
+    cN = 210e9 / 0.91 / 2
+    springs = Springs(400)
+    to = lambda s: springs.to_rig((0.75 * (100 + 30 * math.cos(s + pi / 2)) / cN / 0.1) ** (2 / 3), 1.5e-6 * math.cos(s), K)
+    springs.to((75 / cN / 0.1) ** (2 / 3), 0, 1)
+    to(0)
+    for i in range(1, 257):
+        if i == 129:
+            W = springs.W
+        to(2 * pi * i / 128)
+    got = values(tests, "material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4; rig stiffness=80 N/um; press FN=100 N\n"
+                 "cycle drigA=1.5 um FNA=30 N phase=90 deg times 2; dW, Fx, dx, drig; 1*dW at K_rig = 1e15 N/um\n"
+                 "press FN=100 N; cycle dxA=1.5 um FNA=30 N phase=90 deg times 2; 2*dW")
+    close(tests, "rig, swinging: dW against springs", springs.W - W, got.get("dW"), 1e-2)
+    close(tests, "rig, swinging: a stiff one is none", got["2*dW"] / 2, got.get("1*dW"), 1e-7)
+    close(tests, "rig, swinging: Fx against springs", springs.force(), got.get("Fx"), 1e-2)
+    close(tests, "rig, swinging: drig", 1.5e-6, got.get("drig"), 1e-15)
 
 
 RAMPS = ("FN=180 N dx=-0.3 um", "dz=2 um Fx=8 N", "FN=60 N dx+=0.5 um", "dz=6 um Fx=-20 N", "FN=90 N Fx=10 N", "dz=3 um dx=0.1 um",
@@ -415,4 +472,4 @@ def run(tests):
     tests.each([lambda: integrals(tests), lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
                 lambda: gap_file(tests), lambda: dense_file(tests), lambda: dense_fields(tests), lambda: tip_in_rows(tests), lambda: whole_gap(tests),
                 lambda: swinging_rows(tests), lambda: hardly_moved_rows(tests),
-                lambda: histories(tests), lambda: on_the_way(tests)])
+                lambda: histories(tests), lambda: rig(tests), lambda: on_the_way(tests)])
