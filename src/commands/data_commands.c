@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* fit and uncertainty: values with how sure they are. They leave the scene as it is. */
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,8 @@
 #include "commands/expressions.h"
 #include "commands/range.h"
 #include "commands/study_commands.h"
+#include "statement/progress.h"
+#include "statement/target.h"
 #include "study/fit.h"
 #include "study/uncertainty.h"
 
@@ -271,6 +274,122 @@ static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_qu
     return true;
 }
 
+/* ---- uncertainty: samples of a share, and of a file that has them all -------------------------- */
+
+enum { SAMPLES_COLUMNS = UNCERTAIN_VALUES + 1 };
+
+/* A row's number stands last: what has been cut off lacks it. */
+typedef struct samples_job {
+    answer a;
+    bool begun, goes_on;
+    const uncertainty_question *q;
+    const column *asked; /* of the expressions */
+    column columns[SAMPLES_COLUMNS];
+    size_t missing, rows, all;
+    calc_error why, *error;
+} samples_job;
+
+/* Values are in SI, whatever unit they are asked in: what is read again is the same. Their names are of a
+ * kind that a file of columns can have. */
+static bool begin_samples(samples_job *job, const value v[]) {
+    const uncertainty_question *q = job->q;
+    bool ok = true;
+    for (size_t k = 0; k < q->expressions && ok; k++) {
+        char name[CSV_NAME];
+        dim d = v[k].d;
+        column asked = job->asked[k];
+        if (isnan(v[k].v) && !expr_dim(q->c, &q->e[k], &d))
+            d = DIM_NONE;
+        snprintf(name, sizeof name, "v%zu", k + 1);
+        if (!column_fits(&q->e[k], &asked, (value){0, d}, job->error))
+            return false;
+        ok = column_si(&job->columns[k], name, d);
+    }
+    ok = ok && column_si(&job->columns[q->expressions], "sample", DIM_NONE);
+    if (job->goes_on)
+        answer_goes_on(&job->a, job->columns, q->expressions + 1);
+    job->begun = ok && (job->goes_on || answer_columns(&job->a, "samples", job->columns, q->expressions + 1));
+    return job->begun || calc_no_memory(job->error);
+}
+
+static bool give_sample(void *context, size_t sample, const value v[], const calc_error *why) {
+    samples_job *job = context;
+    long double row[SAMPLES_COLUMNS];
+    if (!job->begun && !begin_samples(job, v))
+        return false;
+    if (why && !job->missing++)
+        job->why = *why;
+    for (size_t k = 0; k < job->q->expressions; k++)
+        row[k] = v[k].v;
+    row[job->q->expressions] = (long double)(sample + 1);
+    answer_row(&job->a, row);
+    progress_part((double)++job->rows / (double)job->all);
+    return !ferror(job->a.to) ||
+           calc_fail(job->error, 0, 0, "cannot write to standard output: %s", strerror(errno));
+}
+
+static bool share_samples(shell *sh, const uncertainty_question *q, const column *asked, calc_error *error) {
+    samples_job *job = calloc(1, sizeof *job);
+    target to = {.to = sh->out, .format = sh->set.format};
+    size_t from, end;
+    if (!job)
+        return calc_no_memory(error);
+    if (!target_share(sh, &to, q->samples, &from, &end, error)) {
+        free(job);
+        return false;
+    }
+    *job = (samples_job){
+        .q = q, .asked = asked, .all = end - from, .goes_on = target_goes_on(sh, &to), .error = error};
+    answer_begin_as(&job->a, &sh->set, to.to, to.format);
+    const bool ok = uncertainty_samples(q, from, end, give_sample, job, error);
+    progress_wipe();
+    if (job->begun)
+        answer_end(&job->a, ok);
+    if (ok && job->missing)
+        shell_note(sh, "%zu of %zu samples lack a value: %s", job->missing, job->all, job->why.text);
+    columns_free(job->columns, SAMPLES_COLUMNS);
+    free(job);
+    return target_close(sh, NULL, &to, ok);
+}
+
+/* All samples are there, in their order, and every value, or that there is none. */
+static bool take_given(const csv *file, uncertainty_question *q, const double *given[], calc_error *error) {
+    const csv_values *number = csv_column(file, "sample", error);
+    if (!number)
+        return false;
+    if (file->columns != q->expressions + 1 || number != &file->column[q->expressions])
+        return calc_fail(error, 0, 0, "%.200s holds no samples of %zu values, which come before their number",
+                         file->path, q->expressions);
+    for (size_t i = 0; i < file->rows || i < q->samples; i++)
+        if (i >= file->rows || i >= q->samples || number->v[i] != (double)(i + 1))
+            return calc_fail(
+                error, 0, 0,
+                "%.200s:%zu: expected sample %zu of %u: the file takes all shares, in their order",
+                file->path, file->line[i < file->rows ? i : file->rows - 1], i + 1, q->samples);
+    for (size_t k = 0; k < q->expressions; k++) {
+        if (file->column[k].wrong)
+            return calc_fail(error, 0, 0, "%s", file->column[k].trouble);
+        given[k] = file->column[k].v;
+    }
+    q->given = given;
+    return true;
+}
+
+static bool same_dims(const csv *file, const uncertainty_question *q, const uncertainty_answer *a,
+                      calc_error *error) {
+    for (size_t k = 0; k < q->expressions; k++) {
+        char is[128], has[128];
+        dim_describe(a->value[k].d, is, sizeof is);
+        dim_describe(file->column[k].d, has, sizeof has);
+        if (!dim_equal(a->value[k].d, file->column[k].d))
+            return calc_fail(error, q->e[k].at, q->e[k].len, "this is %s, and %s of %.200s is %s", is,
+                             file->column[k].name, file->path, has);
+    }
+    return true;
+}
+
+/* ---- uncertainty: what is said ----------------------------------------------------------------- */
+
 static void report_uncertain(answer *out, const uncertainty_question *q, const uncertain *u,
                              const column *c) {
     answer_estimate(out, c, u->v, u->deviation);
@@ -305,7 +424,7 @@ static void remark_uncertain(shell *sh, answer *out, const uncertainty_question 
     }
     if (u->samples < q->samples)
         shell_note(sh, "%u of %u samples of %s %s no value: %s", q->samples - u->samples, q->samples, c->name,
-                   q->samples - u->samples > 1 ? "have" : "has", missing);
+                   q->samples - u->samples > 1 ? "have" : "has", q->given ? "the file has none" : missing);
 }
 
 static bool print_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
@@ -339,16 +458,38 @@ static unsigned usual_samples(shell *sh) {
     return reach->swings ? 200 : 10000;
 }
 
+/* from: the file of all samples, or NULL. */
+static bool answer_uncertainty(shell *sh, const lexer *lx, uncertainty_question *q, column *columns,
+                               const heard *from) {
+    uncertainty_answer *a = calloc(1, sizeof *a);
+    const double *given[UNCERTAIN_VALUES];
+    calc_error *error = lx->error;
+    char name[FILE_NAME];
+    csv file = {0};
+    bool ok = a || calc_no_memory(error);
+    if (ok && from)
+        ok = hole_file(lx, &from->hole[0], name) &&
+             ((csv_read(name, &shell_stop, &file, error) && take_given(&file, q, given, error)) ||
+              heard_place(error, from));
+    ok = ok && uncertainty(q, a, error) && (!from || same_dims(&file, q, a, error)) &&
+         print_uncertain(sh, q, a, columns, error);
+    csv_free(&file);
+    free(a);
+    return ok;
+}
+
 bool do_uncertainty(shell *sh, lexer *lx, const command *self) {
     uncertainty_question q = {.c = &sh->calc, .e = sh->list, .samples = usual_samples(sh), .seed = 1};
-    uncertainty_answer *a = calloc(1, sizeof *a);
     column columns[UNCERTAIN_VALUES];
     said all;
-    bool ok = (a || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all);
+    bool ok = said_read(sh, lx, command_form(self), &all);
     ok = ok && read_expressions_in(sh, lx, &all.list[0].hole[0], columns, UNCERTAIN_VALUES, &q.expressions);
-    ok = ok && read_uncertain(sh, lx, &all, &q) && uncertainty(&q, a, lx->error) &&
-         print_uncertain(sh, &q, a, columns, lx->error);
+    ok = ok && read_uncertain(sh, lx, &all, &q);
+    if (ok) {
+        const heard *from = said_of(&all, "from", 0);
+        ok = sh->share.of && !from ? share_samples(sh, &q, columns, lx->error)
+                                   : answer_uncertainty(sh, lx, &q, columns, from);
+    }
     columns_free(columns, q.expressions);
-    free(a);
     return ok;
 }

@@ -447,7 +447,7 @@ const command commands[] = {
      .run = do_uncertainty,
      .group = "backwards",
      .keywords = "error deviation Monte Carlo tolerance variance confidence sensitivity",
-     .takes = "EXPR, ... with INPUT +- DEVIATION, ... [samples N:10000000] [seed N:1000000000]",
+     .takes = "EXPR, ... with INPUT +- DEVIATION, ... [samples N:10000000] [seed N:1000000000] [from FILE.csv]",
      .summary = "how sure a value is, and which input that comes from",
      .help = "Standard deviations of independent inputs; 5 % is a part of the value. The\n"
              "answer is first order, from derivatives, with the share of each input in the\n"

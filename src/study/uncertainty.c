@@ -2,15 +2,16 @@
 /* Derivatives and samples. */
 #include "study/uncertainty.h"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 #include <math.h>
+#include <stdint.h>
 
 #include "study/points.h"
 
 typedef struct state {
     const uncertainty_question *of;
+    double x[UNCERTAIN_NAMES]; /* the present inputs */
     points p;
     dim d[UNCERTAIN_VALUES];
     bool known[UNCERTAIN_VALUES];
@@ -79,11 +80,11 @@ static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
     /* squares leave the range of double where what they are of does not */
     long double variance[UNCERTAIN_VALUES] = {0}, part[UNCERTAIN_VALUES][UNCERTAIN_NAMES];
     for (size_t i = 0; i < of->count; i++)
-        x[i] = out->x[i];
+        x[i] = s->x[i];
     if (!all_at(s, x, v))
         return no_value(s, error, NULL);
     for (size_t i = 0; i < of->count; i++) {
-        if (!derivative_of(s, out->x, i, slope, error))
+        if (!derivative_of(s, s->x, i, slope, error))
             return no_value(s, error, of->name[i].text);
         for (size_t k = 0; k < of->expressions; k++) {
             const long double moved = slope[k] * of->deviation[i];
@@ -124,63 +125,123 @@ static bool differs(const uncertain *u) {
     return fabs(u->mean - (double)u->v) > mean || fabs(u->spread - u->deviation) > spread;
 }
 
+/* The i-th of a sequence of 64 random bits, from a counter alone (SplitMix64: Steele, Lea and Flood 2014). */
+static uint64_t random_bits(uint64_t key, uint64_t i) {
+    uint64_t z = key + (i + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return z ^ (z >> 31);
+}
+
+/* Each sample has a seed of its own: who draws it need not draw those before. */
+static double normal_deviate(unsigned seed, size_t sample, size_t i) {
+    const uint64_t own = random_bits(random_bits(seed, 0), sample);
+    return gsl_cdf_ugaussian_Pinv(((double)(random_bits(own, i) >> 11) + 0.5) * 0x1p-53);
+}
+
 typedef struct sampling {
     state *s;
-    uncertainty_answer *answer;
-    gsl_rng *rng;
-    long double squares[UNCERTAIN_VALUES];
+    size_t first;
+    uncertainty_take *take;
+    void *context;
 } sampling;
 
-static void draw_sample(void *context, size_t sample, long double x[]) {
+static void draw_sample(void *context, size_t i, long double x[]) {
     const sampling *m = context;
     const uncertainty_question *of = m->s->of;
-    (void)sample;
-    for (size_t i = 0; i < of->count; i++)
-        x[i] = m->answer->x[i] + gsl_ran_gaussian_ziggurat(m->rng, of->deviation[i]);
+    for (size_t k = 0; k < of->count; k++)
+        x[k] = m->s->x[k] + of->deviation[k] * normal_deviate(of->seed, m->first + i, k);
 }
 
-static bool count(void *context, size_t sample, const long double x[], const value v[],
-                  const calc_error *why) {
-    sampling *m = context;
-    (void)sample;
+static bool take_drawn(void *context, size_t i, const long double x[], const value v[],
+                       const calc_error *why) {
+    const sampling *m = context;
     (void)x;
+    return keep_dims(m->s, v) && m->take(m->context, m->first + i, v, why);
+}
+
+static bool draw(state *s, size_t from, size_t to, uncertainty_take *take, void *context) {
+    sampling m = {.s = s, .first = from, .take = take, .context = context};
+    points_go(&s->p,
+              &(points_run){.count = to - from, .give = draw_sample, .take = take_drawn, .context = &m});
+    return !s->p.error->raised;
+}
+
+typedef struct counting {
+    const uncertainty_question *of;
+    uncertainty_answer *answer;
+    long double squares[UNCERTAIN_VALUES];
+} counting;
+
+static bool count(void *context, size_t sample, const value v[], const calc_error *why) {
+    counting *m = context;
+    (void)sample;
     if (why && !m->answer->missing.raised)
         m->answer->missing = *why;
-    for (size_t k = 0; k < m->s->of->expressions; k++)
+    for (size_t k = 0; k < m->of->expressions; k++)
         if (!isnan(v[k].v))
             take_sample(&m->answer->value[k], (double)v[k].v, &m->squares[k]);
-    return keep_dims(m->s, v);
+    return true;
 }
 
-static bool monte_carlo(state *s, uncertainty_answer *out, calc_error *error) {
-    sampling m = {.s = s, .answer = out, .rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    if (!m.rng)
-        return calc_no_memory(error);
-    gsl_rng_set(m.rng, s->of->seed);
-    points_go(&s->p,
-              &(points_run){.count = s->of->samples, .give = draw_sample, .take = count, .context = &m});
-    gsl_rng_free(m.rng);
+static void count_given(counting *m) {
+    value v[UNCERTAIN_VALUES];
+    for (size_t i = 0; i < m->of->samples; i++) {
+        for (size_t k = 0; k < m->of->expressions; k++)
+            v[k].v = m->of->given[k][i];
+        count(m, i, v, NULL);
+    }
+}
+
+static bool monte_carlo(state *s, uncertainty_answer *out) {
+    counting m = {.of = s->of, .answer = out};
+    if (s->of->given)
+        count_given(&m);
+    else if (!draw(s, 0, s->of->samples, count, &m))
+        return false;
     for (size_t k = 0; k < s->of->expressions; k++) {
         uncertain *u = &out->value[k];
         u->mean = u->samples > 0 ? u->mean : NAN;
         u->spread = u->samples > 1 ? (double)sqrtl(m.squares[k] / (u->samples - 1)) : NAN;
         u->differs = differs(u);
     }
-    return !error->raised;
+    return true;
+}
+
+/* ---- the question ------------------------------------------------------------------------------ */
+
+static bool know_present(state *s, calc_error *error) {
+    const uncertainty_question *of = s->of;
+    gsl_set_error_handler_off();
+    for (size_t i = 0; i < of->count; i++)
+        if (!ask_present(of->c, &of->name[i], &s->x[i]))
+            return ask_lacks(of->c, &of->name[i], "", "", error);
+    return true;
+}
+
+static bool open_points(state *s, calc_error *error) {
+    const uncertainty_question *of = s->of;
+    return points_open(&s->p, of->c, of->name, of->count, of->e, of->expressions, error);
 }
 
 bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, calc_error *error) {
     state s = {.of = question};
     *out = (uncertainty_answer){.evaluations = 0};
     error_clear(&out->missing);
-    gsl_set_error_handler_off();
-    for (size_t i = 0; i < question->count; i++)
-        if (!ask_present(question->c, &question->name[i], &out->x[i]))
-            return ask_lacks(question->c, &question->name[i], "", "", error);
-    const bool ok = points_open(&s.p, question->c, question->name, question->count, question->e,
-                                question->expressions, error) &&
-                    first_order(&s, out, error) && monte_carlo(&s, out, error);
+    if (!know_present(&s, error))
+        return false;
+    const bool ok = open_points(&s, error) && first_order(&s, out, error) && monte_carlo(&s, out);
     out->evaluations = s.p.evaluations;
+    points_close(&s.p);
+    return ok;
+}
+
+bool uncertainty_samples(const uncertainty_question *question, size_t from, size_t to, uncertainty_take *take,
+                         void *context, calc_error *error) {
+    state s = {.of = question};
+    if (!know_present(&s, error))
+        return false;
+    const bool ok = open_points(&s, error) && draw(&s, from, to, take, context);
     points_close(&s.p);
     return ok;
 }

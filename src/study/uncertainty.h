@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How sure values are whose inputs are uncertain: first order from derivatives, and a Monte Carlo beside it
- * (GSL's Mersenne twister, normal deviates, independent inputs). */
+ * (normal deviates, independent inputs). */
 #ifndef STUDY_UNCERTAINTY_H
 #define STUDY_UNCERTAINTY_H
 
@@ -17,6 +17,7 @@ typedef struct uncertainty_question {
     size_t expressions;
     unsigned samples; /* of the Monte Carlo; 0: none */
     unsigned seed;
+    const double *const *given; /* the values of all samples, by expression; NULL: they are drawn */
 } uncertainty_question;
 
 typedef struct uncertain {
@@ -32,9 +33,8 @@ typedef struct uncertain {
 
 typedef struct uncertainty_answer {
     uncertain value[UNCERTAIN_VALUES];
-    double x[UNCERTAIN_NAMES]; /* the present inputs */
     unsigned evaluations;
-    calc_error missing; /* why some samples have no value: raised */
+    calc_error missing; /* why some samples have no value: raised, where they are drawn */
 } uncertainty_answer;
 
 /* Errors: an input without a value; an expression without one there, or without a derivative (the end of what
@@ -42,5 +42,12 @@ typedef struct uncertainty_answer {
  * thousandth of the input, or of a tenth of its deviation where that is more: good to 1e-12 of themselves
  * where the expression is smooth over as much. */
 bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, calc_error *error);
+
+/* Samples from the first on and before the other alone, in their order; why: where a value is NaN. A sample
+ * depends on the seed and its number, so that it is the same in any share of them. `take` ends it by false.
+ */
+typedef bool uncertainty_take(void *context, size_t sample, const value v[], const calc_error *why);
+bool uncertainty_samples(const uncertainty_question *question, size_t from, size_t to, uncertainty_take *take,
+                         void *context, calc_error *error);
 
 #endif
