@@ -46,6 +46,7 @@ import reference  # noqa: E402
 import rim  # noqa: E402
 import rough  # noqa: E402
 import scripts  # noqa: E402
+import shares  # noqa: E402
 import sharing  # noqa: E402
 import smoothing  # noqa: E402
 import table  # noqa: E402
@@ -56,7 +57,7 @@ import units  # noqa: E402
 
 SANITIZE = "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all"
 # those that take longest begin
-ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.run, "sharing": sharing.run, "hard": units.hard,
+ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.run, "sharing": sharing.run, "shares": shares.run, "hard": units.hard,
          "accuracy": accuracy_test.run, "explaining": explaining.run, "errors": table.run, "programs": programs.run,
          "scripts": scripts.run, "trouble": trouble.run, "fits": fits.run, "instants": instants.run, "keeping": keeping.run,
          "backwards": backwards.run, "looks": looks.run, "paper": paper.run, "packaging": packaging.run, "house": house.run,

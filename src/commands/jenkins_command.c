@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "commands/study_commands.h"
+#include "commands/export_command.h"
 #include "language/trial.h"
 #include "statement/answer.h"
 #include "statement/progress.h"
@@ -21,10 +21,9 @@ typedef struct model {
 /* ---- forms ------------------------------------------------------------------------------------- */
 
 static bool write_csv(const settings *set, const model *m, FILE *to) {
-    static const dim stiffness = {1, -1, 0, 0};
     answer a;
     column columns[2] = {{.name = NULL}};
-    const bool ok = column_si(&columns[0], "k", stiffness) && column_si(&columns[1], "slip", DIM_FORCE);
+    const bool ok = column_si(&columns[0], "k", DIM_STIFFNESS) && column_si(&columns[1], "slip", DIM_FORCE);
     fprintf(to, "# parallel Jenkins elements of a contact at F_N = %.17g N, mu = %.17g\n",
             (double)m->contact.press.F, m->contact.mu);
     fprintf(to, "# worst error of the energy per cycle, up to the amplitude %.17g m: %.17g J\n",
@@ -106,8 +105,11 @@ typedef struct request {
 } request;
 
 static bool read_request(lexer *lx, said *all, request *r) {
-    r->count = said_of(all, "jenkins", 0)->count;
-    r->name = said_of(all, "to", 0)->hole[0];
+    const heard *count = said_of(all, "", 0), *to = said_of(all, "to", 0);
+    if (!count)
+        return calc_fail(lx->error, to->at, to->len, "expected how many elements before `to`: 1 to 1000");
+    r->count = count->count;
+    r->name = to->hole[0];
     r->write = form_of(lx, &r->name);
     r->FA = said_of(all, "FA", 0);
     return r->write && (!r->FA || r->count > 1 ||
@@ -164,14 +166,12 @@ static bool give_model(shell *sh, lexer *lx, const request *r, const model *m) {
     return ok;
 }
 
-bool do_export(shell *sh, lexer *lx, const command *self) {
+bool export_jenkins(shell *sh, lexer *lx, said *all) {
     request r;
-    said all;
     model m = {.count = 0};
     trial *t = NULL;
-    const bool ok = said_read(sh, lx, command_form(self), &all) && read_request(lx, &all, &r) &&
-                    (t = trial_open(&sh->calc, lx->error)) && make_model(t, &r, &m, lx->error) &&
-                    give_model(sh, lx, &r, &m);
+    const bool ok = read_request(lx, all, &r) && (t = trial_open(&sh->calc, lx->error)) &&
+                    make_model(t, &r, &m, lx->error) && give_model(sh, lx, &r, &m);
     calc_word(&sh->calc, lx->error);
     if (t)
         trial_close(t);
