@@ -30,6 +30,7 @@ static bool choose_form(const lexer *lx, const span *part, const char *name, tar
 bool target_file(const lexer *lx, const span *part, target *t) {
     char name[FILE_NAME];
     t->name = *part;
+    t->shared = false;
     if (!hole_file(lx, part, name))
         return false;
     if (!file_out_open(&t->file, name, &shell_stop, lx->error))

@@ -64,7 +64,8 @@ print("holds")
 """
 
 
-def run(tests):
+def python_of(tests):
+    """Runs a Python that has numpy, with the module; None: there is none, which is told."""
     env = dict(tests.env, PYTHONPATH=MODULE, FRET_LIBRARY=os.path.join(harness.ROOT, tests.build, "libfret.so"),
                FRET_PROGRAM=os.path.join(harness.ROOT, tests.fret))
 
@@ -76,8 +77,14 @@ def run(tests):
              if shutil.which(program) and not python("-c", "import numpy", program=program).returncode]
     if not knows:
         print("left out: the module for Python needs numpy")
+        return None
+    return functools.partial(python, program=knows[0])
+
+
+def run(tests):
+    python = python_of(tests)
+    if not python:
         return
-    python = functools.partial(python, program=knows[0])
     for name in ("_contact", "_session"):
         done = python("-c", "import doctest, fret.%s as m, sys; sys.exit(doctest.testmod(m, verbose=False).failed)" % name)
         tests.check("what fret.%s shows" % name, done.returncode == 0, done.stdout + done.stderr)
