@@ -64,6 +64,26 @@ print("holds")
 """
 
 
+TOLD = r"""
+import inspect
+import fret
+
+def public(of):
+    return [(name, getattr(of, name)) for name in vars(of) if not name.startswith("_")]
+
+for name in fret.__all__:
+    thing = getattr(fret, name)
+    assert name == "rigid" or inspect.getdoc(thing), name
+    for member, function in [(name, thing)] * inspect.isfunction(thing) + (public(thing) if inspect.isclass(thing) and thing is not fret.State else []):
+        function = function.fget if isinstance(function, property) else function
+        if inspect.isfunction(function):
+            signature = inspect.signature(function)
+            assert function.__doc__ and signature.return_annotation is not signature.empty, (name, member)
+            assert all(p.annotation is not p.empty for p in signature.parameters.values() if p.name != "self"), (name, member)
+print("told")
+"""
+
+
 def python_of(tests):
     """Runs a Python that has numpy, with the module; None: there is none, which is told."""
     env = dict(tests.env, PYTHONPATH=MODULE, FRET_LIBRARY=os.path.join(harness.ROOT, tests.build, "libfret.so"),
@@ -85,9 +105,11 @@ def run(tests):
     python = python_of(tests)
     if not python:
         return
-    for name in ("_contact", "_session"):
-        done = python("-c", "import doctest, fret.%s as m, sys; sys.exit(doctest.testmod(m, verbose=False).failed)" % name)
-        tests.check("what fret.%s shows" % name, done.returncode == 0, done.stdout + done.stderr)
+    for name in ("fret", "fret._contact", "fret._session"):
+        done = python("-c", "import doctest, sys, %s; r = doctest.testmod(sys.modules['%s']); sys.exit(r.failed or not r.attempted)" % (name, name))
+        tests.check("what %s shows" % name, done.returncode == 0, done.stdout + done.stderr)
+    done = python("-c", TOLD)
+    tests.check("all that is public is told of, with the types", done.stdout == "told\n", done.stdout + done.stderr)
     done = python("-c", TRIED)
     tests.check("the module beside the program", done.stdout == "holds\n", done.stdout + done.stderr)
     tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
