@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* fit and uncertainty: values with how sure they are. They leave the scene as it is. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -278,78 +277,62 @@ static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_qu
 
 enum { SAMPLES_COLUMNS = UNCERTAIN_VALUES + 1 };
 
-/* A row's number stands last: what has been cut off lacks it. */
 typedef struct samples_job {
     answer a;
     bool begun, goes_on;
-    const uncertainty_question *q;
-    const column *asked; /* of the expressions */
+    const uncertainty_answer *of;
     column columns[SAMPLES_COLUMNS];
-    size_t missing, rows, all;
-    calc_error why, *error;
+    size_t count, rows, all;
 } samples_job;
 
 /* Values are in SI, whatever unit they are asked in: what is read again is the same. Their names are of a
- * kind that a file of columns can have. */
-static bool begin_samples(samples_job *job, const value v[]) {
-    const uncertainty_question *q = job->q;
+ * kind that a file of columns can have, and their number comes last: what has been cut off lacks it. */
+static bool begin_samples(samples_job *job) {
+    char name[CSV_NAME];
     bool ok = true;
-    for (size_t k = 0; k < q->expressions && ok; k++) {
-        char name[CSV_NAME];
-        dim d = v[k].d;
-        column asked = job->asked[k];
-        if (isnan(v[k].v) && !expr_dim(q->c, &q->e[k], &d))
-            d = DIM_NONE;
+    for (size_t k = 0; k < job->count && ok; k++) {
         snprintf(name, sizeof name, "v%zu", k + 1);
-        if (!column_fits(&q->e[k], &asked, (value){0, d}, job->error))
-            return false;
-        ok = column_si(&job->columns[k], name, d);
+        ok = column_si(&job->columns[k], name, job->of->value[k].d);
     }
-    ok = ok && column_si(&job->columns[q->expressions], "sample", DIM_NONE);
+    ok = ok && column_si(&job->columns[job->count], "sample", DIM_NONE);
     if (job->goes_on)
-        answer_goes_on(&job->a, job->columns, q->expressions + 1);
-    job->begun = ok && (job->goes_on || answer_columns(&job->a, "samples", job->columns, q->expressions + 1));
-    return job->begun || calc_no_memory(job->error);
+        answer_goes_on(&job->a, job->columns, job->count + 1);
+    return ok && (job->goes_on || answer_columns(&job->a, "samples", job->columns, job->count + 1));
 }
 
-static bool give_sample(void *context, size_t sample, const value v[], const calc_error *why) {
+static bool give_sample(void *context, size_t sample, const value v[]) {
     samples_job *job = context;
     long double row[SAMPLES_COLUMNS];
-    if (!job->begun && !begin_samples(job, v))
+    job->a.lost = job->a.lost || (!job->begun && !begin_samples(job));
+    job->begun = true;
+    if (job->a.lost)
         return false;
-    if (why && !job->missing++)
-        job->why = *why;
-    for (size_t k = 0; k < job->q->expressions; k++)
+    for (size_t k = 0; k < job->count; k++)
         row[k] = v[k].v;
-    row[job->q->expressions] = (long double)(sample + 1);
+    row[job->count] = (long double)(sample + 1);
     answer_row(&job->a, row);
     progress_part((double)++job->rows / (double)job->all);
-    return !ferror(job->a.to) ||
-           calc_fail(job->error, 0, 0, "cannot write to standard output: %s", strerror(errno));
+    return !ferror(job->a.to); /* the end tells of it */
 }
 
-static bool share_samples(shell *sh, const uncertainty_question *q, const column *asked, calc_error *error) {
-    samples_job *job = calloc(1, sizeof *job);
+static bool share_samples(shell *sh, uncertainty_question *q, uncertainty_answer *a, calc_error *error) {
     target to = {.to = sh->out, .format = sh->set.format};
-    size_t from, end;
-    if (!job)
-        return calc_no_memory(error);
-    if (!target_share(sh, &to, q->samples, &from, &end, error)) {
-        free(job);
+    samples_job job = {.of = a, .count = q->expressions};
+    if (!target_share(sh, &to, q->samples, &q->from, &q->to, error))
         return false;
-    }
-    *job = (samples_job){
-        .q = q, .asked = asked, .all = end - from, .goes_on = target_goes_on(sh, &to), .error = error};
-    answer_begin_as(&job->a, &sh->set, to.to, to.format);
-    const bool ok = uncertainty_samples(q, from, end, give_sample, job, error);
+    q->take = give_sample;
+    q->context = &job;
+    job.all = q->to - q->from;
+    job.goes_on = target_goes_on(sh, &to);
+    answer_begin_as(&job.a, &sh->set, to.to, to.format);
+    const bool ok = uncertainty(q, a, error);
     progress_wipe();
-    if (job->begun)
-        answer_end(&job->a, ok);
-    if (ok && job->missing)
-        shell_note(sh, "%zu of %zu samples lack a value: %s", job->missing, job->all, job->why.text);
-    columns_free(job->columns, SAMPLES_COLUMNS);
-    free(job);
-    return target_close(sh, NULL, &to, ok);
+    if (!answer_end(&job.a, ok))
+        calc_no_memory(error);
+    if (ok && a->missing.raised)
+        shell_note(sh, "some samples lack a value: %s", a->missing.text);
+    columns_free(job.columns, SAMPLES_COLUMNS);
+    return target_close(sh, NULL, &to, ok && !error->raised);
 }
 
 /* All samples are there, in their order, and every value, or that there is none. */
@@ -367,25 +350,31 @@ static bool take_given(const csv *file, uncertainty_question *q, const double *g
                 "%.200s:%zu: expected sample %zu of %u: the file takes all shares, in their order",
                 file->path, file->line[i < file->rows ? i : file->rows - 1], i + 1, q->samples);
     for (size_t k = 0; k < q->expressions; k++) {
+        given[k] = file->column[k].v;
         if (file->column[k].wrong)
             return calc_fail(error, 0, 0, "%s", file->column[k].trouble);
-        given[k] = file->column[k].v;
     }
     q->given = given;
     return true;
 }
 
-static bool same_dims(const csv *file, const uncertainty_question *q, const uncertainty_answer *a,
-                      calc_error *error) {
-    for (size_t k = 0; k < q->expressions; k++) {
-        char is[128], has[128];
+static bool sum_given(const lexer *lx, uncertainty_question *q, uncertainty_answer *a, const heard *from) {
+    const double *given[UNCERTAIN_VALUES];
+    char name[FILE_NAME], is[128], has[128];
+    csv file = {0};
+    bool ok = hole_file(lx, &from->hole[0], name) &&
+              ((csv_read(name, &shell_stop, &file, lx->error) && take_given(&file, q, given, lx->error)) ||
+               heard_place(lx->error, from)) &&
+              uncertainty(q, a, lx->error);
+    for (size_t k = 0; k < q->expressions && ok; k++) {
         dim_describe(a->value[k].d, is, sizeof is);
-        dim_describe(file->column[k].d, has, sizeof has);
-        if (!dim_equal(a->value[k].d, file->column[k].d))
-            return calc_fail(error, q->e[k].at, q->e[k].len, "this is %s, and %s of %.200s is %s", is,
-                             file->column[k].name, file->path, has);
+        dim_describe(file.column[k].d, has, sizeof has);
+        ok = dim_equal(a->value[k].d, file.column[k].d) ||
+             calc_fail(lx->error, q->e[k].at, q->e[k].len, "this is %s, and %s of %.200s is %s", is,
+                       file.column[k].name, name, has);
     }
-    return true;
+    csv_free(&file);
+    return ok;
 }
 
 /* ---- uncertainty: what is said ----------------------------------------------------------------- */
@@ -458,38 +447,21 @@ static unsigned usual_samples(shell *sh) {
     return reach->swings ? 200 : 10000;
 }
 
-/* from: the file of all samples, or NULL. */
-static bool answer_uncertainty(shell *sh, const lexer *lx, uncertainty_question *q, column *columns,
-                               const heard *from) {
-    uncertainty_answer *a = calloc(1, sizeof *a);
-    const double *given[UNCERTAIN_VALUES];
-    calc_error *error = lx->error;
-    char name[FILE_NAME];
-    csv file = {0};
-    bool ok = a || calc_no_memory(error);
-    if (ok && from)
-        ok = hole_file(lx, &from->hole[0], name) &&
-             ((csv_read(name, &shell_stop, &file, error) && take_given(&file, q, given, error)) ||
-              heard_place(error, from));
-    ok = ok && uncertainty(q, a, error) && (!from || same_dims(&file, q, a, error)) &&
-         print_uncertain(sh, q, a, columns, error);
-    csv_free(&file);
-    free(a);
-    return ok;
-}
-
 bool do_uncertainty(shell *sh, lexer *lx, const command *self) {
     uncertainty_question q = {.c = &sh->calc, .e = sh->list, .samples = usual_samples(sh), .seed = 1};
+    uncertainty_answer *a = calloc(1, sizeof *a);
     column columns[UNCERTAIN_VALUES];
     said all;
-    bool ok = said_read(sh, lx, command_form(self), &all);
+    bool ok = (a || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all);
     ok = ok && read_expressions_in(sh, lx, &all.list[0].hole[0], columns, UNCERTAIN_VALUES, &q.expressions);
     ok = ok && read_uncertain(sh, lx, &all, &q);
-    if (ok) {
-        const heard *from = said_of(&all, "from", 0);
-        ok = sh->share.of && !from ? share_samples(sh, &q, columns, lx->error)
-                                   : answer_uncertainty(sh, lx, &q, columns, from);
-    }
+    const heard *from = ok ? said_of(&all, "from", 0) : NULL;
+    if (ok && sh->share.of && !from)
+        ok = share_samples(sh, &q, a, lx->error);
+    else
+        ok = ok && (from ? sum_given(lx, &q, a, from) : uncertainty(&q, a, lx->error)) &&
+             print_uncertain(sh, &q, a, columns, lx->error);
     columns_free(columns, q.expressions);
+    free(a);
     return ok;
 }

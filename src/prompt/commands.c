@@ -494,7 +494,7 @@ const command commands[] = {
              "    error of dW = 798.218 nJ\n"
              "    relative = 0.0147451\n"
              "    fret> export harmonic to harmonic.csv for dxA = 0.1 um .. 2 um steps 4\n"
-             "    wrote harmonic.csv (373 B)\n"
+             "    wrote harmonic.csv (305 B)\n"
              "    fret> cycle FA=20 N; export loop to loop.csv\n"
              "    wrote loop.csv (14 kB)\n"},
     {.name = "explain",

@@ -11,7 +11,6 @@
 
 typedef struct state {
     const uncertainty_question *of;
-    double x[UNCERTAIN_NAMES]; /* the present inputs */
     points p;
     dim d[UNCERTAIN_VALUES];
     bool known[UNCERTAIN_VALUES];
@@ -80,11 +79,11 @@ static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
     /* squares leave the range of double where what they are of does not */
     long double variance[UNCERTAIN_VALUES] = {0}, part[UNCERTAIN_VALUES][UNCERTAIN_NAMES];
     for (size_t i = 0; i < of->count; i++)
-        x[i] = s->x[i];
+        x[i] = out->x[i];
     if (!all_at(s, x, v))
         return no_value(s, error, NULL);
     for (size_t i = 0; i < of->count; i++) {
-        if (!derivative_of(s, s->x, i, slope, error))
+        if (!derivative_of(s, out->x, i, slope, error))
             return no_value(s, error, of->name[i].text);
         for (size_t k = 0; k < of->expressions; k++) {
             const long double moved = slope[k] * of->deviation[i];
@@ -141,107 +140,75 @@ static double normal_deviate(unsigned seed, size_t sample, size_t i) {
 
 typedef struct sampling {
     state *s;
-    size_t first;
-    uncertainty_take *take;
-    void *context;
+    uncertainty_answer *answer;
+    long double squares[UNCERTAIN_VALUES];
 } sampling;
 
 static void draw_sample(void *context, size_t i, long double x[]) {
     const sampling *m = context;
     const uncertainty_question *of = m->s->of;
     for (size_t k = 0; k < of->count; k++)
-        x[k] = m->s->x[k] + of->deviation[k] * normal_deviate(of->seed, m->first + i, k);
+        x[k] = m->answer->x[k] + of->deviation[k] * normal_deviate(of->seed, of->from + i, k);
+}
+
+static void count_sample(sampling *m, const value v[]) {
+    for (size_t k = 0; k < m->s->of->expressions; k++)
+        if (!isnan(v[k].v))
+            take_sample(&m->answer->value[k], (double)v[k].v, &m->squares[k]);
 }
 
 static bool take_drawn(void *context, size_t i, const long double x[], const value v[],
                        const calc_error *why) {
-    const sampling *m = context;
+    sampling *m = context;
+    const uncertainty_question *of = m->s->of;
     (void)x;
-    return keep_dims(m->s, v) && m->take(m->context, m->first + i, v, why);
-}
-
-static bool draw(state *s, size_t from, size_t to, uncertainty_take *take, void *context) {
-    sampling m = {.s = s, .first = from, .take = take, .context = context};
-    points_go(&s->p,
-              &(points_run){.count = to - from, .give = draw_sample, .take = take_drawn, .context = &m});
-    return !s->p.error->raised;
-}
-
-typedef struct counting {
-    const uncertainty_question *of;
-    uncertainty_answer *answer;
-    long double squares[UNCERTAIN_VALUES];
-} counting;
-
-static bool count(void *context, size_t sample, const value v[], const calc_error *why) {
-    counting *m = context;
-    (void)sample;
     if (why && !m->answer->missing.raised)
         m->answer->missing = *why;
-    for (size_t k = 0; k < m->of->expressions; k++)
-        if (!isnan(v[k].v))
-            take_sample(&m->answer->value[k], (double)v[k].v, &m->squares[k]);
-    return true;
+    if (!of->take)
+        count_sample(m, v);
+    return keep_dims(m->s, v) && (!of->take || of->take(of->context, of->from + i, v));
 }
 
-static void count_given(counting *m) {
+static void count_given(sampling *m) {
     value v[UNCERTAIN_VALUES];
-    for (size_t i = 0; i < m->of->samples; i++) {
-        for (size_t k = 0; k < m->of->expressions; k++)
-            v[k].v = m->of->given[k][i];
-        count(m, i, v, NULL);
+    for (size_t i = 0; i < m->s->of->samples; i++) {
+        for (size_t k = 0; k < m->s->of->expressions; k++)
+            v[k].v = m->s->of->given[k][i];
+        count_sample(m, v);
     }
 }
 
-static bool monte_carlo(state *s, uncertainty_answer *out) {
-    counting m = {.of = s->of, .answer = out};
-    if (s->of->given)
+static bool monte_carlo(state *s, uncertainty_answer *out, const calc_error *error) {
+    const uncertainty_question *of = s->of;
+    sampling m = {.s = s, .answer = out};
+    if (of->given)
         count_given(&m);
-    else if (!draw(s, 0, s->of->samples, count, &m))
-        return false;
-    for (size_t k = 0; k < s->of->expressions; k++) {
+    else
+        points_go(&s->p, &(points_run){.count = of->take ? of->to - of->from : of->samples,
+                                       .give = draw_sample,
+                                       .take = take_drawn,
+                                       .context = &m});
+    for (size_t k = 0; k < of->expressions; k++) {
         uncertain *u = &out->value[k];
         u->mean = u->samples > 0 ? u->mean : NAN;
         u->spread = u->samples > 1 ? (double)sqrtl(m.squares[k] / (u->samples - 1)) : NAN;
         u->differs = differs(u);
     }
-    return true;
-}
-
-/* ---- the question ------------------------------------------------------------------------------ */
-
-static bool know_present(state *s, calc_error *error) {
-    const uncertainty_question *of = s->of;
-    gsl_set_error_handler_off();
-    for (size_t i = 0; i < of->count; i++)
-        if (!ask_present(of->c, &of->name[i], &s->x[i]))
-            return ask_lacks(of->c, &of->name[i], "", "", error);
-    return true;
-}
-
-static bool open_points(state *s, calc_error *error) {
-    const uncertainty_question *of = s->of;
-    return points_open(&s->p, of->c, of->name, of->count, of->e, of->expressions, error);
+    return !error->raised;
 }
 
 bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, calc_error *error) {
     state s = {.of = question};
     *out = (uncertainty_answer){.evaluations = 0};
     error_clear(&out->missing);
-    if (!know_present(&s, error))
-        return false;
-    const bool ok = open_points(&s, error) && first_order(&s, out, error) && monte_carlo(&s, out);
+    gsl_set_error_handler_off();
+    for (size_t i = 0; i < question->count; i++)
+        if (!ask_present(question->c, &question->name[i], &out->x[i]))
+            return ask_lacks(question->c, &question->name[i], "", "", error);
+    const bool ok = points_open(&s.p, question->c, question->name, question->count, question->e,
+                                question->expressions, error) &&
+                    first_order(&s, out, error) && monte_carlo(&s, out, error);
     out->evaluations = s.p.evaluations;
-    points_close(&s.p);
-    return ok;
-}
-
-bool uncertainty_samples(const uncertainty_question *question, size_t from, size_t to, uncertainty_take *take,
-                         void *context, calc_error *error) {
-    state s = {.of = question};
-    if (!know_present(&s, error))
-        return false;
-    const bool ok = open_points(&s, error) && draw(&s, from, to, take, context);
     points_close(&s.p);
     return ok;
 }

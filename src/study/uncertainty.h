@@ -8,6 +8,9 @@
 
 enum { UNCERTAIN_NAMES = 12, UNCERTAIN_VALUES = 20 };
 
+/* One sample; NaN: no value. False ends them. */
+typedef bool uncertainty_take(void *context, size_t sample, const value v[]);
+
 typedef struct uncertainty_question {
     calc *c;
     knob name[UNCERTAIN_NAMES];
@@ -18,6 +21,11 @@ typedef struct uncertainty_question {
     unsigned samples; /* of the Monte Carlo; 0: none */
     unsigned seed;
     const double *const *given; /* the values of all samples, by expression; NULL: they are drawn */
+    /* or samples from the first on and before the other go there, and no sum is made: a sample depends on the
+     * seed and its number alone; NULL: they do not */
+    uncertainty_take *take;
+    void *context;
+    size_t from, to;
 } uncertainty_question;
 
 typedef struct uncertain {
@@ -33,6 +41,7 @@ typedef struct uncertain {
 
 typedef struct uncertainty_answer {
     uncertain value[UNCERTAIN_VALUES];
+    double x[UNCERTAIN_NAMES]; /* the present inputs */
     unsigned evaluations;
     calc_error missing; /* why some samples have no value: raised, where they are drawn */
 } uncertainty_answer;
@@ -42,12 +51,5 @@ typedef struct uncertainty_answer {
  * thousandth of the input, or of a tenth of its deviation where that is more: good to 1e-12 of themselves
  * where the expression is smooth over as much. */
 bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, calc_error *error);
-
-/* Samples from the first on and before the other alone, in their order; why: where a value is NaN. A sample
- * depends on the seed and its number, so that it is the same in any share of them. `take` ends it by false.
- */
-typedef bool uncertainty_take(void *context, size_t sample, const value v[], const calc_error *why);
-bool uncertainty_samples(const uncertainty_question *question, size_t from, size_t to, uncertainty_take *take,
-                         void *context, calc_error *error);
 
 #endif

@@ -28,7 +28,7 @@ def integrate(contact, d, omega, psi):
 
 blade = fret.Contact(fret.Material(E0=114e9, nu=0.34, k=0.2, c0=1e-4), fret.sphere(R=20e-3), mu=0.35)
 print("frequency [Hz],by harmonic balance [m],by time [m],difference,third harmonic")
-for d, Kp, Kpp in np.genfromtxt(sys.argv[1], delimiter=",", skip_header=2):
+for d, Kp, Kpp in np.genfromtxt(sys.argv[1], delimiter=",", skip_header=1):
     for side in (-1, 1):
         rest = side * np.sqrt((FORCE / d)**2 - Kpp**2)
         square = (STIFFNESS + Kp + rest) / MASS
