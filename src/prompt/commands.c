@@ -496,7 +496,7 @@ const command commands[] = {
              "    fret> export harmonic to harmonic.csv for dxA = 0.1 um .. 2 um steps 4\n"
              "    wrote harmonic.csv (305 B)\n"
              "    fret> cycle FA=20 N; export loop to loop.csv\n"
-             "    wrote loop.csv (14 kB)\n"},
+             "    wrote loop.csv (9.8 kB)\n"},
     {.name = "explain",
      .run = do_explain,
      .group = "results",
