@@ -336,42 +336,47 @@ static bool share_samples(shell *sh, uncertainty_question *q, uncertainty_answer
 }
 
 /* All samples are there, in their order, and every value, or that there is none. */
-static bool take_given(const csv *file, uncertainty_question *q, const double *given[], calc_error *error) {
+static bool take_given(csv *file, uncertainty_question *q, const csv_values *given[], const double *values[],
+                       calc_error *error) {
     const csv_values *number = csv_column(file, "sample", error);
     if (!number)
         return false;
-    if (file->columns != q->expressions + 1 || number != &file->column[q->expressions])
-        return calc_fail(error, 0, 0, "%.200s holds no samples of %zu values, which come before their number",
-                         file->path, q->expressions);
+    if (file->columns != q->expressions + 1)
+        return calc_fail(error, 0, 0, "%.200s holds no samples of %zu values", file->path, q->expressions);
     for (size_t i = 0; i < file->rows || i < q->samples; i++)
         if (i >= file->rows || i >= q->samples || number->v[i] != (double)(i + 1))
             return calc_fail(
                 error, 0, 0,
                 "%.200s:%zu: expected sample %zu of %u: the file takes all shares, in their order",
-                file->path, file->line[i < file->rows ? i : file->rows - 1], i + 1, q->samples);
+                file->path, file->row[i < file->rows ? i : file->rows - 1].line, i + 1, q->samples);
     for (size_t k = 0; k < q->expressions; k++) {
-        given[k] = file->column[k].v;
-        if (file->column[k].wrong)
-            return calc_fail(error, 0, 0, "%s", file->column[k].trouble);
+        char name[CSV_NAME];
+        snprintf(name, sizeof name, "v%zu", k + 1);
+        given[k] = csv_column(file, name, error);
+        if (!given[k])
+            return false;
+        values[k] = given[k]->v;
     }
-    q->given = given;
+    q->given = values;
     return true;
 }
 
 static bool sum_given(const lexer *lx, uncertainty_question *q, uncertainty_answer *a, const heard *from) {
-    const double *given[UNCERTAIN_VALUES];
+    const csv_values *given[UNCERTAIN_VALUES];
+    const double *values[UNCERTAIN_VALUES];
     char name[FILE_NAME], is[128], has[128];
     csv file = {0};
-    bool ok = hole_file(lx, &from->hole[0], name) &&
-              ((csv_read(name, &shell_stop, &file, lx->error) && take_given(&file, q, given, lx->error)) ||
-               heard_place(lx->error, from)) &&
-              uncertainty(q, a, lx->error);
+    bool ok =
+        hole_file(lx, &from->hole[0], name) &&
+        ((csv_read(name, &shell_stop, &file, lx->error) && take_given(&file, q, given, values, lx->error)) ||
+         heard_place(lx->error, from)) &&
+        uncertainty(q, a, lx->error);
     for (size_t k = 0; k < q->expressions && ok; k++) {
         dim_describe(a->value[k].d, is, sizeof is);
-        dim_describe(file.column[k].d, has, sizeof has);
-        ok = dim_equal(a->value[k].d, file.column[k].d) ||
+        dim_describe(given[k]->d, has, sizeof has);
+        ok = dim_equal(a->value[k].d, given[k]->d) ||
              calc_fail(lx->error, q->e[k].at, q->e[k].len, "this is %s, and %s of %.200s is %s", is,
-                       file.column[k].name, name, has);
+                       given[k]->name, name, has);
     }
     csv_free(&file);
     return ok;

@@ -16,7 +16,4 @@ const export_model *export_row(size_t i); /* NULL after the last */
 const char *export_name(size_t i);
 const grammar *export_form(size_t i);
 
-/* jenkins_command.c */
-bool export_jenkins(shell *sh, lexer *lx, said *all);
-
 #endif
