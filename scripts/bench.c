@@ -140,6 +140,44 @@ static double moving(const fret_normal *n, const fret_press *p, bool by_force, d
     return best;
 }
 
+/* A thousand contacts whose histories lie with a dynamics code, each of some doubles: one contact of the
+ * library takes a history, makes a step and gives it back. Without `kept` each has a contact of its own. */
+enum { CONTACTS = 1000, ROOM = 256 };
+static double thousand(const fret_normal *n, const fret_press *p, fret_exactness exactness, bool kept) {
+    enum { STEPS = 40 };
+    static double history[CONTACTS][ROOM];
+    static size_t size[CONTACTS];
+    static fret_contact *own[CONTACTS];
+    const double slip = (double)fret_gross_slip(&(fret_pressed){n, mu, *p});
+    double best = INFINITY;
+    for (int i = 0; i < (kept ? 1 : CONTACTS); i++) {
+        need(fret_contact_make(n, mu, exactness, &own[i]));
+        need(fret_contact_step(own[i], &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, FN, 0}));
+    }
+    for (int i = 0; i < CONTACTS && kept; i++)
+        need(fret_contact_pack(own[0], history[i], ROOM, &size[i]));
+    for (int run = 0; run < 10; run++) {
+        double t0 = seconds();
+        for (long s = 0; s < STEPS; s++)
+            for (int i = 0; i < CONTACTS; i++) {
+                fret_contact *at = own[kept ? 0 : i];
+                fret_state now;
+                if (kept)
+                    need(fret_contact_unpack(at, history[i], size[i]));
+                need(fret_contact_step(
+                    at, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, slip * drive(7 * i + s)}));
+                fret_contact_forces(at, &now);
+                sink = (double)now.Fx;
+                if (kept)
+                    need(fret_contact_pack(at, history[i], ROOM, &size[i]));
+            }
+        best = fmin(best, (seconds() - t0) / (STEPS * CONTACTS));
+    }
+    for (int i = 0; i < (kept ? 1 : CONTACTS); i++)
+        fret_contact_free(own[i]);
+    return best;
+}
+
 /* Springs of the library, a spring and step: the least of some runs. */
 static double library_springs(const fret_normal *n, const fret_press *p, size_t count, long steps,
                               bool by_force) {
@@ -816,6 +854,12 @@ int main(void) {
          "plain loop by displacement", ns, "");
     line("10^4 springs, FN and Fx swing", swinging_springs(n, &p, 10000), one, "plain loop by displacement",
          ns, "");
+    puts("A thousand contacts, a step of one");
+    for (int i = 0; i < 2; i++) {
+        const fret_exactness exactness = i ? FRET_EXACT : FRET_DOUBLE;
+        line(i ? "packed histories, exact" : "packed histories, double", thousand(n, &p, exactness, true),
+             thousand(n, &p, exactness, false), "a contact each", ns, "");
+    }
     puts("The loss of a cycle at equal error");
     compare(n, &p);
     puts("Closed forms");

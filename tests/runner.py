@@ -35,6 +35,7 @@ import live  # noqa: E402
 import looks  # noqa: E402
 import moving  # noqa: E402
 import numbers_of_the_physics  # noqa: E402
+import oscillating  # noqa: E402
 import packaging  # noqa: E402
 import paper  # noqa: E402
 import portable  # noqa: E402
@@ -46,6 +47,7 @@ import reference  # noqa: E402
 import rim  # noqa: E402
 import rough  # noqa: E402
 import scripts  # noqa: E402
+import shares  # noqa: E402
 import sharing  # noqa: E402
 import smoothing  # noqa: E402
 import table  # noqa: E402
@@ -56,17 +58,17 @@ import units  # noqa: E402
 
 SANITIZE = "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all"
 # those that take longest begin
-ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.run, "sharing": sharing.run, "hard": units.hard,
+ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.run, "sharing": sharing.run, "shares": shares.run, "hard": units.hard,
          "accuracy": accuracy_test.run, "explaining": explaining.run, "errors": table.run, "programs": programs.run,
          "scripts": scripts.run, "trouble": trouble.run, "fits": fits.run, "instants": instants.run, "keeping": keeping.run,
          "backwards": backwards.run, "looks": looks.run, "paper": paper.run, "packaging": packaging.run, "house": house.run,
          "figures": figures.run, "sessions": transcripts.run, "help": helping.run, "reference": reference.run, "reading": reading.run,
          "smoothing": smoothing.run, "answers": answers.run, "following": following.run, "forms": forms.run, "readme": transcripts.readme, "fuzz": fuzzing.run,
-         "portable": portable.run, "python": python_module.run, "moving": moving.run, "completion": completion.run, "rough": rough.run, "typed": typed.run,
+         "portable": portable.run, "python": python_module.run, "oscillator": oscillating.run, "moving": moving.run, "completion": completion.run, "rough": rough.run, "typed": typed.run,
          "live": live.run, "interactive": prompt.run}
 DRAWING = ("unit", "hard", "numbers", "errors", "fits", "instants", "accuracy", "programs", "typed", "rim", "sharing", "explaining", "completion", "moving")
 PLAIN = ("house", "packaging")  # the sanitized program has the same sources
-OTHER = ("fuzz", "portable", "python")  # builds of their own, and what stands on the library, in check-all alone
+OTHER = ("fuzz", "portable", "python", "oscillator")  # builds of their own, and what stands on the library, in check-all alone
 WAITING = ("moving", "completion", "rough", "typed", "live", "interactive")  # for a terminal, most of the time
 
 Result = collections.namedtuple("Result", "label room cases seconds processor")

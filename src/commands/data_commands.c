@@ -8,6 +8,8 @@
 #include "commands/expressions.h"
 #include "commands/range.h"
 #include "commands/study_commands.h"
+#include "statement/progress.h"
+#include "statement/target.h"
 #include "study/fit.h"
 #include "study/uncertainty.h"
 
@@ -271,6 +273,117 @@ static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_qu
     return true;
 }
 
+/* ---- uncertainty: samples of a share, and of a file that has them all -------------------------- */
+
+enum { SAMPLES_COLUMNS = UNCERTAIN_VALUES + 1 };
+
+typedef struct samples_job {
+    answer a;
+    bool begun, goes_on;
+    const uncertainty_answer *of;
+    column columns[SAMPLES_COLUMNS];
+    size_t count, rows, all;
+} samples_job;
+
+/* Values are in SI, whatever unit they are asked in: what is read again is the same. Their names are of a
+ * kind that a file of columns can have, and their number comes last: what has been cut off lacks it. */
+static bool begin_samples(samples_job *job) {
+    char name[CSV_NAME];
+    bool ok = true;
+    for (size_t k = 0; k < job->count && ok; k++) {
+        snprintf(name, sizeof name, "v%zu", k + 1);
+        ok = column_si(&job->columns[k], name, job->of->value[k].d);
+    }
+    ok = ok && column_si(&job->columns[job->count], "sample", DIM_NONE);
+    if (job->goes_on)
+        answer_goes_on(&job->a, job->columns, job->count + 1);
+    return ok && (job->goes_on || answer_columns(&job->a, "samples", job->columns, job->count + 1));
+}
+
+static bool give_sample(void *context, size_t sample, const value v[]) {
+    samples_job *job = context;
+    long double row[SAMPLES_COLUMNS];
+    job->a.lost = job->a.lost || (!job->begun && !begin_samples(job));
+    job->begun = true;
+    if (job->a.lost)
+        return false;
+    for (size_t k = 0; k < job->count; k++)
+        row[k] = v[k].v;
+    row[job->count] = (long double)(sample + 1);
+    answer_row(&job->a, row);
+    progress_part((double)++job->rows / (double)job->all);
+    return !ferror(job->a.to); /* the end tells of it */
+}
+
+static bool share_samples(shell *sh, uncertainty_question *q, uncertainty_answer *a, calc_error *error) {
+    target to = {.to = sh->out, .format = sh->set.format};
+    samples_job job = {.of = a, .count = q->expressions};
+    if (!target_share(sh, &to, q->samples, &q->from, &q->to, error))
+        return false;
+    q->take = give_sample;
+    q->context = &job;
+    job.all = q->to - q->from;
+    job.goes_on = target_goes_on(sh, &to);
+    answer_begin_as(&job.a, &sh->set, to.to, to.format);
+    const bool ok = uncertainty(q, a, error);
+    progress_wipe();
+    if (!answer_end(&job.a, ok))
+        calc_no_memory(error);
+    if (ok && a->missing.raised)
+        shell_note(sh, "some samples lack a value: %s", a->missing.text);
+    columns_free(job.columns, SAMPLES_COLUMNS);
+    return target_close(sh, NULL, &to, ok && !error->raised);
+}
+
+/* All samples are there, in their order, and every value, or that there is none. */
+static bool take_given(csv *file, uncertainty_question *q, const csv_values *given[], const double *values[],
+                       calc_error *error) {
+    const csv_values *number = csv_column(file, "sample", error);
+    if (!number)
+        return false;
+    if (file->columns != q->expressions + 1)
+        return calc_fail(error, 0, 0, "%.200s holds no samples of %zu values", file->path, q->expressions);
+    for (size_t i = 0; i < file->rows || i < q->samples; i++)
+        if (i >= file->rows || i >= q->samples || number->v[i] != (double)(i + 1))
+            return calc_fail(
+                error, 0, 0,
+                "%.200s:%zu: expected sample %zu of %u: the file takes all shares, in their order",
+                file->path, file->row[i < file->rows ? i : file->rows - 1].line, i + 1, q->samples);
+    for (size_t k = 0; k < q->expressions; k++) {
+        char name[CSV_NAME];
+        snprintf(name, sizeof name, "v%zu", k + 1);
+        given[k] = csv_column(file, name, error);
+        if (!given[k])
+            return false;
+        values[k] = given[k]->v;
+    }
+    q->given = values;
+    return true;
+}
+
+static bool sum_given(const lexer *lx, uncertainty_question *q, uncertainty_answer *a, const heard *from) {
+    const csv_values *given[UNCERTAIN_VALUES];
+    const double *values[UNCERTAIN_VALUES];
+    char name[FILE_NAME], is[128], has[128];
+    csv file = {0};
+    bool ok =
+        hole_file(lx, &from->hole[0], name) &&
+        ((csv_read(name, &shell_stop, &file, lx->error) && take_given(&file, q, given, values, lx->error)) ||
+         heard_place(lx->error, from)) &&
+        uncertainty(q, a, lx->error);
+    for (size_t k = 0; k < q->expressions && ok; k++) {
+        dim_describe(a->value[k].d, is, sizeof is);
+        dim_describe(given[k]->d, has, sizeof has);
+        ok = dim_equal(a->value[k].d, given[k]->d) ||
+             calc_fail(lx->error, q->e[k].at, q->e[k].len, "this is %s, and %s of %.200s is %s", is,
+                       given[k]->name, name, has);
+    }
+    csv_free(&file);
+    return ok;
+}
+
+/* ---- uncertainty: what is said ----------------------------------------------------------------- */
+
 static void report_uncertain(answer *out, const uncertainty_question *q, const uncertain *u,
                              const column *c) {
     answer_estimate(out, c, u->v, u->deviation);
@@ -305,7 +418,7 @@ static void remark_uncertain(shell *sh, answer *out, const uncertainty_question 
     }
     if (u->samples < q->samples)
         shell_note(sh, "%u of %u samples of %s %s no value: %s", q->samples - u->samples, q->samples, c->name,
-                   q->samples - u->samples > 1 ? "have" : "has", missing);
+                   q->samples - u->samples > 1 ? "have" : "has", q->given ? "the file has none" : missing);
 }
 
 static bool print_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
@@ -346,8 +459,13 @@ bool do_uncertainty(shell *sh, lexer *lx, const command *self) {
     said all;
     bool ok = (a || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all);
     ok = ok && read_expressions_in(sh, lx, &all.list[0].hole[0], columns, UNCERTAIN_VALUES, &q.expressions);
-    ok = ok && read_uncertain(sh, lx, &all, &q) && uncertainty(&q, a, lx->error) &&
-         print_uncertain(sh, &q, a, columns, lx->error);
+    ok = ok && read_uncertain(sh, lx, &all, &q);
+    const heard *from = ok ? said_of(&all, "from", 0) : NULL;
+    if (ok && sh->share.of && !from)
+        ok = share_samples(sh, &q, a, lx->error);
+    else
+        ok = ok && (from ? sum_given(lx, &q, a, from) : uncertainty(&q, a, lx->error)) &&
+             print_uncertain(sh, &q, a, columns, lx->error);
     columns_free(columns, q.expressions);
     free(a);
     return ok;

@@ -7,7 +7,7 @@
 
 /* study_commands.c, data_commands.c; without GSL study_none.c */
 command_run do_solve, do_maximize, do_minimize, do_fit, do_uncertainty;
-/* jenkins_command.c, loop_command.c */
+/* export_command.c, loop_command.c */
 command_run do_export, do_loop;
 
 /* What --version says of it, behind its own; empty: nothing. */

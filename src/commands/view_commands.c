@@ -69,9 +69,10 @@ typedef struct table_job {
     comparison compared[COLUMNS];
     size_t comparisons;
     bool begun, blocks;
-    const char *name; /* where it goes, for messages */
-    bool screen;      /* rows that go there are progress enough */
-    size_t rows;
+    bool goes_on;             /* the head of the table is in another share */
+    const char *name;         /* where it goes, for messages */
+    bool screen;              /* rows that go there are progress enough */
+    size_t before, rows, all; /* of other shares, that there have been, that are wanted */
     calc_error *error;
 } table_job;
 
@@ -118,14 +119,16 @@ static bool begin_table(table_job *job) {
     const size_t all = job->first + job->count + job->shown;
     if (!columns_distinct(job->columns, all))
         return calc_no_memory(job->error);
-    job->begun = answer_columns(&job->a, "table", job->columns, all);
+    if (job->goes_on)
+        answer_goes_on(&job->a, job->columns, all);
+    job->begun = job->goes_on || answer_columns(&job->a, "table", job->columns, all);
     return job->begun || calc_no_memory(job->error);
 }
 
 /* The names' values in a row of the file, and what is compared there; values: of the expressions. */
 static void give_compared(table_job *job, const long double *values, long double *row) {
     const sweep_rows *at = &job->at->at;
-    const size_t r = job->rows % job->at->data.rows;
+    const size_t r = (job->before + job->rows) % job->at->data.rows;
     for (size_t i = 0; i < at->names; i++)
         row[i] = at->column[i].v[r];
     for (size_t i = 0; i < job->comparisons; i++) {
@@ -153,12 +156,11 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     if (job->at)
         give_compared(job, values, row);
     memcpy(row + job->first, values, job->count * sizeof *row);
-    const size_t curves = s->curves ? s->curves : 1;
     job->rows++;
     if (job->screen && answer_shows_next(&job->a))
         progress_wipe();
     else
-        progress_part((double)job->rows / (double)(curves * (s->steps + 1)));
+        progress_part((double)job->rows / (double)job->all);
     answer_row(&job->a, row);
     /* a reader that has gone, or a full disk: no use in going on */
     return !ferror(job->a.to) ||
@@ -277,11 +279,16 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
     memcpy(job->columns + job->first, columns, count * sizeof *columns); /* with their names */
     for (size_t i = 0; i < count; i++)
         columns[i].name = NULL;
-    answer_begin_as(&job->a, &sh->set, to.to, to.format);
     sweep_job sweeping =
         range_job(sh, job->columns + job->first, count, &job->found, give_row, job, lx->error);
+    const size_t rows = g ? (g->a.steps + 1) * (g->b.steps + 1) : sweep_length(s);
+    bool ok = (own_columns(job, s, second) || calc_no_memory(lx->error)) &&
+              target_share(sh, &to, rows, &sweeping.from, &sweeping.to, lx->error);
+    job->before = sweeping.from;
+    job->all = sweeping.to - sweeping.from;
+    job->goes_on = target_goes_on(sh, &to);
     job->screen = to.to == sh->out && shell_on_terminal(sh);
-    bool ok = own_columns(job, s, second) || calc_no_memory(lx->error);
+    answer_begin_as(&job->a, &sh->set, to.to, to.format);
     const bool square = g && to.format == FORMAT_TEXT && !to.blocks;
     ok = ok && (square ? run_matrix(sh, job, g, &sweeping)
                 : g    ? grid_run(g, &sweeping)
@@ -292,7 +299,7 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
     if (ok)
         note_missing(sh, &sweeping);
     ok = target_close(sh, lx, &to, ok);
-    if (ok)
+    if (ok && job->all == rows) /* a share has not seen all of them */
         say_compared(sh, job);
     if (ok && at)
         rows_say(sh, at);

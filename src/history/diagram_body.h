@@ -877,10 +877,11 @@ static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count)
     for (size_t i = 0; i < count; i++)
         if (!isfinite(from[i]))
             return wrong;
-    DIAGRAM *made;
-    fret_status st = diagram_make(d->normal, d->mu, (count - least) / (2 * NUMBERS_LAYER) + 1, &made);
-    if (st.code)
-        return st;
+    DIAGRAM own = *d, *made = &own; /* of the same law: its series are long to make */
+    fret_status st = fret_ok();
+    made->layers = malloc(((count - least) / (2 * NUMBERS_LAYER) + 1) * sizeof *made->layers);
+    if (!made->layers)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     NUMBER rest[NUMBERS_REST];
     made->count = (count - least) / (2 * NUMBERS_LAYER);
     made->told = from[PACKED_TOLD] == (double)LOAD ? LOAD : DEPTH;
@@ -893,11 +894,15 @@ static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count)
         next = unpack_number(unpack_point(next, &made->layers[i].inner), &made->layers[i].sigma);
     made->dz = rest[0], made->slid = rest[1], made->dx = rest[2], made->Fx = rest[3];
     made->W = rest[4], made->W_rest = rest[5], made->last_loss = rest[6];
-    st = !is_history(made) ? wrong
-         : made->count     ? law_press(made, made->told, (double)made->edge.y[made->told])
-                           : st;
+    const coordinate by = made->told;
+    const NUMBER end = made->edge.y[by];
+    if (!is_history(made))
+        st = wrong;
+    else if (made->count &&
+             (end < made->sure[by] || end > made->limit[by])) /* else the law counts from there */
+        st = law_press(made, by, (double)end);
     if (!st.code)
         st = diagram_copy(d, made);
-    diagram_free(made);
+    free(made->layers);
     return st;
 }

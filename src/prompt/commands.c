@@ -4,6 +4,7 @@
 #include "statement/command.h"
 
 #include "commands/accuracy_command.h"
+#include "commands/export_command.h"
 #include "commands/figures.h"
 #include "commands/looks.h"
 #include "commands/range.h"
@@ -43,6 +44,7 @@ const hole_row holes[] = {
     {.name = "OFF", .kind = HOLE_CHOICE, .words = off_name},
     {.name = "WORD", .kind = HOLE_WORD},
     {.name = "SHAPE", .kind = HOLE_CHOICE, .noun = "geometry", .words = geometry_name, .form = geometry_form},
+    {.name = "MODEL", .kind = HOLE_CHOICE, .noun = "model", .words = export_name, .form = export_form},
     {.name = "PART", .kind = HOLE_CHOICE, .noun = "part", .words = show_name},
     {.name = "SETTING", .kind = HOLE_CHOICE, .noun = "setting", .words = setting_name, .form = setting_form},
     {.name = "SIZE", .kind = HOLE_WORD},
@@ -71,6 +73,14 @@ static void geometry_list(FILE *to) {
         fprintf(to, "    %s\n        %s\n", usage, geometry_row(i)->meaning);
     }
     fputs("\n    fret> geometry cone angle=45 deg\n    fret> slope\n    slope = 1\n", to);
+}
+
+static void models_list(FILE *to) {
+    char usage[GRAMMAR_USAGE];
+    for (size_t i = 0; export_row(i); i++) {
+        grammar_usage(export_form(i), usage);
+        fprintf(to, "    %s\n        %s\n", usage, export_row(i)->summary);
+    }
 }
 
 static void figures_list(FILE *to) {
@@ -293,7 +303,8 @@ const command commands[] = {
              "Two ranges make a matrix, as CSV and JSON a row for each pair. `along program`,\n"
              "`along cycle` and `along cycle FA=...` go along a load. `at FILE` goes over the\n"
              "rows of a file: its columns are inputs and names, and one that is called as an\n"
-             "expression (`p` as p(r)), or the only one of its dimension, is compared with it.\n\n"
+             "expression (`p` as p(r)), or the only one of its dimension, is compared with it.\n"
+             "fret --part I/N does a share of the rows.\n\n"
              "    $ cat depth.csv\n"
              "    FN [N],depth [um]\n"
              "    20,1.21\n"
@@ -466,35 +477,45 @@ const command commands[] = {
      .run = do_uncertainty,
      .group = "backwards",
      .keywords = "error deviation Monte Carlo tolerance variance confidence sensitivity",
-     .takes = "EXPR, ... with INPUT +- DEVIATION, ... [samples N:10000000] [seed N:1000000000]",
+     .takes =
+         "EXPR, ... with INPUT +- DEVIATION, ... [samples N:10000000] [seed N:1000000000] [from FILE.csv]",
      .summary = "how sure a value is, and which input that comes from",
      .help = "Standard deviations of independent inputs; 5 % is a part of the value. The\n"
              "answer is first order, from derivatives, with the share of each input in the\n"
              "variance.\n"
-             "A Monte Carlo of normal samples stands beside it where it says something else.\n\n"
+             "A Monte Carlo of normal samples stands beside it where it says something else.\n"
+             "With fret --part I/N only the samples of that share are drawn, as rows; the same\n"
+             "question `from` a file of all shares sums them.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> uncertainty dWd(0.5 um), a with mu +- 0.02, E0 +- 5 %\n"
              "    dWd(0.5 um) = 948.431 nJ +- 84 nJ\n"
              "        from mu 38 %, E0 62 %\n"
-             "        Monte Carlo = 953.21 nJ +- 83.6 nJ\n"
              "    a = 186.626 um +- 3.11 um\n"
              "        from mu 0 %, E0 100 %\n"},
     {.name = "export",
      .run = do_export,
      .group = "backwards",
-     .keywords = "jenkins masing iwan elements dynamics damper model springs",
-     .takes = "jenkins N:1000 to FILE.csv|json|h [FA=20 N]",
-     .summary = "the contact as parallel Jenkins elements, for a dynamics code",
-     .help = "Springs in line with sliders, chosen to minimise the worst error of the energy\n"
-             "per cycle over all amplitudes, at this normal force; with FA, over those up to\n"
-             "it, and one of the N is the spring of what then still sticks. The answer is that\n"
-             "error, and its part of the energy at gross slip (at FA). FILE.h is a C table to\n"
-             "compile in.\n\n"
+     .keywords =
+         "jenkins masing iwan elements dynamics damper model springs harmonic balance stiffness branches",
+     .print = models_list,
+     .takes = "MODEL ...",
+     .summary = "the contact for a dynamics code: Jenkins elements, its first harmonic, or its loop",
+     .help = "Jenkins elements are chosen to minimise the worst error of the energy per cycle\n"
+             "over all amplitudes, at this normal force; with FA, over those up to it, and one\n"
+             "of the N is the spring of what then still sticks. The answer is that error, and\n"
+             "its part of the energy at gross slip (at FA). FILE.h is a C table to compile in.\n"
+             "Under delta_x = dxA cos(theta) the first harmonic of the force is Kp dxA\n"
+             "cos(theta) - Kpp dxA sin(theta), Kpp = dWd(dxA)/(pi dxA^2). The loop is that of\n"
+             "the last cycle, whose normal force may swing.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> export jenkins 4 to damper.h\n"
              "    wrote damper.h (733 B)\n"
              "    error of dW = 798.218 nJ\n"
-             "    relative = 0.0147451\n"},
+             "    relative = 0.0147451\n"
+             "    fret> export harmonic to harmonic.csv for dxA = 0.1 um .. 2 um steps 4\n"
+             "    wrote harmonic.csv (305 B)\n"
+             "    fret> cycle FA=20 N; export loop to loop.csv\n"
+             "    wrote loop.csv (9.8 kB)\n"},
     {.name = "explain",
      .run = do_explain,
      .group = "results",

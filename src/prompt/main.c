@@ -31,6 +31,8 @@ static const char usage[] =
     "  --replay FILE...    run transcripts and compare; exit 1 where one differs\n"
     "  --tolerance X       relative tolerance of numbers in a replay\n"
     "  --format=FORMAT     text, csv or json\n"
+    "  --part I/N          share I = 1..N of the rows of a table, or of the samples of\n"
+    "                      uncertainty, as csv or json: cat puts the shares together\n"
     "  --keep-going        go on after an error\n"
     "  --quiet             no banner\n"
     "  --no-rc             do not read the start-up file\n"
@@ -106,6 +108,25 @@ static int take_format(settings *set, const char *text) {
     return setting_format(set, text) ? EXIT_OK : bad_usage("--format is text, csv or json, not", text);
 }
 
+/* Shares are run side by side, each by one process, unless a script sets more cores. */
+static int take_part(shell *sh, const char *text) {
+    run_share *p = &sh->share;
+    int used = 0;
+    if (sscanf(text, "%9u/%9u%n", &p->number, &p->of, &used) != 2 || text[used] || strpbrk(text, "+- ") ||
+        p->number < 1 || p->number > p->of)
+        return bad_usage("--part is I/N, whole numbers with 1 <= I <= N, not", text);
+    if (!p->nowhere)
+        p->nowhere = fopen("/dev/null", "w");
+    if (!p->nowhere) {
+        fprintf(stderr, "error: cannot open /dev/null: %s\n", strerror(errno));
+        return EXIT_ERROR;
+    }
+    p->out = stdout;
+    sh->out = p->number == 1 ? p->out : p->nowhere;
+    sh->calc.cores = 1;
+    return EXIT_OK;
+}
+
 static int take_color(wishes *w, const char *text) {
     static const char *const names[] = {"auto", "always", "never"};
     w->color = text;
@@ -133,6 +154,7 @@ enum {
     OPT_LIVE,
     OPT_TOLERANCE,
     OPT_FORMAT,
+    OPT_PART,
     OPT_KEEP,
     OPT_QUIET,
     OPT_NO_RC,
@@ -147,6 +169,7 @@ static const struct option options[] = {
     {"live", no_argument, NULL, OPT_LIVE},
     {"tolerance", required_argument, NULL, OPT_TOLERANCE},
     {"format", required_argument, NULL, OPT_FORMAT},
+    {"part", required_argument, NULL, OPT_PART},
     {"keep-going", no_argument, NULL, OPT_KEEP},
     {"quiet", no_argument, NULL, OPT_QUIET},
     {"no-rc", no_argument, NULL, OPT_NO_RC},
@@ -189,6 +212,8 @@ static int take_option(int opt, wishes *w, shell *sh, char **argv) {
         return take_tolerance(w, optarg);
     case OPT_FORMAT:
         return take_format(&sh->set, optarg);
+    case OPT_PART:
+        return take_part(sh, optarg);
     case OPT_KEEP:
         sh->keep_going = true;
         return EXIT_OK;
@@ -279,7 +304,19 @@ static int run_replays(shell *sh, const wishes *w) {
     return status;
 }
 
+static int run_part(shell *sh, const wishes *w) {
+    const int status = w->count ? run_jobs(sh, w) : shell_file(sh, "-");
+    if (status != EXIT_OK || sh->share.met)
+        return status;
+    shell_error(sh, "--part: there was no table, and no uncertainty, whose rows could be shared");
+    return EXIT_ERROR;
+}
+
 static int run_wishes(shell *sh, const wishes *w) {
+    if (sh->share.of)
+        return w->live || w->replay || (!w->count && isatty(STDIN_FILENO))
+                   ? bad_usage("--part goes with a script", NULL)
+                   : run_part(sh, w);
     if (w->live)
         return run_live(sh, w);
     if (w->replay)
@@ -309,6 +346,10 @@ static void check_home(void) {
 /* A lost write is an error. Where the reader has gone, SIGPIPE ends the program as it ends others. */
 static int finish_output(shell *sh, int status) {
     record_end(sh, false);
+    if (sh->share.nowhere) {
+        fclose(sh->share.nowhere);
+        sh->out = sh->share.out;
+    }
     status = status == EXIT_OK && sh->lost ? EXIT_ERROR : status;
     errno = 0;
     const bool bad = fflush(sh->out) || ferror(sh->out);

@@ -148,9 +148,13 @@ void answer_line(answer *a, const char *text, size_t indent) {
 
 /* ---- tables ------------------------------------------------------------------------------------ */
 
-bool answer_columns(answer *a, const char *event, const column *columns, size_t count) {
+void answer_goes_on(answer *a, const column *columns, size_t count) {
     a->columns = columns;
     a->count = count;
+}
+
+bool answer_columns(answer *a, const char *event, const column *columns, size_t count) {
+    answer_goes_on(a, columns, count);
     return a->form->columns(a, event);
 }
 

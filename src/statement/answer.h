@@ -69,6 +69,8 @@ void answer_line(answer *a, const char *text, size_t indent);
 
 /* The columns must stay. event: whose table it is. False: out of memory; there is nothing to end then. */
 bool answer_columns(answer *a, const char *event, const column *columns, size_t count);
+/* The same of CSV and JSON where another program has written the head: rows follow. */
+void answer_goes_on(answer *a, const column *columns, size_t count);
 void answer_row(answer *a, const long double *si);
 /* Will the next row be written, not held? */
 bool answer_shows_next(const answer *a);

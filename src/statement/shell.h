@@ -18,6 +18,15 @@ typedef struct source {
     bool keep_going;
 } source;
 
+/* Share `number` of the rows of a run, of so many; 0: it is no share. What is said before the rows comes in
+ * the first share, and after them in the last, so that all of them in their order are what the whole run
+ * writes. */
+typedef struct run_share {
+    unsigned number, of;
+    bool met; /* what has rows to share */
+    FILE *out, *nowhere;
+} run_share;
+
 enum { EXPRESSIONS = 40 };
 
 typedef struct shell {
@@ -25,6 +34,7 @@ typedef struct shell {
     settings set;
     bool keep_going; /* after an error in a script */
     FILE *out, *err;
+    run_share share; /* --part */
     bool interactive, quit;
     bool lost;               /* a recording could not be written */
     bool stopped, refused;   /* there was an error of that kind */

@@ -30,6 +30,7 @@ static bool choose_form(const lexer *lx, const span *part, const char *name, tar
 bool target_file(const lexer *lx, const span *part, target *t) {
     char name[FILE_NAME];
     t->name = *part;
+    t->shared = false;
     if (!hole_file(lx, part, name))
         return false;
     if (!file_out_open(&t->file, name, &shell_stop, lx->error))
@@ -46,6 +47,38 @@ bool target_open(shell *sh, const lexer *lx, said *all, target *t) {
                    target_file(lx, &to->hole[0], t));
 }
 
+/* ---- shares ------------------------------------------------------------------------------------ */
+
+/* The first row of the share after so many; the first share has one, however few there are. */
+static size_t row_after(const run_share *p, size_t rows, unsigned shares) {
+    const size_t each = rows / p->of, more = rows % p->of;
+    return each * shares + (shares < more ? shares : more);
+}
+
+bool target_share(shell *sh, target *t, size_t rows, size_t *from, size_t *to, calc_error *error) {
+    run_share *p = &sh->share;
+    *from = 0;
+    *to = rows;
+    if (!p->of)
+        return true;
+    if (p->met)
+        return calc_fail(error, 0, 0,
+                         "--part shares the rows of one table, or of the samples of one uncertainty: "
+                         "this would be a second");
+    if (t->file.to)
+        return calc_fail(error, t->name.at, t->name.len,
+                         "a share of the rows goes to standard output, to be put together with the others");
+    if (t->format == FORMAT_TEXT)
+        return calc_fail(error, 0, 0, "a share of the rows is CSV or JSON: use --format=csv or json");
+    *from = row_after(p, rows, p->number - 1);
+    *to = row_after(p, rows, p->number);
+    p->met = t->shared = true;
+    sh->out = t->to = p->out;
+    return true;
+}
+
+/* ---- the end ----------------------------------------------------------------------------------- */
+
 void target_report(shell *sh, const char *name, const file_report *r) {
     char size[16];
     if (r->direct || sh->set.report == REPORT_OFF)
@@ -57,6 +90,8 @@ void target_report(shell *sh, const char *name, const file_report *r) {
 bool target_close(shell *sh, lexer *lx, target *t, bool ok) {
     char name[FILE_NAME];
     file_report report;
+    if (t->shared)
+        sh->out = sh->share.number == sh->share.of ? sh->share.out : sh->share.nowhere;
     if (!t->file.to)
         return ok;
     snprintf(name, sizeof name, "%s", t->file.name);

@@ -12,10 +12,18 @@ typedef struct target {
     bool blocks; /* blank lines between curves */
     file_out file;
     span name; /* in the statement */
+    bool shared;
 } target;
 
 /* As `to FILE` has been said, or not. */
 bool target_open(shell *sh, const lexer *lx, said *all, target *t);
+/* Before the first row of so many: those that are wanted, from the first on and before the other; all, unless
+ * a share of them is run. */
+bool target_share(shell *sh, target *t, size_t rows, size_t *from, size_t *to, calc_error *error);
+/* Has the head of its columns been written by another share? */
+static inline bool target_goes_on(const shell *sh, const target *t) {
+    return t->shared && sh->share.number > 1;
+}
 /* The file of this name, whatever its ending. */
 bool target_file(const lexer *lx, const span *part, target *t);
 /* Keeps the file where ok; false: something was wrong before, or a byte was lost. */

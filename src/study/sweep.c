@@ -3,6 +3,7 @@
 #include "study/sweep.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,7 @@ typedef struct state {
     sweep_range range;
     long double *row; /* values */
     /* of the range */
+    size_t first, end; /* rows of the curve that are wanted */
     size_t rows;
     const long double *part; /* where each row is in it, 0..1; NULL: evenly */
     long double *out;        /* of all rows; NULL: they go to the job as soon as they are there */
@@ -113,7 +115,7 @@ static long double row_of(const sweep_rows *at, size_t row) {
 
 static long double place(const state *st, size_t row) {
     return sweep_value(st->s, &st->range,
-                       st->part ? st->part[row] : (long double)row / (long double)st->s->steps);
+                       st->part ? st->part[row] : (long double)(st->first + row) / (long double)st->s->steps);
 }
 
 static void give_swept(void *context, size_t row, long double x[]) {
@@ -122,7 +124,7 @@ static void give_swept(void *context, size_t row, long double x[]) {
     if (s->curves)
         *x++ = s->value[st->curve];
     for (size_t i = 0; s->at && i < s->at->names; i++)
-        *x++ = s->at->column[i].v[row];
+        *x++ = s->at->column[i].v[st->first + row];
     if (!s->at)
         *x = place(st, row);
 }
@@ -131,7 +133,7 @@ static bool take_swept(void *context, size_t row, const long double x[], const v
                        const calc_error *why) {
     state *st = context;
     const sweep_rows *at = st->s->at;
-    return take_row(st, row, at ? row_of(at, row) : x[st->s->curves > 0], v, why);
+    return take_row(st, row, at ? row_of(at, st->first + row) : x[st->s->curves > 0], v, why);
 }
 
 static bool run_all(state *st) {
@@ -175,7 +177,7 @@ static bool begin_range(state *st) {
 static bool run_range(state *st) {
     if (!begin_range(st))
         return false;
-    st->rows = st->s->steps + 1;
+    st->rows = (st->end < st->s->steps + 1 ? st->end : st->s->steps + 1) - st->first;
     if (!st->s->refine)
         return run_all(st);
     const refinement r = {.count = st->job->count,
@@ -217,8 +219,8 @@ static bool run_along(state *st) {
     calc_error error;
     error_clear(&error);
     bool ok = trial_along_begin(&a, t, s->what, from, s->steps, s->turns, &error);
-    while (ok && trial_along_next(&a, &error))
-        ok = look_along(st, scene_time(&t->scene));
+    for (size_t row = 0; ok && row < st->end && trial_along_next(&a, &error); row++)
+        ok = row < st->first ? !calc_stopped(t->scene.stop, &error) : look_along(st, scene_time(&t->scene));
     trial_along_end(&a);
     if (error.raised && !st->job->error->raised)
         *st->job->error = error;
@@ -227,9 +229,25 @@ static bool run_along(state *st) {
 
 /* ---- curves ------------------------------------------------------------------------------------ */
 
+size_t sweep_length(const sweep *s) {
+    return (s->curves ? s->curves : 1) * (s->steps + 1);
+}
+
+/* Which rows of the curve are wanted; false: none. */
+static bool is_wanted(state *st) {
+    sweep_job *job = st->job;
+    const size_t rows = st->s->steps + 1, before = job->before;
+    job->before += rows;
+    st->first = job->from > before ? job->from - before : 0;
+    st->end = job->to > before ? job->to - before : 0;
+    return st->first < st->end && st->first < rows;
+}
+
 static bool run_curve(state *st) {
     const sweep *s = st->s;
     points *p = &st->job->p;
+    if (!is_wanted(st))
+        return true;
     if (!points_anew(p) || (s->curves && !points_put(p, 0, s->value[st->curve], p->error)))
         return false;
     st->range = (sweep_range){.lo = 0};
@@ -255,7 +273,9 @@ bool sweep_part(const sweep *s, sweep_job *job) {
 bool sweep_begin(const sweep *s, sweep_job *job, size_t rows) {
     size_t count = 0;
     error_clear(&job->missing);
-    job->values = 0;
+    job->values = job->before = 0;
+    if (!job->to)
+        job->to = SIZE_MAX;
     if (s->curves)
         job->knobs[count++] = s->with;
     for (size_t i = 0; s->at && i < s->at->names; i++)
@@ -263,20 +283,19 @@ bool sweep_begin(const sweep *s, sweep_job *job, size_t rows) {
     if (!s->along && !s->at)
         job->knobs[count++] = s->var;
     const bool ok = points_open(&job->p, job->c, job->knobs, count, job->expressions, job->count, job->error);
-    job->p.all = rows;
+    job->p.all = job->to < rows ? job->to - job->from : rows;
     return ok;
 }
 
 bool sweep_end(sweep_job *job, bool ok) {
     points_close(&job->p);
-    if (!ok || job->values > 0)
+    if (!ok || job->values > 0 || job->from > 0 || job->to < job->before)
         return ok;
     *job->error = job->missing;
     return calc_append(job->c, job->error, " (%s)", job->where), false;
 }
 
 bool sweep_run(const sweep *s, sweep_job *job) {
-    const size_t curves = s->curves ? s->curves : 1;
-    const bool ok = sweep_begin(s, job, curves * (s->steps + 1)) && sweep_part(s, job);
+    const bool ok = sweep_begin(s, job, sweep_length(s)) && sweep_part(s, job);
     return sweep_end(job, ok);
 }

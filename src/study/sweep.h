@@ -57,6 +57,7 @@ typedef struct sweep_job {
     dim *d; /* of the expressions; those with known[i] must come out so */
     bool *known;
     const char *const *units; /* how those are called; NULL, or NULL each: in SI */
+    size_t from, to;          /* the rows that are wanted of all; to = 0: all of them */
     sweep_row *row;
     void *context;
     calc_error *error;
@@ -65,10 +66,13 @@ typedef struct sweep_job {
     size_t values;      /* that could be had */
     points p;
     knob knobs[1 + SWEEP_NAMES]; /* that of `with`, if there is one, and those of the range */
+    size_t before;               /* rows of the curves before */
 } sweep_job;
 
+/* Rows of all curves; along a load that lasts no time there are fewer. */
+size_t sweep_length(const sweep *s);
 /* False: an error; job->missing tells of gaps, which are none. An interrupt is an error, and so is a sweep
- * without any value. */
+ * without any value, of which all rows are wanted. */
 bool sweep_run(const sweep *s, sweep_job *job);
 
 /* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */

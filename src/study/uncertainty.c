@@ -2,10 +2,10 @@
 /* Derivatives and samples. */
 #include "study/uncertainty.h"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 #include <math.h>
+#include <stdint.h>
 
 #include "study/points.h"
 
@@ -124,43 +124,71 @@ static bool differs(const uncertain *u) {
     return fabs(u->mean - (double)u->v) > mean || fabs(u->spread - u->deviation) > spread;
 }
 
+/* The i-th of a sequence of 64 random bits, from a counter alone (SplitMix64: Steele, Lea and Flood 2014). */
+static uint64_t random_bits(uint64_t key, uint64_t i) {
+    uint64_t z = key + (i + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return z ^ (z >> 31);
+}
+
+/* Each sample has a seed of its own: who draws it need not draw those before. */
+static double normal_deviate(unsigned seed, size_t sample, size_t i) {
+    const uint64_t own = random_bits(random_bits(seed, 0), sample);
+    return gsl_cdf_ugaussian_Pinv(((double)(random_bits(own, i) >> 11) + 0.5) * 0x1p-53);
+}
+
 typedef struct sampling {
     state *s;
     uncertainty_answer *answer;
-    gsl_rng *rng;
     long double squares[UNCERTAIN_VALUES];
 } sampling;
 
-static void draw_sample(void *context, size_t sample, long double x[]) {
+static void draw_sample(void *context, size_t i, long double x[]) {
     const sampling *m = context;
     const uncertainty_question *of = m->s->of;
-    (void)sample;
-    for (size_t i = 0; i < of->count; i++)
-        x[i] = m->answer->x[i] + gsl_ran_gaussian_ziggurat(m->rng, of->deviation[i]);
+    for (size_t k = 0; k < of->count; k++)
+        x[k] = m->answer->x[k] + of->deviation[k] * normal_deviate(of->seed, of->from + i, k);
 }
 
-static bool count(void *context, size_t sample, const long double x[], const value v[],
-                  const calc_error *why) {
-    sampling *m = context;
-    (void)sample;
-    (void)x;
-    if (why && !m->answer->missing.raised)
-        m->answer->missing = *why;
+static void count_sample(sampling *m, const value v[]) {
     for (size_t k = 0; k < m->s->of->expressions; k++)
         if (!isnan(v[k].v))
             take_sample(&m->answer->value[k], (double)v[k].v, &m->squares[k]);
-    return keep_dims(m->s, v);
 }
 
-static bool monte_carlo(state *s, uncertainty_answer *out, calc_error *error) {
-    sampling m = {.s = s, .answer = out, .rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    if (!m.rng)
-        return calc_no_memory(error);
-    gsl_rng_set(m.rng, s->of->seed);
-    points_go(&s->p,
-              &(points_run){.count = s->of->samples, .give = draw_sample, .take = count, .context = &m});
-    gsl_rng_free(m.rng);
-    for (size_t k = 0; k < s->of->expressions; k++) {
+static bool take_drawn(void *context, size_t i, const long double x[], const value v[],
+                       const calc_error *why) {
+    sampling *m = context;
+    const uncertainty_question *of = m->s->of;
+    (void)x;
+    if (why && !m->answer->missing.raised)
+        m->answer->missing = *why;
+    if (!of->take)
+        count_sample(m, v);
+    return keep_dims(m->s, v) && (!of->take || of->take(of->context, of->from + i, v));
+}
+
+static void count_given(sampling *m) {
+    value v[UNCERTAIN_VALUES];
+    for (size_t i = 0; i < m->s->of->samples; i++) {
+        for (size_t k = 0; k < m->s->of->expressions; k++)
+            v[k].v = m->s->of->given[k][i];
+        count_sample(m, v);
+    }
+}
+
+static bool monte_carlo(state *s, uncertainty_answer *out, const calc_error *error) {
+    const uncertainty_question *of = s->of;
+    sampling m = {.s = s, .answer = out};
+    if (of->given)
+        count_given(&m);
+    else
+        points_go(&s->p, &(points_run){.count = of->take ? of->to - of->from : of->samples,
+                                       .give = draw_sample,
+                                       .take = take_drawn,
+                                       .context = &m});
+    for (size_t k = 0; k < of->expressions; k++) {
         uncertain *u = &out->value[k];
         u->mean = u->samples > 0 ? u->mean : NAN;
         u->spread = u->samples > 1 ? (double)sqrtl(m.squares[k] / (u->samples - 1)) : NAN;

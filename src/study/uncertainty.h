@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How sure values are whose inputs are uncertain: first order from derivatives, and a Monte Carlo beside it
- * (GSL's Mersenne twister, normal deviates, independent inputs). */
+ * (normal deviates, independent inputs). */
 #ifndef STUDY_UNCERTAINTY_H
 #define STUDY_UNCERTAINTY_H
 
 #include "study/ask.h"
 
 enum { UNCERTAIN_NAMES = 12, UNCERTAIN_VALUES = 20 };
+
+/* One sample; NaN: no value. False ends them. */
+typedef bool uncertainty_take(void *context, size_t sample, const value v[]);
 
 typedef struct uncertainty_question {
     calc *c;
@@ -17,6 +20,12 @@ typedef struct uncertainty_question {
     size_t expressions;
     unsigned samples; /* of the Monte Carlo; 0: none */
     unsigned seed;
+    const double *const *given; /* the values of all samples, by expression; NULL: they are drawn */
+    /* or samples from the first on and before the other go there, and no sum is made: a sample depends on the
+     * seed and its number alone; NULL: they do not */
+    uncertainty_take *take;
+    void *context;
+    size_t from, to;
 } uncertainty_question;
 
 typedef struct uncertain {
@@ -34,7 +43,7 @@ typedef struct uncertainty_answer {
     uncertain value[UNCERTAIN_VALUES];
     double x[UNCERTAIN_NAMES]; /* the present inputs */
     unsigned evaluations;
-    calc_error missing; /* why some samples have no value: raised */
+    calc_error missing; /* why some samples have no value: raised, where they are drawn */
 } uncertainty_answer;
 
 /* Errors: an input without a value; an expression without one there, or without a derivative (the end of what

@@ -38,7 +38,7 @@ def usage(tests):
     for page, parts in (("1", (".TH FRET 1 ", ".SH OPTIONS\n.TP\n.B \\-f FILE\nrun a script (\\- is standard input)\n",
                                ".SH COMMANDS\n", "\n.B friction MU\n", ".SH SETTINGS\n", ".SH EXIT STATUS\n", "E0 (z/c0)\\(hak")),
                         ("5", (".TH FRET 5 ", ".SH SCRIPTS AND TRANSCRIPTS\n", ".BR fret (1)\n")),
-                        ("bash", ("complete -F _fret fret\n", " --format=text --format=csv --format=json --keep-going ",
+                        ("bash", ("complete -F _fret fret\n", " --format=text --format=csv --format=json --part --keep-going ",
                                   " --color=auto --color=always --color=never --version --help'\n"))):
         done = tests.run("--manual=" + page)
         for part in parts:

@@ -51,7 +51,7 @@ STATEMENTS = (
              "0." + "0" * 120 + "1 + 1", "source script.fret", "explain mismatch", "set format json; explain mismatch", "exit")),
     (LOADED, ("step Fx=5 N", "step Fx+=1 N FN=110 N", "step dx=0.1 um steps 20", "cycle dxA=0.1 um times 2",
               "cycle FA=20 N FNA=10 N phase=90 deg", "cycle FA:=0.5*mu*FN", "follow follow.csv", "FA = 10 N", "mu = 0.3",
-              "FA := 0.4*mu*FN", "k = 0.2, x = 5", "undo", "reset", "history", "history to out.csv", "history to out.json",
+              "FA := 0.4*mu*FN", "k = 0.2, x = 5", "undo", "reset", "history", "history to out.csv", "history to out.json", "export loop to out.json steps 3",
               "dW, Fx, W, c, a, kt", "dW at k=0", "explain dW", "explain a", "explain x*dW",
               "table dW for FA = 1 N .. 20 N steps 5", "table dW for FA = 1 N .. 9 N steps 2 with mu = 0.3, 0.4",
               "table dW for FA = 1 N .. 9 N steps 2 for mu = 0.3 .. 0.4 steps 2",
@@ -80,7 +80,8 @@ STATEMENTS = (
              "fit mu along loop.csv", "loop cycle.csv using dx=Weg um", "loop cycle.csv using dx=2 um to out.csv", "follow loop.csv", "uncertainty a, dWd(1 um) with mu +- 0.02, E0 +- 5 % samples 20",
              "set format csv; uncertainty a, dWd(1 um) with mu +- 0.02, E0 +- 5 % samples 20", "set format csv; fit E0 for depth = dz(force) to measured.csv",
              "solve unknown for unknown^2 = 2 from 1 to 2", "maximize unknown*(2-unknown) over unknown = 0 .. 3", "set format json; replay replay.txt",
-             "export jenkins 8 to out.csv", "export jenkins 4 to out.h FA=20 N", "replay replay.txt", "accuracy within 0.001",
+             "export jenkins 8 to out.csv", "export jenkins 4 to out.h FA=20 N", "export harmonic to out.csv for dxA = 0 um .. 1 um steps 3",
+             "uncertainty a with mu +- 0.02, E0 +- 5 % samples 3 from samples.csv", "replay replay.txt", "accuracy within 0.001",
              "table dz(force), a at measured.csv", "table dz(force) at measured.csv with k = 0, 0.1 to out.csv", "plot dz(force) at measured.csv to out.gp",
              "plot dz(force) for force = 1 N .. 99 N over measured.csv residuals to out.gp", "cite",
              "plot regimes for dxA = 0 um .. 2 um for FN = 1 N .. 9 N to out.gp", "set plot caption on; plot pressure",
@@ -152,6 +153,7 @@ def prepare(where):
              "cycle.csv": "N;Weg;Kraft [N]\n" + "".join("%d;%g;%g\n" % (i, 2 * math.cos(i / 5), 30 * math.cos(i / 5 + 0.4)) for i in range(70)),
              "loop.csv": "dx [um],Fx [N]\n" + "".join("%g,%g\n" % row for row in (
                  (0.1, 3.5), (0.3, 10.2), (0.6, 19.2), (0.3, 9.5), (0, 0), (-0.3, -9.5), (-0.6, -19.2))),
+             "samples.csv": "v1 [m],sample\n1e-4,1\n,2\n2e-4,3\n",
              "lesson.fret": "# A lesson\nstep Fx=20 N\n",
              "replay.txt": "fret> x = 2\nfret> x + \\\n....> 1\nx + 1 = 3\nfret> set format csv\nfret> table y^2 for y = 1 .. 40 steps 39\ny,y^2\n" +
              "".join("%d,%d\n" % (i, i * i) for i in range(1, 41)) + "fret> 2^C\nerror: unknown name 'C': did you mean c?\nfret> x = 3 \\\n....> + 1\nfret> x\nx\n4\n", "log.txt": ""}

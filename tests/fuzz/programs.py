@@ -103,7 +103,9 @@ class Writer:
         return self.pick("solve mu for dW(5 N) = 1 nJ from 0.05 to 1", "solve FN for a = 0.1 mm", "solve x for x^2 = 2",
                          "maximize dWd(1 um) over FN = 1 N .. 100 N", "minimize (x-1)^2 + 1 over x = -3 .. 3",
                          "fit E0 for depth = dz(force) to data.csv", "uncertainty a, dz with E0 +- 5 %, mu +- 0.02 samples 50",
-                         "export jenkins 3 to " + self.file("csv", "json", "h"))
+                         "export jenkins 3 to " + self.file("csv", "json", "h"),
+                         "export harmonic to %s for dxA = 0 um .. 1 um steps 4" % self.file("csv", "json"),
+                         "export loop to " + self.file("csv", "json"))
 
     def statement(self):
         u = self.r.random()

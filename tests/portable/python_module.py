@@ -64,7 +64,28 @@ print("holds")
 """
 
 
-def run(tests):
+TOLD = r"""
+import inspect
+import fret
+
+def public(of):
+    return [(name, getattr(of, name)) for name in vars(of) if not name.startswith("_")]
+
+for name in fret.__all__:
+    thing = getattr(fret, name)
+    assert name == "rigid" or inspect.getdoc(thing), name
+    for member, function in [(name, thing)] * inspect.isfunction(thing) + (public(thing) if inspect.isclass(thing) and thing is not fret.State else []):
+        function = function.fget if isinstance(function, property) else function
+        if inspect.isfunction(function):
+            signature = inspect.signature(function)
+            assert function.__doc__ and signature.return_annotation is not signature.empty, (name, member)
+            assert all(p.annotation is not p.empty for p in signature.parameters.values() if p.name != "self"), (name, member)
+print("told")
+"""
+
+
+def python_of(tests):
+    """Runs a Python that has numpy, with the module; None: there is none, which is told."""
     env = dict(tests.env, PYTHONPATH=MODULE, FRET_LIBRARY=os.path.join(harness.ROOT, tests.build, "libfret.so"),
                FRET_PROGRAM=os.path.join(harness.ROOT, tests.fret))
 
@@ -76,11 +97,108 @@ def run(tests):
              if shutil.which(program) and not python("-c", "import numpy", program=program).returncode]
     if not knows:
         print("left out: the module for Python needs numpy")
+        return None
+    return functools.partial(python, program=knows[0])
+
+
+LOADS = r"""
+import time
+import fret
+import numpy as np
+
+ball = fret.Contact(fret.Material(E0=210e9, nu=0.3), fret.sphere(R=10e-3), mu=0.4).press(FN=100)
+FA, best = np.arange(1000000) * 40e-6, 1e9
+for i in range(15):
+    began = time.process_time()
+    ball.loss(FA=FA)
+    best = min(best, time.process_time() - began)
+print(best)
+"""
+
+LOADS_C = r"""
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include "fret/fret.h"
+
+static double seconds(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+int main(void) {
+    enum { COUNT = 1000000 };
+    const fret_material steel = {{{210e9, 0.3, false}, {210e9, 0.3, false}}, 0, 1e-3};
+    const fret_gap sphere = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 50, 1}}};
+    fret_normal *normal;
+    double *FA = malloc(COUNT * sizeof *FA), best = 1e9;
+    if (!FA || fret_normal_make(&steel, &sphere, NULL, NULL, &normal).code)
+        return 1;
+    fret_pressed contact = {.normal = normal, .mu = 0.4};
+    if (fret_press_by_force(normal, 100, &contact.press).code)
+        return 1;
+    for (int i = 0; i < COUNT; i++)
+        FA[i] = i * 40e-6;
+    for (int i = 0; i < 15; i++) {
+        const double began = seconds();
+        double *loss = malloc(COUNT * sizeof *loss); /* as the module has an array made */
+        if (!loss || fret_arrays_loss(&contact, FA, loss, COUNT).code)
+            return 1;
+        const double took = seconds() - began;
+        best = took < best ? took : best;
+        free(loss);
+    }
+    printf("%g\n", best);
+    return 0;
+}
+"""
+
+
+def cost(tests, python):
+    """A call for a million loads takes 1.2 times as long as in C, at most."""
+    with open(os.path.join(tests.dir, "loads.c"), "w", encoding="ascii") as f:
+        f.write(LOADS_C)
+    made = subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O2", "-I" + os.path.join(harness.ROOT, "include"), "loads.c",
+                           os.path.join(harness.ROOT, tests.build, "libfret.a"), "-lm", "-o", "loads"],
+                          cwd=tests.dir, capture_output=True, text=True, check=False)
+    tests.check("the same in C compiles", made.returncode == 0, made.stderr)
+    ratios = []
+    while not ratios or (min(ratios) > 1.2 and len(ratios) < 5):  # others are at work on this machine
+        by_c = subprocess.run(["./loads"], cwd=tests.dir, capture_output=True, text=True, check=False)
+        ratios.append(float(python("-c", LOADS).stdout) / float(by_c.stdout))
+    tests.check("a million loads", min(ratios) <= 1.2, str(ratios))
+
+
+def installed(tests, python):
+    """In a virtual environment of its own, by pip, without a compiler."""
+    program, home = python.keywords["program"], os.path.join(tests.dir, "v")
+    shutil.copytree(MODULE, os.path.join(tests.dir, "module"), ignore=shutil.ignore_patterns("__pycache__"))
+    made = python("-m", "venv", "--system-site-packages", home)  # that has numpy
+    if made.returncode or python("-c", "import setuptools").returncode:
+        print("left out: installing the module for Python needs venv and setuptools for %s" % program)
         return
-    python = functools.partial(python, program=knows[0])
-    for name in ("_contact", "_session"):
-        done = python("-c", "import doctest, fret.%s as m, sys; sys.exit(doctest.testmod(m, verbose=False).failed)" % name)
-        tests.check("what fret.%s shows" % name, done.returncode == 0, done.stdout + done.stderr)
+    own = functools.partial(python, program=os.path.join(home, "bin/python"))
+    done = own("-m", "pip", "install", "--no-index", "--no-build-isolation", "--no-deps", "-q", "./module")
+    tests.check("pip installs the module", done.returncode == 0, done.stdout + done.stderr)
+    with open(os.path.join(tests.dir, "where.py"), "w", encoding="ascii") as f:
+        f.write("import sys\nsys.path = [p for p in sys.path if %r not in p]\nimport fret\nprint(fret.__file__)\n"
+                "print(fret.Contact(fret.Material(E0=210e9, nu=0.3), fret.sphere(R=10e-3), mu=0.4).press(FN=100).state.a)\n" % MODULE)
+    done = own("where.py")
+    tests.check("and it is found there", done.stdout.startswith(home) and "0.000186625" in done.stdout, done.stdout + done.stderr)
+
+
+def run(tests):
+    python = python_of(tests)
+    if not python:
+        return
+    for name in ("fret", "fret._contact", "fret._session"):
+        done = python("-c", "import doctest, sys, %s; r = doctest.testmod(sys.modules['%s']); sys.exit(r.failed or not r.attempted)" % (name, name))
+        tests.check("what %s shows" % name, done.returncode == 0, done.stdout + done.stderr)
+    done = python("-c", TOLD)
+    tests.check("all that is public is told of, with the types", done.stdout == "told\n", done.stdout + done.stderr)
+    cost(tests, python)
+    installed(tests, python)
     done = python("-c", TRIED)
     tests.check("the module beside the program", done.stdout == "holds\n", done.stdout + done.stderr)
     tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"

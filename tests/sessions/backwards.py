@@ -233,6 +233,52 @@ def to_an_amplitude(tests):
                 tests.check(title + "force at FA", off < 1e-12 * 40, "%g" % off)
 
 
+def exported(tests, setup, what, name):
+    """Rows of a file in SI."""
+    done = tests.run("-c", "%s; export %s" % (setup, what))
+    tests.check("export %s, %s" % (what, setup), done.returncode == 0, tests.report(done))
+    with open(os.path.join(tests.dir, name), encoding="utf-8") as f:
+        head, *rows = f.read().splitlines()
+    return head, [[float(word) for word in row.split(",")] for row in rows]
+
+
+def harmonics(tests):
+    """The table of K' and K'' beside the first harmonic of exported loops, and its own loss."""
+    for shape in SHAPES:
+        setup = "material steel; friction 0.4; %s; press FN=100 N" % shape
+        (most,), _, _ = run_json(tests, setup + "; dxmax\n")
+        span = "for dxA = 0 .. %r m" % (1.5 * most["value"])
+        head, rows = exported(tests, setup, "harmonic to harmonic.csv %s steps 5" % span, "harmonic.csv")
+        values, _, _ = run_json(tests, setup + "; " + "; ".join("Kp(%r m), Kpp(%r m), dWd(%r m)" % (3 * (row[0],)) for row in rows[1:]) + "; Kp(0 m)\n")
+        values = [v["value"] for v in values]
+        tests.check("harmonic: as asked one by one (%s)" % shape, head == "dxA [m],Kp [N/m],Kpp [N/m]" and
+                    rows[0] == [0, values[-1], 0] and [row[1:] for row in rows[1:]] == [values[i:i + 2] for i in range(0, 15, 3)], str(rows))
+        tests.check("harmonic: the loss (%s)" % shape, all(abs(math.pi * d * d * Kpp / dW - 1) < 1e-14 for (d, _, Kpp), dW in zip(rows[1:], values[2::3])))
+        for d, Kp, Kpp in rows[1:]:
+            head, loop = exported(tests, "%s; cycle dxA=%r m" % (setup, d), "loop to loop.csv steps 400", "loop.csv")
+            down, up = [row[1:] for row in loop if row[0] == 1], [row[1:] for row in loop if row[0] == 2]
+            tests.check("loop: branches (%s)" % shape, head == "branch,dx [m],Fx [N],FN [N]" and len(down) == len(up) == 401 and
+                        down[-1] == up[0] and down[0][0] == d and down[-1][0] == -d and all(a[0] > b[0] for a, b in zip(down, down[1:])) and
+                        all(a[0] < b[0] for a, b in zip(up, up[1:])) and all(abs(row[2] - 100) < 1e-12 for row in down + up), str(loop[:3]))
+            tests.check("loop: it turns over (%s)" % shape, all(abs(a[1] + b[1]) < 1e-9 for a, b in zip(down, up)))
+            forces = [row[1] for row in down[:-1] + up[:-1]]
+            harmonic = [2 / d / 800 * sum(F * f(2 * math.pi * i / 800) for i, F in enumerate(forces)) for f in (math.cos, math.sin)]
+            tests.check("harmonic: that of the loop (%s)" % shape, abs(harmonic[0] / Kp - 1) < 2e-4 and abs(-harmonic[1] / Kpp - 1) < 2e-4,
+                        "%s of %g, %g" % (harmonic, Kp, Kpp))
+    rows = exported(tests, setup, "harmonic to harmonic.csv for dxA = 1 nm .. 100 nm log steps 2", "harmonic.csv")[1]
+    tests.check("harmonic: in ratios", [round(row[0] * 1e9, 9) for row in rows] == [1, 10, 100], str(rows))
+    swinging = "material steel; friction 0.4; geometry sphere R=10 mm; press FN=100 N; cycle FA=20 N FNA=30 N phase=60 deg times 3"
+    loop = exported(tests, swinging, "loop to loop.csv steps 800", "loop.csv")[1]
+    area = sum((a[2] + b[2]) / 2 * (b[1] - a[1]) for a, b in zip(loop, loop[1:]))
+    (dW,), _, _ = run_json(tests, swinging + "; dW\n")
+    tests.check("loop: a swinging one", abs(area / dW["value"] - 1) < 1e-4 and abs(min(row[3] for row in loop) - 70) < 1e-3, "%g" % area)
+    done = tests.run("-c", swinging + "; export loop to loop.json steps 1")
+    with open(os.path.join(tests.dir, "loop.json"), encoding="utf-8") as f:
+        event, *rows = map(json.loads, f)
+    tests.check("loop: as JSON", event == {"event": "export", "columns": {"branch": "", "dx": "m", "Fx": "N", "FN": "N"}} and
+                [row["branch"] for row in rows] == [1, 1, 2, 2], tests.report(done))
+
+
 def tiny(tests):
     """Loads whose loss is hardly a number; short of that the error is the same part of it, as the loss goes with F^3."""
     setup = "material steel; friction 0.4; geometry sphere R=10 mm; press FN=100 N; "
@@ -387,6 +433,7 @@ def run(tests):
     sharp_turns(tests)
     jenkins(tests)
     to_an_amplitude(tests)
+    harmonics(tests)
     tiny(tests)
     header(tests)
     linear(tests)

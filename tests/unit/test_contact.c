@@ -126,12 +126,15 @@ static void packed(double n, double k, fret_exactness exactness) {
     const unit_scene s = unit_make_scene(n, k);
     const fret_normal *law = unit_make_normal(&s);
     fret_contact *c = make(law, exactness), *other = make(law, exactness);
-    unsigned long long seed = 3;
+    unsigned long long seed = 3, aside = 4;
     size_t count = 0, more = 0;
     for (int i = 0; i < 200; i++) {
         const fret_step step = random_step(&seed, i % 40 ? 100 : 1e7);
         CHECK_OK(fret_contact_step(c, &step));
         CHECK_OK(fret_contact_pack(c, to, ROOM, &count));
+        /* whatever the other has carried before */
+        const fret_step away = random_step(&aside, i % 2 ? 1e-5 : 1e9);
+        CHECK_OK(fret_contact_step(other, &away));
         CHECK_OK(fret_contact_unpack(other, to, count));
         CHECK(same(c, other));
         CHECK_OK(fret_contact_pack(other, again, ROOM, &more));

@@ -10,12 +10,14 @@ import numpy
 from . import _library as lib
 from ._library import library
 
+#: What takes one number, or an array of any shape; what comes of it has that shape.
 Array = Union[float, Sequence[float], numpy.ndarray]
+Values = Union[float, numpy.ndarray]
 
 
 @dataclass(frozen=True)
 class Body:
-    """A half-space of modulus E0 [Pa] > 0 and Poisson's ratio -1 < nu <= 1/2."""
+    """A half-space of modulus E0 [Pa] > 0 and Poisson's ratio -1 < nu <= 1/2. Contact raises Error where they are not."""
     E0: float
     nu: float
 
@@ -26,15 +28,16 @@ rigid = Body(float("inf"), 0.0)
 
 @dataclass(frozen=True)
 class Material:
-    """Two bodies with E(z) = E0 (z/c0)^k, -1 < k < 1, c0 [m] > 0; k and c0 are shared. The second body is as the first, or
-    a Body, or `rigid`."""
+    """Two bodies with E(z) = E0 (z/c0)^k, -1 < k < 1, c0 [m] > 0; k and c0 are shared (1). The second body is as the first,
+    or a Body, or `rigid`. Bodies that are not elastically similar are computed as if normal and tangential contact were
+    uncoupled, an approximation. Contact raises Error where a constant is out of range."""
     E0: float
     nu: float
     k: float = 0.0
     c0: float = 1e-3
     second: Optional[Body] = None
 
-    def _struct(self):
+    def _struct(self) -> lib.Material:
         second = self.second or Body(self.E0, self.nu)
         stiff = second is rigid
         return lib.Material((lib.Body(self.E0, self.nu, False), lib.Body(0 if stiff else second.E0, second.nu, stiff)),
@@ -42,9 +45,11 @@ class Material:
 
 
 class Shape:
-    """The initial gap f(r) between the bodies. Made by the functions of this module: sphere, cone, power, ..."""
+    """The initial gap f(r) between the bodies, with rotational symmetry. Made by the functions of this module: sphere, cone,
+    power, ... Lengths, slopes and exponents are > 0, else Contact raises Error."""
 
-    def __init__(self, kind, powers=(), b=0.0, R=0.0, slope=0.0, rows=None):
+    def __init__(self, kind: int, powers: Sequence[Tuple[float, float, float]] = (), b: float = 0.0, R: float = 0.0,
+                 slope: float = 0.0, rows: Optional[Tuple[Array, Array]] = None):
         self._gap = lib.Gap(kind=kind, terms=len(powers), b=b, R=R, slope=slope)
         if len(powers) > lib.TERMS:
             raise lib.Error("a sum has %d powers at most" % lib.TERMS)
@@ -64,47 +69,48 @@ class Shape:
 
 
 def sphere(R: float) -> Shape:
-    """f = r^2/(2R), Hertz: two curved bodies have 1/R = 1/R1 + 1/R2."""
+    """f = r^2/(2R), R [m] > 0, Hertz: two curved bodies have 1/R = 1/R1 + 1/R2."""
     return Shape(0, [(2, 0.5 / R, 1)])
 
 
 def cone(slope: float) -> Shape:
-    """f = slope r."""
+    """f = slope r, slope [1] > 0: the tangent of the angle between flank and base plane."""
     return Shape(0, [(1, slope, 1)])
 
 
 def power(n: float, h: float, r0: float = 1.0) -> Shape:
-    """f = h (r/r0)^n, n > 0; h [m] is the gap at r0 [m]."""
+    """f = h (r/r0)^n, n from 1e-6 to 1e6; h [m] > 0 is the gap at r0 [m] > 0 (6)."""
     return Shape(0, [(n, h, r0)])
 
 
 def powers(terms: Sequence[Tuple[float, float, float]]) -> Shape:
-    """A sum of up to 16 such powers, each (n, h, r0)."""
+    """A sum of up to 16 such powers, each (n, h, r0); raises Error where there are more."""
     return Shape(1, list(terms))
 
 
 def flat_cone(b: float, slope: float) -> Shape:
-    """f = slope (r - b) for r > b [m]."""
+    """f = slope (r - b) for r > b [m], else 0: a truncated cone."""
     return Shape(2, b=b, slope=slope)
 
 
 def flat_paraboloid(b: float, R: float) -> Shape:
-    """f = (r^2 - b^2)/(2R) for r > b [m]: a truncated sphere."""
+    """f = (r^2 - b^2)/(2R) for r > b [m], else 0: a truncated sphere."""
     return Shape(3, b=b, R=R)
 
 
 def flat_rounded(b: float, R: float) -> Shape:
-    """f = (r - b)^2/(2R) for r > b [m]: the usual fretting pad."""
+    """f = (r - b)^2/(2R) for r > b [m], else 0: the usual fretting pad."""
     return Shape(4, b=b, R=R)
 
 
 def exact_sphere(R: float) -> Shape:
-    """f = R - sqrt(R^2 - r^2), r <= 0.95 R."""
+    """f = R - sqrt(R^2 - r^2), R [m] > 0; loads that lead beyond r = 0.95 R raise Error."""
     return Shape(5, R=R)
 
 
 def table(r: Array, f: Array) -> Shape:
-    """A sampled gap, a monotone piecewise cubic: r[0] = 0 < r[1] < ..., f[0] = 0 [m]."""
+    """A sampled gap, a monotone piecewise cubic: r[0] = 0 < r[1] < ..., f[0] = 0 [m], as many radii as gaps, else Error.
+    Loads that lead beyond the last row, or to where g(x) falls so that the contact is no disc, raise Error."""
     return Shape(6, rows=(r, f))
 
 
@@ -114,7 +120,7 @@ Fx [N], displacement dx [m], stick radius c [m]; energy dissipated so far W [J],
 kn = dFN/ddz and kt = dFx/ddx going on in the direction of the last step [N/m]."""
 
 
-def _one_of(what, **given):
+def _one_of(what: str, **given) -> Tuple[str, float]:
     """The name and value of the one argument that is given."""
     named = [(name, value) for name, value in given.items() if value is not None]
     if len(named) != 1:
@@ -126,7 +132,9 @@ class Contact:
     """Two bodies in contact: any history of both forces, or both displacements, exactly.
 
     Coulomb's friction mu > 0, slip along the force. `exact` steps in long double, all digits of a double; without it power
-    laws step five times as fast, to 3e-14 of mu FN (fret/contact.h tells the bounds).
+    laws step five times as fast, to 3e-14 of mu FN (fret/contact.h tells the bounds), and have no fields and no swing.
+    Raises Error where a constant of the material, a length of the shape or mu is out of range, or, with exact=False, the
+    shape is no power.
 
     >>> import fret
     >>> ball = fret.Contact(fret.Material(E0=210e9, nu=0.3), fret.sphere(R=10e-3), mu=0.4)
@@ -150,8 +158,9 @@ class Contact:
     # ---- loads ----------------------------------------------------------------------------------
 
     def press(self, FN: Optional[float] = None, dz: Optional[float] = None, a: Optional[float] = None) -> "Contact":
-        """Presses the open bodies anew: to a force FN [N], an indentation depth dz [m] or a contact radius a [m]. Returns
-        the contact, as the other loads do that have no result."""
+        """Presses the open bodies anew: to a force FN [N] >= 0, an indentation depth dz [m] (< 0: a gap) or a contact radius
+        a [m] >= 0 (10)-(13). Returns the contact, as the other loads do that have no result. Raises Error where the number
+        is negative, no number, or beyond the end of the gap."""
         name, value = _one_of("press", FN=FN, dz=dz, a=a)
         if name == "a":
             name, value = "dz", float(self._pressed("radius", value).dz)
@@ -161,8 +170,9 @@ class Contact:
     def step(self, FN: Optional[float] = None, dz: Optional[float] = None, Fx: Optional[float] = None,
              dx: Optional[float] = None) -> "Contact":
         """One straight step to a force or a displacement, normal (FN [N] or dz [m]), tangential (Fx [N] or dx [m]) or both:
-        straight in (FN, Fx) where Fx is given, else in (dz, dx). What is not given is kept: FN, and with a normal step dx.
-        Raises GrossSlip where |Fx| > mu FN; the contact is then as before."""
+        straight in (FN, Fx) where Fx is given, else in (dz, dx) (fret/contact.h has the memory diagram, by which no step is
+        discretised). What is not given is kept: FN, and with a normal step dx. Raises GrossSlip where |Fx| > mu FN, Error
+        where FN < 0 or a number is not finite; the contact is then as before."""
         step = lib.Step(0, 0, 0, 0)
         if FN is not None or dz is not None:
             name, step.normal = _one_of("the normal part of a step", FN=FN, dz=dz)
@@ -176,7 +186,8 @@ class Contact:
     def cycle(self, FA: Optional[float] = None, dxA: Optional[float] = None, times: int = 1, FNA: float = 0.0,
               phase: float = 0.0) -> float:
         """Closed cycles Fx = -FA .. FA [N], or dx = -dxA .. dxA [m]; with FNA > 0 [N] the normal force swings too,
-        Fx = FA cos s, FN + FNA cos(s + phase), phase in rad. Returns the energy that the last of them dissipates [J]."""
+        Fx = FA cos s, FN + FNA cos(s + phase), phase in rad. Returns the energy that the last of them dissipates [J] (26),
+        (27). Raises GrossSlip where FA > mu FN, Error where times < 1 or a swinging load opens the contact or slides."""
         name, amplitude = _one_of("cycle", FA=FA, dxA=dxA)
         if times < 1:
             raise lib.Error("times = %s must be 1 or more" % times)
@@ -199,7 +210,9 @@ class Contact:
 
     def swing(self, FA: float, FNA: float, phase: float, FN: float, start: float = 0.0, end: float = 1.0) -> float:
         """The part start .. end of a period of Fx = FA cos s, FN + FNA cos(s + phase): the sine itself, no chords. The load
-        must be where the part begins. Returns what it dissipates [J]. Not with exact=False, nor of a table."""
+        must be where the part begins, 0 <= start < end <= 1. Returns what it dissipates [J], to 1e-15 of a power law, 1e-13
+        of other shapes. Raises Error with exact=False, of a table, and for a load that opens the contact, slides, or begins
+        elsewhere."""
         lib.check(library.fret_contact_swing(self._contact.pointer, ctypes.byref(lib.Sine(FA, FNA, phase, FN)), start, end))
         return library.fret_contact_last_loss(self._contact.pointer)
 
@@ -215,13 +228,15 @@ class Contact:
         """Forces, displacements and W alone, for an inner loop; a, c, U, kn, kt may be 0."""
         return self._state(library.fret_contact_forces)
 
-    def _state(self, ask):
+    def _state(self, ask) -> State:
         now = lib.State()
         ask(self._contact.pointer, ctypes.byref(now))
         return State(*(getattr(now, name) for name in State._fields))
 
-    def p(self, r: Array):
-        """Pressure p(r) [Pa] at radii r >= 0 [m], a number or an array.
+    def p(self, r: Array) -> Values:
+        """Pressure p(r) [Pa] at radii r >= 0 [m], a number or an array; 0 outside (fret/field.h has the transform). To 1e-14
+        of itself, after swinging 1e-13 of the largest value; 2 us each. Raises Error where r < 0, the field is infinite (at a
+        sharp edge with k <= 0, at a tip with n + k <= 1), and with exact=False; so do those below.
 
         >>> import fret
         >>> steel = fret.Material(E0=210e9, nu=0.3)
@@ -230,23 +245,23 @@ class Contact:
         """
         return self._field("pressure", r)
 
-    def qx(self, r: Array):
-        """Tangential traction q_x(r) [Pa]."""
+    def qx(self, r: Array) -> Values:
+        """Tangential traction q_x(r) [Pa] at radii r >= 0 [m]; ranges and errors as of p."""
         return self._field("traction", r)
 
-    def uz(self, r: Array):
-        """Normal displacement of the surfaces u_z(r) [m], both bodies together."""
+    def uz(self, r: Array) -> Values:
+        """Normal displacement of the surfaces u_z(r) [m], both bodies together, at r >= 0 [m]; errors as of p."""
         return self._field("surface", r)
 
-    def ux(self, r: Array):
-        """Tangential displacement u_x(r) [m], both bodies together, the mean over the angle."""
+    def ux(self, r: Array) -> Values:
+        """Tangential displacement u_x(r) [m], both bodies together, the mean over the angle, at r >= 0 [m]; errors as of p."""
         return self._field("surface_x", r)
 
-    def slip(self, r: Array):
-        """Local slip delta_x - u_x(r) [m], on which friction works."""
+    def slip(self, r: Array) -> Values:
+        """Local slip delta_x - u_x(r) [m], on which friction works, at r >= 0 [m]; errors as of p."""
         return self.forces.dx - self.ux(r)
 
-    def _field(self, kind, r):
+    def _field(self, kind: str, r: Array) -> Values:
         ask = getattr(library, "fret_field_" + kind)
         field = lib.Handle("fret_field_make", "fret_field_free", self._contact.pointer)
         radii = numpy.asarray(r, dtype=float)
@@ -259,9 +274,10 @@ class Contact:
 
     # ---- closed forms for arrays of loads -------------------------------------------------------
 
-    def loss(self, FA: Optional[Array] = None, dxA: Optional[Array] = None):
-        """Energies [J] dissipated in closed cycles of amplitudes FA [N], or dxA [m] (beyond gross slip, too), at the normal
-        force as it is: closed forms, 10 ns each by force.
+    def loss(self, FA: Optional[Array] = None, dxA: Optional[Array] = None) -> Values:
+        """Energies [J] dissipated in closed cycles of amplitudes 0 <= FA <= mu FN [N], or dxA >= 0 [m] (beyond gross slip,
+        too), at the normal force as it is: closed forms (26), (27), 10 ns each by force, to 2e-15 of a power law and 1e-14
+        of other shapes. Raises GrossSlip, or Error, for the first amplitude that is out of range.
 
         >>> import fret
         >>> ball = fret.Contact(fret.Material(E0=210e9, nu=0.3), fret.sphere(R=10e-3), mu=0.4).press(FN=100)
@@ -281,33 +297,35 @@ class Contact:
             return lib.Status()
         return self._many(amplitudes, 1, by_displacement)[0]
 
-    def loading(self, Fx: Array):
-        """Stick radii c and displacements dx [m] of first loading to Fx [N], at the normal force as it is."""
+    def loading(self, Fx: Array) -> Tuple[Values, Values]:
+        """Stick radii c and displacements dx [m] of first loading to |Fx| <= mu FN [N], at the normal force as it is (15),
+        (18), to 1e-15 of a power law. Raises GrossSlip for the first that is beyond."""
         contact = self._loaded()
         return self._many(Fx, 2, lambda at, to, n: library.fret_arrays_loading(contact, at, to[0], to[1], n))
 
-    def pressing(self, FN: Array):
-        """Contact radii a and indentation depths dz [m] under normal forces FN [N]."""
+    def pressing(self, FN: Array) -> Tuple[Values, Values]:
+        """Contact radii a and indentation depths dz [m] under normal forces FN [N] >= 0 (10)-(13), to 1e-15 of a power law.
+        Raises Error for the first that is negative or beyond the end of the gap."""
         return self._many(FN, 2,
                           lambda at, to, n: library.fret_arrays_press(self._law.pointer, at, to[0], to[1], n))
 
     @property
     def dxmax(self) -> float:
-        """Displacement at which gross slip begins [m], at the normal force as it is."""
+        """Displacement at which gross slip begins [m], mu eta dz, at the normal force as it is (18)."""
         return library.fret_gross_slip(self._loaded())
 
-    def _many(self, loads, count, ask):
+    def _many(self, loads: Array, count: int, ask) -> Tuple[Values, ...]:
         array, at = lib.numbers(loads)
         out = [lib.numbers(numpy.empty(array.shape)) for _ in range(count)]
         lib.check(ask(at, [address for _, address in out], array.size))
         return tuple(values[()] for values, _ in out)
 
-    def _pressed(self, by, value):
+    def _pressed(self, by: str, value: float) -> lib.Press:
         press = lib.Press()
         lib.check(getattr(library, "fret_press_by_" + by)(self._law.pointer, value, ctypes.byref(press)))
         return press
 
-    def _loaded(self):
+    def _loaded(self) -> lib.Pressed:
         return lib.Pressed(self._law.pointer, self._made_of[2], self._pressed("force", self.forces.FN))
 
     # ---- the history ----------------------------------------------------------------------------
@@ -331,6 +349,7 @@ class Contact:
         return out
 
     def unpack(self, history: Array) -> "Contact":
+        """Takes a history that `pack` gave. Raises Error where it is none of such a contact, which is then as before."""
         array, address = lib.numbers(history)
         lib.check(library.fret_contact_unpack(self._contact.pointer, address, array.size))
         return self
@@ -339,5 +358,5 @@ class Contact:
         return _restored, (self._made_of, self.pack())
 
 
-def _restored(made_of, history):
+def _restored(made_of: tuple, history: numpy.ndarray) -> Contact:
     return Contact(*made_of).unpack(history)

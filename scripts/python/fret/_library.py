@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """libfret by ctypes: where it is, its structures as the headers of include/fret declare them, its errors as exceptions.
-Knows no contact mechanics; contact.py does."""
+Knows no contact mechanics; _contact.py does."""
 import ctypes
 import os
 from ctypes import POINTER, Structure, c_bool, c_char_p, c_double, c_int, c_longdouble, c_size_t, c_void_p
+from typing import Optional
 
 import numpy
 
@@ -64,7 +65,8 @@ class Error(ValueError):
     `limit` are in SI units."""
     __module__ = "fret"
 
-    def __init__(self, text, code=0, quantity=None, value=None, limit=None):
+    def __init__(self, text: str, code: int = 0, quantity: Optional[str] = None, value: Optional[float] = None,
+                 limit: Optional[float] = None):
         super().__init__(text)
         self.code, self.quantity, self.value, self.limit = code, quantity, value, limit
 
@@ -115,7 +117,7 @@ _SIGNATURES = {
 }
 
 
-def _find():
+def _find() -> ctypes.CDLL:
     """The library: FRET_LIBRARY, the one that `make` leaves in this checkout, or the system's."""
     built = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../build/libfret.so")
     named = os.environ.get("FRET_LIBRARY")
@@ -127,7 +129,8 @@ def _find():
     raise ImportError("no libfret: build it with `make`, install it, or name it in FRET_LIBRARY (%s)" % why)
 
 
-def _declared(library):
+def _declared(library: ctypes.CDLL) -> ctypes.CDLL:
+    """The same, with the types of what is called. Raises AttributeError where the library lacks a function: it is older."""
     for name, (result, *arguments) in _SIGNATURES.items():
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments
@@ -137,8 +140,8 @@ def _declared(library):
 library = _declared(_find())
 
 
-def check(status):
-    """Raises what a status tells."""
+def check(status: Status) -> None:
+    """Raises what a status tells: Error, GrossSlip or MemoryError."""
     if not status.code:
         return
     if status.code == _NO_MEMORY:
@@ -149,7 +152,7 @@ def check(status):
                                            status.value, status.limit)
 
 
-def numbers(values):
+def numbers(values) -> tuple:
     """An array of doubles in one piece, and its address for C."""
     array = numpy.asarray(values, dtype=float, order="C")
     return array, array.ctypes.data_as(_numbers)
@@ -158,7 +161,7 @@ def numbers(values):
 class Handle:
     """An object of the library, freed with the last reference to it."""
 
-    def __init__(self, make, free, *arguments):
+    def __init__(self, make: str, free: str, *arguments):
         self.free = None
         self.pointer = c_void_p()
         check(getattr(library, make)(*arguments, ctypes.byref(self.pointer)))

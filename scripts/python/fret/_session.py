@@ -14,7 +14,8 @@ class SessionError(ValueError):
 
 
 class Session:
-    """A running `fret --format=json`, whose scene lasts from call to call.
+    """A running `fret --format=json`, whose scene lasts from call to call. `program` is its path; else that of FRET_PROGRAM,
+    of this checkout, or the one that is found. Raises OSError where there is none, SessionError for what it refuses.
 
     >>> import fret
     >>> with fret.session() as s:
@@ -47,17 +48,17 @@ class Session:
         return answers
 
     def value(self, expression: str) -> Optional[float]:
-        """The value of an expression in SI units; None where it has none."""
+        """The value of an expression in SI units; None where it has none. Raises SessionError where it is refused."""
         return self.run(expression)[-1]["value"]
 
     def table(self, what: str) -> Dict[str, numpy.ndarray]:
-        """The columns of `table WHAT`, in SI units; NaN where there is no value."""
+        """The columns of `table WHAT`, in SI units; NaN where there is no value. Raises SessionError where it is refused."""
         answers = self.run("table " + what)
         names = next(answer["columns"] for answer in answers if answer.get("event") == "table")
         rows = [answer for answer in answers if names.keys() <= answer.keys()]
         return {name: numpy.array([row[name] for row in rows], dtype=float) for name in names}
 
-    def _line(self, line):
+    def _line(self, line: str) -> List[Dict]:
         try:
             self._process.stdin.write("%s\n%s\n" % (line, self._END))
             self._process.stdin.flush()
@@ -77,12 +78,13 @@ class Session:
         return answers
 
     def close(self) -> None:
+        """Ends the program; nothing can be asked then."""
         self._process.stdin.close()
         self._process.stdout.close()
         self._process.wait()
 
-    def __enter__(self):
+    def __enter__(self) -> "Session":
         return self
 
-    def __exit__(self, *raised):
+    def __exit__(self, *raised) -> None:
         self.close()

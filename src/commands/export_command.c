@@ -1,0 +1,342 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* export: the contact for a dynamics code, as the stiffnesses of its first harmonic, or as the branches of
+ * its loop. Leaves the scene as it is. */
+#include "commands/export_command.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands/range.h"
+#include "commands/study_commands.h"
+#include "language/along.h"
+#include "language/trial.h"
+#include "scene/functions.h"
+#include "statement/answer.h"
+#include "statement/progress.h"
+#include "statement/target.h"
+#include "study/jenkins.h"
+
+typedef struct export_table {
+    answer a;
+    size_t rows, all; /* that there have been, that will be */
+    const volatile sig_atomic_t *stop;
+    calc_error *error;
+} export_table;
+
+static bool put_row(export_table *t, const long double *si) {
+    answer_row(&t->a, si);
+    progress_part((double)++t->rows / (double)t->all);
+    return !calc_stopped(t->stop, t->error);
+}
+
+static const char *const names[] = {"dxA", "Kp", "Kpp", "branch", "dx", "Fx", "FN"};
+enum { HARMONIC = 0, LOOP = 3, NAMES = sizeof names / sizeof *names }; /* the first of each */
+
+/* As `to FILE` has it: columns from one of the names on, the rows by `write`. */
+static bool write_table(shell *sh, lexer *lx, said *all, size_t first, size_t count, size_t rows,
+                        bool (*write)(export_table *t, void *context), void *context) {
+    export_table t = {.all = rows, .stop = sh->calc.scene.stop, .error = lx->error};
+    column columns[NAMES] = {{.name = NULL}};
+    target to;
+    bool ok = true;
+    if (!target_open(sh, lx, all, &to))
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        const char *name = names[first + i];
+        const quantity *q = quantity_find(name, strlen(name));
+        ok = ok && column_si(&columns[i], name, q ? q->d : DIM_NONE);
+    }
+    answer_begin_as(&t.a, &sh->set, to.to, to.format);
+    ok = (ok && answer_columns(&t.a, "export", columns, count)) || calc_no_memory(lx->error);
+    if (ok) {
+        ok = write(&t, context);
+        answer_end(&t.a, ok);
+    }
+    progress_wipe();
+    columns_free(columns, count);
+    calc_word(&sh->calc, lx->error);
+    return target_close(sh, lx, &to, ok);
+}
+
+static size_t steps_of(said *all, size_t usual) {
+    const heard *steps = said_of(all, "steps", 0);
+    return steps ? steps->count : usual;
+}
+
+/* ---- harmonic ---------------------------------------------------------------------------------- */
+
+typedef struct amplitudes {
+    scene *scene;
+    sweep_range ends;
+    size_t steps;
+    bool log;
+} amplitudes;
+
+static bool read_amplitudes(shell *sh, const lexer *lx, said *all, amplitudes *out) {
+    const knob dxA = {.is_input = true, .in = IN_DXA, .d = DIM_LENGTH, .text = "dxA"};
+    const span *name = &said_of(all, "for", 0)->hole[0], *ends = name + 1;
+    lexer own = hole_lexer(lx, ends);
+    *out = (amplitudes){sh->calc.now, {.lo = 0}, steps_of(all, 50), said_of(all, "log", 0)};
+    if (name->len != strlen(dxA.text) || strncmp(lx->text + name->at, dxA.text, name->len) != 0)
+        return calc_fail(lx->error, name->at, name->len,
+                         "K' and K'' are functions of dxA: for dxA = LO .. HI");
+    if (!range_read_interval(&sh->calc, &own, &dxA, NULL, &out->ends) || !at_end(&own))
+        return false;
+    return (out->log ? out->ends.lo > 0 && out->ends.hi > 0 : out->ends.lo >= 0 && out->ends.hi >= 0) ||
+           calc_fail(lx->error, ends->at, ends->len,
+                     out->log ? "a logarithmic sweep needs positive ends"
+                              : "an amplitude cannot be negative");
+}
+
+static bool write_harmonic(export_table *t, void *context) {
+    const amplitudes *by = context;
+    for (size_t i = 0; i < t->all; i++) {
+        const long double part = (long double)i / (long double)by->steps;
+        long double row[3] = {(double)points_place(by->ends.lo, by->ends.hi, by->log, part)};
+        const value d = {row[0], DIM_LENGTH};
+        if (!call_Kp(by->scene, d, &row[1], t->error) || !call_Kpp(by->scene, d, &row[2], t->error) ||
+            !put_row(t, row))
+            return false;
+    }
+    return true;
+}
+
+static bool export_harmonic(shell *sh, lexer *lx, said *all) {
+    amplitudes by;
+    return read_amplitudes(sh, lx, all, &by) &&
+           write_table(sh, lx, all, HARMONIC, 3, by.steps + 1, write_harmonic, &by);
+}
+
+/* ---- loop -------------------------------------------------------------------------------------- */
+
+/* The last period goes from one peak to the other and back; where it turns both branches have a row. */
+static bool write_loop(export_table *t, void *context) {
+    trial_along *a = context;
+    const size_t turn = t->all / 2 - 1;
+    for (size_t i = 0; trial_along_next(a, t->error); i++) {
+        sight now;
+        run_sight(trace_now(&a->trace), &now);
+        for (int branch = i > turn ? 2 : 1; branch <= (i < turn ? 1 : 2); branch++)
+            if (!put_row(t, (const long double[]){branch, now.state.dx, now.state.Fx, now.state.FN}))
+                return false;
+    }
+    return !t->error->raised;
+}
+
+static bool export_loop(shell *sh, lexer *lx, said *all) {
+    const size_t steps = steps_of(all, 100);
+    const scene *s = &sh->calc.scene;
+    trial_along a;
+    if (program_last_cycle(s->program, s->end) == NO_CYCLE)
+        return calc_fail(lx->error, 0, 0, "no cycle has been run yet: cycle first (cycle FA=20 N)");
+    trial *t = trial_open(&sh->calc, lx->error);
+    bool ok = t && trial_along_begin(&a, t, ALONG_CYCLE, s->end, 2 * steps, false, lx->error);
+    if (ok) {
+        ok = write_table(sh, lx, all, LOOP, 4, 2 * (steps + 1), write_loop, &a);
+        trial_along_end(&a);
+    }
+    calc_word(&sh->calc, lx->error);
+    if (t)
+        trial_close(t);
+    return ok;
+}
+
+typedef struct model {
+    unsigned count;
+    jenkins_element *element;
+    jenkins_error quality;
+    fret_pressed contact;
+} model;
+
+/* ---- jenkins: forms -------------------------------------------------------------------------------------
+ */
+
+static bool write_csv(const settings *set, const model *m, FILE *to) {
+    answer a;
+    column columns[2] = {{.name = NULL}};
+    const bool ok = column_si(&columns[0], "k", DIM_STIFFNESS) && column_si(&columns[1], "slip", DIM_FORCE);
+    fprintf(to, "# parallel Jenkins elements of a contact at F_N = %.17g N, mu = %.17g\n",
+            (double)m->contact.press.F, m->contact.mu);
+    fprintf(to, "# worst error of the energy per cycle, up to the amplitude %.17g m: %.17g J\n",
+            m->quality.most, m->quality.worst);
+    answer_begin_as(&a, set, to, FORMAT_CSV);
+    if (ok)
+        answer_columns(&a, "export", columns, 2);
+    for (unsigned i = 0; ok && i < m->count; i++)
+        answer_row(&a, (const long double[]){m->element[i].k, m->element[i].s});
+    columns_free(columns, 2);
+    return answer_end(&a, ok) && ok;
+}
+
+static bool write_json(const settings *set, const model *m, FILE *to) {
+    answer a;
+    answer_begin_as(&a, set, to, FORMAT_JSON);
+    answer_message(&a, "model", "jenkins");
+    answer_number(&a, "FN", (double)m->contact.press.F);
+    answer_number(&a, "mu", m->contact.mu);
+    answer_number(&a, "error", m->quality.worst);
+    answer_number(&a, "amplitude", m->quality.most);
+    answer_items(&a, "elements");
+    for (unsigned i = 0; i < m->count; i++) {
+        answer_item(&a);
+        answer_number(&a, "k", m->element[i].k);
+        answer_number(&a, "slip", m->element[i].s);
+        answer_up(&a);
+    }
+    answer_up(&a);
+    answer_done(&a);
+    return answer_end(&a, true);
+}
+
+static bool write_header(const settings *set, const model *m, FILE *to) {
+    (void)set;
+    fprintf(
+        to,
+        "/* Parallel Jenkins elements, each a spring k [N/m] in line with a slider of the force slip [N], of "
+        "a\n"
+        " * contact at F_N = %.9g N, mu = %.9g. Worst error of the energy per cycle, up to the amplitude\n"
+        " * %.9g m: %.3g J. One step of the displacement d, with a force f[i] an element, all 0 at first:\n"
+        " *     f[i] += k * (d_new - d_old), then f[i] = -slip or slip where it is beyond; F_x is their sum. "
+        "*/\n",
+        (double)m->contact.press.F, m->contact.mu, m->quality.most, m->quality.worst);
+    fprintf(to, "#ifndef JENKINS_ELEMENTS\n#define JENKINS_ELEMENTS %u\n", m->count);
+    fputs("static const struct { double k, slip; } jenkins_element[JENKINS_ELEMENTS] = {\n", to);
+    for (unsigned i = 0; i < m->count; i++)
+        fprintf(to, "    {%.17g, %.17g},\n", m->element[i].k, m->element[i].s);
+    fputs("};\n#endif\n", to);
+    return true;
+}
+
+/* False: out of memory. */
+typedef bool writer(const settings *set, const model *m, FILE *to);
+static const struct {
+    const char *ending;
+    writer *write;
+} forms[] = {{".csv", write_csv}, {".json", write_json}, {".h", write_header}};
+
+static writer *form_of(const lexer *lx, const span *part) {
+    char name[FILE_NAME];
+    if (!hole_file(lx, part, name))
+        return NULL;
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (file_ends(name, forms[i].ending))
+            return forms[i].write;
+    calc_raise(lx->error, part->at, part->len,
+               "cannot tell the form of a model from '%s': use .csv, .json or .h", name);
+    return NULL;
+}
+
+/* ---- jenkins ------------------------------------------------------------------------------- */
+
+typedef struct request {
+    unsigned count;
+    span name; /* of the file */
+    writer *write;
+    const heard *FA; /* NULL: no limit */
+} request;
+
+static bool read_request(lexer *lx, said *all, request *r) {
+    const heard *count = said_of(all, "", 0), *to = said_of(all, "to", 0);
+    if (!count)
+        return calc_fail(lx->error, to->at, to->len, "expected how many elements before `to`: 1 to 1000");
+    r->count = count->count;
+    r->name = to->hole[0];
+    r->write = form_of(lx, &r->name);
+    r->FA = said_of(all, "FA", 0);
+    return r->write && (!r->FA || r->count > 1 ||
+                        calc_fail(lx->error, r->FA->hole[0].at, r->FA->hole[0].len,
+                                  "up to FA one of the elements only sticks: take 2 or more"));
+}
+
+static bool make_model(trial *t, const request *r, model *m, calc_error *error) {
+    double amplitude = (double)INFINITY;
+    fret_loading first;
+    if (!scene_contact(&t->scene, &m->contact, error))
+        return false;
+    if (r->FA) {
+        fret_status st = fret_loading_by_force(&m->contact, (double)r->FA->v.v, &first);
+        st.quantity = "FA";
+        if (!calc_status(error, &st))
+            return false;
+        amplitude = (double)first.dx;
+    }
+    m->count = r->count;
+    m->element = malloc(m->count * sizeof *m->element);
+    if (!m->element)
+        return calc_no_memory(error);
+    return jenkins(&m->contact, amplitude, m->count, &shell_stop, progress_pulse, m->element, &m->quality,
+                   error);
+}
+
+static bool write_model(shell *sh, lexer *lx, const request *r, const model *m) {
+    target to;
+    return target_file(lx, &r->name, &to) &&
+           target_close(sh, lx, &to, r->write(&sh->set, m, to.to) || calc_no_memory(lx->error));
+}
+
+/* Into the file, and how good it is to the reader; what can fail without the file comes first. */
+static bool give_model(shell *sh, lexer *lx, const request *r, const model *m) {
+    column columns[2] = {{.name = NULL}};
+    const long double si[] = {m->quality.worst, m->quality.worst / m->quality.scale};
+    answer a;
+    bool ok = ((column_si(&columns[0], "error of dW", DIM_ENERGY) &&
+                column_si(&columns[1], "relative", DIM_NONE)) ||
+               calc_no_memory(lx->error)) &&
+              write_model(sh, lx, r, m);
+    if (ok) {
+        answer_begin(&a, &sh->set, sh->out);
+        for (int i = 0; i < 2; i++)
+            answer_value(&a, &columns[i], si[i]);
+        answer_event(&a, "export");
+        answer_string(&a, "model", "jenkins");
+        answer_number(&a, "elements", m->count);
+        answer_done(&a);
+        ok = answer_end(&a, true) || calc_no_memory(lx->error);
+    }
+    columns_free(columns, 2);
+    return ok;
+}
+
+static bool export_jenkins(shell *sh, lexer *lx, said *all) {
+    request r;
+    model m = {.count = 0};
+    trial *t = NULL;
+    const bool ok = read_request(lx, all, &r) && (t = trial_open(&sh->calc, lx->error)) &&
+                    make_model(t, &r, &m, lx->error) && give_model(sh, lx, &r, &m);
+    calc_word(&sh->calc, lx->error);
+    if (t)
+        trial_close(t);
+    free(m.element);
+    return ok;
+}
+
+/* ---- the command ------------------------------------------------------------------------------- */
+
+static const export_model exported[] = {
+    {"jenkins", "N:1000 to FILE.csv|json|h [FA=20 N]", "parallel springs in line with sliders",
+     export_jenkins},
+    {"harmonic", "to FILE.csv|json for NAME = LO .. HI [steps N:1000000] [log]",
+     "K'(dxA) and K''(dxA), stiffness and loss stiffness of the first harmonic", export_harmonic},
+    {"loop", "to FILE.csv|json [steps N:1000000]", "both branches of the last cycle, so many steps each",
+     export_loop},
+};
+enum { EXPORTED = sizeof exported / sizeof *exported };
+
+const export_model *export_row(size_t i) {
+    return i < EXPORTED ? &exported[i] : NULL;
+}
+
+const char *export_name(size_t i) {
+    return i < EXPORTED ? exported[i].name : NULL;
+}
+
+const grammar *export_form(size_t i) {
+    static grammar lines[EXPORTED];
+    return grammar_made(&lines[i], "export", exported[i].name, exported[i].takes);
+}
+
+bool do_export(shell *sh, lexer *lx, const command *self) {
+    said all;
+    return said_read(sh, lx, command_form(self), &all) && exported[all.row].write(sh, lx, &all);
+}
