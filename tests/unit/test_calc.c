@@ -367,17 +367,17 @@ static void deep_names(void) {
     calc c;
     calc_value v;
     calc_init(&c, NULL);
-    CHECK(assign(&c, "d0 = 1"));
+    CHECK(assign(&c, "w0 = 1"));
     for (int i = 1; i <= CHAIN; i++) {
         char text[40];
-        snprintf(text, sizeof text, "d%d := d%d + 1", i, i - 1);
+        snprintf(text, sizeof text, "w%d := w%d + 1", i, i - 1);
         CHECK(assign(&c, text));
     }
-    CHECK(value_of(&c, "d100") == 101);
-    CHECK(!assign(&c, "d101 := d100 + 1") && !evaluate(&c, "d101", &v));
-    CHECK(assign(&c, "e = 1") && !assign(&c, "d0 := e")); /* which makes d100 deeper */
+    CHECK(value_of(&c, "w100") == 101);
+    CHECK(!assign(&c, "w101 := w100 + 1") && !evaluate(&c, "w101", &v));
+    CHECK(assign(&c, "e = 1") && !assign(&c, "w0 := e")); /* which makes w100 deeper */
     CHECK(!strcmp(error.text, "live definitions are nested more than 100 deep"));
-    CHECK(value_of(&c, "d100") == 101);
+    CHECK(value_of(&c, "w100") == 101);
     /* each is looked into once */
     CHECK(assign(&c, "f0(x) := x"));
     for (int i = 1; i <= 60; i++) {
@@ -386,10 +386,10 @@ static void deep_names(void) {
         CHECK(assign(&c, text));
     }
     /* a circle through all of them: as much of the way as a message bears */
-    CHECK(!assign(&c, "d0 := d100") && strlen(error.text) < sizeof error.text);
-    CHECK(!strncmp(error.text, "a circle of definitions: d0 -> d100 -> d99 -> ", 46));
-    CHECK(strstr(error.text, " -> d66 -> ... -> d0") && !strstr(error.text, "d65"));
-    CHECK(value_of(&c, "d100") == 101);
+    CHECK(!assign(&c, "w0 := w100") && strlen(error.text) < sizeof error.text);
+    CHECK(!strncmp(error.text, "a circle of definitions: w0 -> w100 -> w99 -> ", 46));
+    CHECK(strstr(error.text, " -> w66 -> ... -> w0") && !strstr(error.text, "w65"));
+    CHECK(value_of(&c, "w100") == 101);
     calc_free(&c);
 }
 
