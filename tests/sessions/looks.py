@@ -475,17 +475,20 @@ def pages(tests):
 
 
 def regimes(tests):
-    """Borders by Hertz and Mindlin: delta_max = mu (2-nu)/(2 (1-nu)) a^2/R, a^3 = 3 F R/(4 E*); c = a/2 at 3/4 of it."""
-    for across, ranges in enumerate(("for dxA = 0 um .. 3 um for FN = 1 N .. 200 N",
-                                     "for FN = 1 N .. 200 N for dxA = 0 um .. 3 um")):
-        text, (partial, gross, half, border) = script(tests, "regimes %d" % across, "plot regimes " + ranges)
+    """Borders by Hertz and Mindlin: delta_max = mu (2-nu)/(2 (1-nu)) a^2/R, a^3 = 3 F R/(4 E*); c = a/2 at 3/4 of it, and at
+    7/8 of mu F, which a rig adds over its stiffness."""
+    for i, ranges in enumerate(("for dxA = 0 um .. 3 um for FN = 1 N .. 200 N", "for FN = 1 N .. 200 N for dxA = 0 um .. 3 um",
+                                "for drigA = 0 um .. 4 um for FN = 1 N .. 200 N")):
+        across, per_K = i % 2, 1e6 / 80e6 if "drigA" in ranges else 0
+        text, (partial, gross, half, border) = script(tests, "regimes %d" % i, "plot regimes " + ranges, SCENE + "rig stiffness=80 N/um\n")
         pairs = [[(y, x) if across else (x, y) for x, y in points] for points in (half, border)]
-        for name, part, points_ in (("c = a/2", 0.75, pairs[0]), ("c = 0", 1, pairs[1])):
-            law = [part * 0.4 * 1.7 / 1.4 * (3 * f * R * 2 * (1 - 0.3**2) / (4 * 210e9)) ** (2 / 3) / R * 1e6 for _, f in points_]
+        for name, part, of_force, points_ in (("c = a/2", 0.75, 0.875, pairs[0]), ("c = 0", 1, 1, pairs[1])):
+            law = [part * 0.4 * 1.7 / 1.4 * (3 * f * R * 2 * (1 - 0.3**2) / (4 * 210e9)) ** (2 / 3) / R * 1e6 +
+                   of_force * 0.4 * f * per_K for _, f in points_]
             tests.check("%s, %s" % (ranges, name), len(points_) > 20 and points_[0][1] == 1 and points_[-1][1] == 200 and
                         all(abs(d - want) < 1e-6 * want for (d, _), want in zip(points_, law)), str(points_[:3]))
         inside = [max(p[across] for p in points_) for points_ in (partial, gross)]
-        tests.check("areas of " + ranges, inside[0] < inside[1] == 3 and "filledcurves closed" in text and
+        tests.check("areas of " + ranges, inside[0] < inside[1] == (4 if per_K else 3) and "filledcurves closed" in text and
                     all('"%s" at graph' % word in text for word in ("partial slip", "gross slip")), str(inside))
     text, series = script(tests, "regimes of a punch", "plot regimes for dxA = 0 um .. 2 um for FN = 10 N .. 200 N",
                           SCENE.split("geometry")[0] + "geometry flat b=0.2 mm; friction 0.4; press FN=100 N\n")

@@ -558,6 +558,29 @@ static void test_errors(void) {
     drop(&p);
 }
 
+/* A copy goes on as the original would have, which stays. */
+static void test_clone(void) {
+    pair p = make(2, 0.3);
+    fret_springs *other = NULL;
+    fret_state before, stayed, gone, after;
+    springs_of(&p, 200, p.radius * 1.01, FRET_WEIGHT_CELL);
+    go(&p, press_only(80), 1);
+    go(&p, to_fx(0.6 * p.mu * 80), 1);
+    if (!CHECK(fret_springs_clone(p.springs, &other).code == FRET_OK))
+        exit(unit_finish());
+    const fret_step on = to_dx(-0.3 * p.slip);
+    fret_springs_state(p.springs, &before);
+    CHECK_OK(fret_springs_step(other, &on, 1));
+    fret_springs_state(p.springs, &stayed);
+    CHECK(before.Fx == stayed.Fx && before.W == stayed.W && before.U == stayed.U);
+    CHECK_OK(fret_springs_step(p.springs, &on, 1));
+    fret_springs_state(other, &gone);
+    fret_springs_state(p.springs, &after);
+    CHECK(gone.Fx == after.Fx && gone.W == after.W && gone.U == after.U && gone.Fx != before.Fx);
+    fret_springs_free(other);
+    drop(&p);
+}
+
 int main(int argc, char **argv) {
     unit_start("springs", argc, argv);
     CASE(test_order_in_count());
@@ -574,6 +597,7 @@ int main(int argc, char **argv) {
     CASE(test_pad());
     CASE(test_gross_slip());
     CASE(test_constant_depth());
+    CASE(test_clone());
     CASE(test_errors());
     return unit_finish();
 }
