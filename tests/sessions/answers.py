@@ -15,7 +15,7 @@ STATEMENTS = (
     ("material", "material steel", ""), ("second", "second rigid; second same", "warning"), ("friction", "friction 0.4", ""), ("rig", "rig stiffness=80 N/um", ""),
     ("geometry", "geometry sphere R=10 mm", ""), ("geometry", "geometry file gap.csv smooth; geometry sphere R=10 mm", "smooth note"),
     ("press", "press FN=100 N", "press"), ("step", "step Fx=20 N", "step"), ("cycle", "cycle FA=20 N", "cycle"), ("follow", "follow h.csv", "follow"),
-    ("rig", "rig stiffness=80 N/um; rig none", ""), ("undo", "undo", ""), ("reset", "x = 1; reset; press FN=100 N; cycle FA=20 N", "press cycle"), ("history", "history", "history row*"),
+    ("undo", "undo", ""), ("reset", "x = 1; reset; press FN=100 N; cycle FA=20 N", "press cycle"), ("history", "history", "history row*"),
     ("table", "table a, dW(F) in nJ for F = 1 N .. 3 N steps 2", "table row*"), ("table", "table dW(F) for F = 39 N .. 41 N steps 2", "table row* note"),
     ("table", "table a for FN = 1 N .. 9 N steps 2 for mu = 0.3 .. 0.4 steps 1", "table row*"), ("table", "table a for FN = 1 N .. 9 N to t.json", "note"),
     ("plot", "plot loop", "text"), ("plot", "plot loop to p.gp", "note"), ("animate", "animate loop frames 2", "text"),
