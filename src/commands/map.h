@@ -5,7 +5,7 @@
 
 #include "commands/looks.h"
 #include "commands/range.h"
-#include "study/grid.h"
+#include "study/sweep.h"
 
 /* Both ranges of a grid; it must stay where it is. */
 typedef struct grid_range {

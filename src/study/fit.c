@@ -11,11 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/branches.h"
 #include "study/points.h"
 
 /* Where a trial point has no value its residuals are this large: the step is taken back. */
 static const double refused = 1e6;
-enum { ITERATIONS = 200, BEGINNINGS = 4 };
+enum { ITERATIONS = 200, BEGINNINGS = 4, TURNS = 64, UNKNOWNS = FIT_NAMES + TURNS };
 static const double apart = 1e-5;   /* of the two places of a difference, as a part of q */
 static const double visible = 1e-6; /* residuals of a loop, as a part of it */
 #define NO_ROW ((size_t)-1)
@@ -25,9 +26,13 @@ typedef struct state {
     points p;
     expr sides[2];                       /* left and right */
     knob knobs[FIT_NAMES + FIT_COLUMNS]; /* names, and columns behind them */
-    double start[FIT_NAMES], scale[FIT_NAMES];
+    branches loop;
+    /* Names, and behind them turning points; rows, and behind them those as measured. */
+    size_t parameters, residuals;
+    size_t stride; /* every such row is looked at */
+    double start[UNKNOWNS], scale[UNKNOWNS];
     /* parameter i is start exp(q-1), or start + scale (q-1) */
-    bool ratio[FIT_NAMES], bounded[FIT_NAMES];
+    bool ratio[UNKNOWNS], bounded[UNKNOWNS];
     double unit;    /* of the residuals */
     double largest; /* side of the equations computed so far */
     double size;    /* of the sides at the present values; of a loop, of F_x */
@@ -60,7 +65,7 @@ static void give_data(void *context, size_t row, long double x[]) {
     for (size_t i = 0; i < of->count; i++)
         x[i] = s->x[i];
     for (size_t j = 0; j < of->columns; j++)
-        x[of->count + j] = of->column[j].v[row];
+        x[of->count + j] = of->column[j].v[row * s->stride];
 }
 
 static bool take_sides(void *context, size_t row, const long double x[], const value v[],
@@ -68,7 +73,7 @@ static bool take_sides(void *context, size_t row, const long double x[], const v
     const sides *to = context;
     state *s = to->s;
     (void)x;
-    s->bad_row = row;
+    s->bad_row = row * s->stride;
     if (why || !points_keeps(&s->p, 0, v[0].d, &s->d, &s->known))
         return false;
     if (!dim_equal(v[1].d, s->d)) {
@@ -79,15 +84,17 @@ static bool take_sides(void *context, size_t row, const long double x[], const v
         return calc_fail(s->p.error, right->at, right->len, "the left side is %s, the right side is %s",
                          wants, is);
     }
-    to->out[row] = (double)(v[0].v - v[1].v);
+    to->out[row * s->stride] = (double)(v[0].v - v[1].v);
     s->largest = fmax(s->largest, (double)fmaxl(fabsl(v[0].v), fabsl(v[1].v)));
     return true;
 }
 
 static bool equations(state *s, double *out) {
     sides to = {s, out};
-    return points_go(
-        &s->p, &(points_run){.count = s->of->rows, .give = give_data, .take = take_sides, .context = &to});
+    return points_go(&s->p, &(points_run){.count = (s->of->rows - 1) / s->stride + 1,
+                                          .give = give_data,
+                                          .take = take_sides,
+                                          .context = &to});
 }
 
 /* The press that everything begins with. */
@@ -130,7 +137,37 @@ static fret_status run_rows(state *s, runner *r, double *out) {
     return st;
 }
 
-static bool loop_rows(state *s, double *out) {
+typedef struct way {
+    state *s;
+    runner *r;
+    fret_status status;
+} way;
+
+static bool step_branch(void *context, double dx, double normal, double *x, double *F) {
+    way *w = context;
+    const fit_loop *loop = &w->s->of->loop;
+    fret_state now;
+    load_item item = {.step = {.kind = LOAD_STEP, .tangential = BY_DISPLACEMENT, .tangential_value = dx}};
+    if (loop->normal) {
+        item.step.normal = (unsigned char)loop->normal_by;
+        item.step.normal_value = normal;
+    }
+    w->status = run_item(w->r, &item);
+    engine_forces(&w->r->engine, &now);
+    *x = dx;
+    *F = (double)now.Fx;
+    return !w->status.code;
+}
+
+static fret_status run_branches(state *s, runner *r, double *out) {
+    way w = {.s = s, .r = r, .status = {.code = FRET_OK}};
+    s->bad_row = NO_ROW;
+    branches_across(&s->loop, s->stride, step_branch, &w);
+    memcpy(out, s->loop.across, s->residuals * sizeof *out);
+    return w.status;
+}
+
+static bool loop_run(state *s, double *out, fret_status (*run)(state *s, runner *r, double *out)) {
     scene *tried = &s->p.t->scene;
     load_view view = {.in = &tried->in, .stop = s->of->c->scene.stop};
     runner r = {.load = &view};
@@ -148,27 +185,30 @@ static bool loop_rows(state *s, double *out) {
     if (!st.code)
         st = run_item(&r, &press);
     if (!st.code)
-        st = run_rows(s, &r, out);
+        st = run(s, &r, out);
     engine_end(&r.engine);
-    s->d = DIM_FORCE;
+    s->d = s->loop.noisy ? DIM_NONE : DIM_FORCE;
     s->known = true;
     if (!s->p.error->raised && !calc_status(&error, &st))
         points_failed(&s->p, &error);
     return !st.code && !s->p.error->raised;
 }
 
-/* left - right, or measured - computed F_x, in SI. */
+/* left - right, or measured - computed F_x, in SI; of a loop with noise in both columns in units of these. */
 static bool residuals(state *s, const gsl_vector *q, double *out) {
-    for (size_t i = 0; i < s->of->count; i++)
+    const size_t names = s->of->count;
+    for (size_t i = 0; i < names; i++)
         s->x[i] = parameter(s, i, gsl_vector_get(q, i));
+    for (size_t i = names; i < s->parameters; i++)
+        s->loop.turn[i - names] = parameter(s, i, gsl_vector_get(q, i));
     s->evaluations++;
-    return (s->of->left ? equations : loop_rows)(s, out);
+    return s->of->left ? equations(s, out) : loop_run(s, out, s->loop.noisy ? run_branches : run_rows);
 }
 
 static int gsl_residuals(const gsl_vector *q, void *context, gsl_vector *f) {
     state *s = context;
     if (residuals(s, q, s->residual)) {
-        for (size_t i = 0; i < s->of->rows; i++)
+        for (size_t i = 0; i < s->residuals; i++)
             gsl_vector_set(f, i, s->residual[i] / s->unit);
         return GSL_SUCCESS;
     }
@@ -183,15 +223,16 @@ static bool residuals_beside(state *s, size_t i, double q, double *out) {
 }
 
 static void no_slope(const state *s, size_t i, double q) {
-    char at[ASK_TEXT];
-    ask_text(&s->of->name[i], parameter(s, i, q), at);
+    char at[ASK_TEXT] = "a turning point";
+    if (i < s->of->count)
+        ask_text(&s->of->name[i], parameter(s, i, q), at);
     calc_fail(s->p.error, 0, 0, "no value close beside %s, for the derivative: %s", at, s->p.none.text);
 }
 
 /* Differences about q; at the end of the scene, where one of the two has no value, from q to the other. */
 static int gsl_jacobian(const gsl_vector *q, void *context, gsl_matrix *J) {
     state *s = context;
-    for (size_t i = 0; i < s->of->count; i++) {
+    for (size_t i = 0; i < s->parameters; i++) {
         const double at = gsl_vector_get(q, i), h = ask_step(apart / 2, at, 1);
         double hi = at + h, lo = at - h;
         gsl_vector_memcpy(s->beside, q);
@@ -204,7 +245,7 @@ static int gsl_jacobian(const gsl_vector *q, void *context, gsl_matrix *J) {
             residuals_beside(s, i, lo = at, s->below);
         if (s->p.error->raised)
             return GSL_EFAILED;
-        for (size_t row = 0; row < s->of->rows; row++)
+        for (size_t row = 0; row < s->residuals; row++)
             gsl_matrix_set(J, row, i, (s->above[row] - s->below[row]) / s->unit / (hi - lo));
     }
     return GSL_SUCCESS;
@@ -230,7 +271,7 @@ static double largest_force(const state *s) {
     double largest = 0;
     for (size_t i = 0; i < s->of->rows; i++)
         largest = fmax(largest, fabs(s->of->loop.Fx[i]));
-    return largest;
+    return s->loop.noisy ? largest / s->loop.noise_Fx : largest;
 }
 
 /* How far the sides move when a name does, as a part of their size, to where they have values. */
@@ -239,7 +280,7 @@ static double effect(state *s, size_t i, double by) {
     s->scale[i] = by; /* q = 2 and q = 0 are then the start, more or less by that */
     if (!residuals_beside(s, i, 2, s->above) && !residuals_beside(s, i, 0, s->above))
         most = (double)INFINITY;
-    for (size_t row = 0; row < s->of->rows && isfinite(most); row++)
+    for (size_t row = 0; row < s->residuals && isfinite(most); row++)
         most = fmax(most, fabs(s->above[row] - s->residual[row]));
     gsl_vector_set(s->beside, i, 1);
     return most / s->size;
@@ -276,13 +317,67 @@ static void choose_scales(state *s) {
 }
 
 static void choose_unit(state *s) {
-    const gsl_vector_const_view f = gsl_vector_const_view_array(s->residual, s->of->rows);
-    s->unit = gsl_blas_dnrm2(&f.vector) / sqrt((double)s->of->rows);
+    const gsl_vector_const_view f = gsl_vector_const_view_array(s->residual, s->residuals);
+    s->unit = gsl_blas_dnrm2(&f.vector) / sqrt((double)s->residuals);
     if (!(s->unit > 0))
         s->unit = 1;
 }
 
-static bool begin_fit(state *s, gsl_vector *q, calc_error *error) {
+/* The part 0..1 of a sequence that fills a box evenly, one base a name. */
+static double evenly(unsigned i, size_t name) {
+    static const unsigned base[FIT_NAMES] = {2, 3, 5, 7, 11, 13, 17, 19};
+    double part = 0, digit = 1;
+    for (; i; i /= base[name]) {
+        digit /= base[name];
+        part += digit * (i % base[name]);
+    }
+    return part;
+}
+
+/* The sum of squares at these names; infinite where there is none. */
+static double misfit(state *s, const double *at) {
+    double sum = 0;
+    for (size_t i = 0; i < s->of->count; i++)
+        s->x[i] = at[i];
+    memset(s->residual, 0, s->residuals * sizeof *s->residual);
+    if (!(s->of->left ? equations(s, s->residual) : loop_run(s, s->residual, run_branches)))
+        return (double)INFINITY;
+    for (size_t i = 0; i < s->residuals; i++)
+        sum += s->residual[i] * s->residual[i];
+    return sum;
+}
+
+/* The start that is given is one of many: others about it, by decades or over a range, then closer to the
+ * best of them. A name that has no size of its own stays. */
+static void seek(state *s) {
+    enum { SAMPLES = 48, ROWS = 200, ROUNDS = 4 };
+    static const double decades[ROUNDS] = {4, 1, 0.3, 0.1};
+    const size_t names = s->of->count;
+    double best[FIT_NAMES], least;
+    s->stride = s->of->rows / ROWS + 1;
+    memcpy(best, s->start, sizeof best);
+    least = misfit(s, best);
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        double centre[FIT_NAMES], at[FIT_NAMES];
+        memcpy(centre, best, sizeof centre);
+        for (unsigned k = 1; k <= SAMPLES * names && !s->p.error->raised; k++) {
+            for (size_t i = 0; i < names; i++) {
+                const double part = 2 * evenly(k, i) - 1, reach = decades[round];
+                at[i] = s->bounded[i] ? centre[i] + part * fmin(reach, 1) * 5 * s->scale[i]
+                                      : centre[i] * pow(10, reach * part);
+            }
+            const double now = misfit(s, at);
+            if (now < least) {
+                least = now;
+                memcpy(best, at, sizeof best);
+            }
+        }
+    }
+    s->stride = 1;
+    memcpy(s->start, best, names * sizeof *best);
+}
+
+static bool begin_fit(state *s, gsl_vector *q, bool moved, calc_error *error) {
     const fit_question *of = s->of;
     for (size_t i = 0; i < of->count; i++) {
         const knob *k = &of->name[i];
@@ -295,6 +390,12 @@ static bool begin_fit(state *s, gsl_vector *q, calc_error *error) {
         s->bounded[i] = isfinite(lo) && isfinite(hi);
         s->scale[i] = s->bounded[i] ? 0.1 * (hi - lo) : 1;
     }
+    for (size_t i = of->count; i < s->parameters; i++) {
+        s->start[i] = s->loop.level[i - of->count];
+        s->scale[i] = s->loop.range;
+    }
+    if (moved || !of->left)
+        seek(s);
     gsl_vector_set_all(q, 1);
     if (!residuals(s, q, s->residual)) {
         if (!error->raised) {
@@ -314,7 +415,7 @@ static bool begin_fit(state *s, gsl_vector *q, calc_error *error) {
 static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error) {
     const state before = *s;
     *again = false;
-    for (size_t i = 0; i < s->of->count; i++)
+    for (size_t i = 0; i < s->parameters; i++)
         s->start[i] = parameter(s, i, gsl_vector_get(q, i));
     gsl_vector_set_all(s->beside, 1);
     s->largest = 0;
@@ -327,7 +428,7 @@ static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error)
         gsl_vector_set_all(q, 1);
         choose_unit(s);
     }
-    for (size_t i = 0; i < s->of->count && !*again; i++) {
+    for (size_t i = 0; i < s->parameters && !*again; i++) {
         s->start[i] = before.start[i];
         s->scale[i] = before.scale[i];
     }
@@ -338,7 +439,7 @@ static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error)
 
 /* (J^T J)^-1 from J = U S V^T diag(norm). GSL's own does not look whether it has got its memory. */
 static void covariance(const gsl_matrix *V, const gsl_vector *sv, const double *norm,
-                       double C[FIT_NAMES][FIT_NAMES]) {
+                       double C[UNKNOWNS][UNKNOWNS]) {
     const size_t p = V->size1;
     for (size_t i = 0; i < p; i++)
         for (size_t j = 0; j < p; j++) {
@@ -353,12 +454,12 @@ static void covariance(const gsl_matrix *V, const gsl_vector *sv, const double *
 
 /* In plain words, where columns of the Jacobian vanish or depend on each other; else the covariances of a
  * unit variance. */
-static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT_NAMES][FIT_NAMES],
+static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[UNKNOWNS][UNKNOWNS],
                        calc_error *error) {
-    const size_t p = s->of->count;
+    const size_t p = s->parameters, names = s->of->count;
     gsl_matrix *J = s->J, *V = gsl_matrix_alloc(p, p);
     gsl_vector *sv = gsl_vector_alloc(p);
-    double norm[FIT_NAMES], most = 0;
+    double norm[UNKNOWNS], most = 0;
     bool ok = V && sv;
     gsl_matrix_memcpy(J, gsl_multifit_nlinear_jac(w));
     for (size_t i = 0; i < p; i++) {
@@ -368,7 +469,7 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
     }
     for (size_t i = 0; i < p && ok; i++) {
         gsl_vector_view column = gsl_matrix_column(J, i);
-        if (!(norm[i] > 1e-9 * most))
+        if (!(norm[i] > 1e-9 * most) && i < names)
             ok = calc_fail(error, 0, 0, "the data do not determine %s: nothing in them depends on it",
                            s->of->name[i].text);
         else
@@ -379,9 +480,9 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
     if (ok && gsl_vector_get(sv, p - 1) < 1e-5 * gsl_vector_get(sv, 0)) {
         char list[FIT_NAMES * (LEX_NAME + 6)] = "";
         size_t left = 0;
-        for (size_t i = 0; i < p; i++)
+        for (size_t i = 0; i < names; i++)
             left += fabs(gsl_matrix_get(V, i, p - 1)) > 0.05;
-        for (size_t i = 0; i < p; i++)
+        for (size_t i = 0; i < names; i++)
             if (fabs(gsl_matrix_get(V, i, p - 1)) > 0.05) {
                 left--;
                 snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", s->of->name[i].text,
@@ -407,8 +508,8 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[FIT
 static bool arrived(state *s, gsl_multifit_nlinear_workspace *w, calc_error *error) {
     const gsl_vector *f = gsl_multifit_nlinear_residual(w);
     const gsl_matrix *J = gsl_multifit_nlinear_jac(w);
-    const size_t n = s->of->rows, p = s->of->count;
-    double C[FIT_NAMES][FIT_NAMES], pull[FIT_NAMES];
+    const size_t n = s->residuals, p = s->parameters;
+    double C[UNKNOWNS][UNKNOWNS], pull[UNKNOWNS];
     if (!determined(s, w, C, error))
         return false;
     for (size_t i = 0; i < p; i++) {
@@ -443,7 +544,7 @@ static int drive(const state *s, gsl_multifit_nlinear_workspace *w) {
 static bool descend(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
                     calc_error *error) {
     gsl_multifit_nlinear_fdf fdf = {
-        .f = gsl_residuals, .df = gsl_jacobian, .n = s->of->rows, .p = s->of->count, .params = s};
+        .f = gsl_residuals, .df = gsl_jacobian, .n = s->residuals, .p = s->parameters, .params = s};
     int status = gsl_multifit_nlinear_init(q, &fdf, w);
     if (!status)
         status = drive(s, w);
@@ -474,7 +575,7 @@ static bool judge_fit(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vec
     const size_t p = s->of->count;
     const gsl_vector *f = gsl_multifit_nlinear_residual(w);
     const double squares = pow(gsl_blas_dnrm2(f), 2), v = squares / (double)(s->of->rows - p);
-    double C[FIT_NAMES][FIT_NAMES];
+    double C[UNKNOWNS][UNKNOWNS];
     out->rms = sqrt(squares / (double)s->of->rows) * s->unit;
     look_for_drift(s, f, out);
     const bool ok = determined(s, w, C, error);
@@ -487,21 +588,41 @@ static bool judge_fit(state *s, gsl_multifit_nlinear_workspace *w, const gsl_vec
     }
     out->d = s->d;
     out->twice = s->twice;
+    out->noisy = s->loop.noisy;
+    out->turns = s->parameters - p;
+    out->noise_dx = s->loop.noise_dx;
+    out->noise_Fx = s->loop.noise_Fx;
     out->evaluations = s->evaluations;
     return ok;
 }
 
-static bool run_fit(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
-                    calc_error *error) {
-    s->above = s->residual + s->of->rows;
-    s->below = s->above + s->of->rows;
+static bool run_once(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, bool moved, fit_answer *out,
+                     calc_error *error) {
     bool again = true;
-    if (!begin_fit(s, q, error))
+    if (!begin_fit(s, q, moved, error))
         return false;
     for (int i = 0; i < BEGINNINGS && again; i++)
         if (!descend(s, w, q, out, error) || !begin_again(s, q, &again, error))
             return false;
     return judge_fit(s, w, q, out, error);
+}
+
+/* What is wrong from the start that was given may be right from another. */
+static bool run_fit(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, fit_answer *out,
+                    calc_error *error) {
+    s->above = s->residual + s->residuals;
+    s->below = s->above + s->residuals;
+    if (run_once(s, w, q, false, out, error))
+        return true;
+    const calc_error first = *error;
+    if (!s->of->left || error->stop || error->strange || error->circle)
+        return false;
+    error_clear(error);
+    if (run_once(s, w, q, true, out, error))
+        return true;
+    if (!error->stop)
+        *error = first;
+    return false;
 }
 
 static bool begin_points(state *s, calc_error *error) {
@@ -522,16 +643,34 @@ static bool begin_points(state *s, calc_error *error) {
     return ok;
 }
 
+static bool begin_loop(state *s, calc_error *error) {
+    const fit_question *of = s->of;
+    const fit_loop *loop = &of->loop;
+    s->loop = (branches){.rows = of->rows, .dx = loop->dx, .Fx = loop->Fx, .normal = loop->normal};
+    s->twice = begins_midway(of);
+    if (!branches_find(&s->loop, loop->noise_dx, loop->noise_Fx, s->twice, error))
+        return false;
+    if (s->loop.noisy) {
+        s->parameters += s->loop.turns;
+        s->residuals += s->loop.turns;
+    }
+    return s->parameters - of->count <= TURNS ||
+           calc_fail(error, 0, 0,
+                     "dx turns %zu times: more than %d turning points with noise are not fitted at once",
+                     s->loop.turns, TURNS);
+}
+
 bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
-    const size_t n = question->rows, p = question->count;
     const gsl_multifit_nlinear_parameters method = gsl_multifit_nlinear_default_parameters();
-    state s = {.of = question, .twice = !question->left && begins_midway(question)};
+    state s = {.of = question, .parameters = question->count, .residuals = question->rows, .stride = 1};
     *out = (fit_answer){.rms = 0};
     gsl_set_error_handler_off();
-    if (n <= p)
-        return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", n, p);
-    if (!begin_points(&s, error))
-        return points_close(&s.p), false;
+    if (question->rows <= question->count)
+        return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", question->rows,
+                         question->count);
+    if ((!question->left && !begin_loop(&s, error)) || !begin_points(&s, error))
+        return branches_free(&s.loop), points_close(&s.p), false;
+    const size_t n = s.residuals, p = s.parameters;
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &method, n, p);
     gsl_vector *q = gsl_vector_alloc(p);
     s.beside = gsl_vector_alloc(p);
@@ -545,6 +684,7 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     gsl_vector_free(s.beside);
     gsl_matrix_free(s.J);
     free(s.residual);
+    branches_free(&s.loop);
     points_close(&s.p);
     return ok;
 }

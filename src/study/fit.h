@@ -11,8 +11,9 @@ enum { FIT_NAMES = 8, FIT_COLUMNS = 64 }; /* as many as a file has */
 /* A measured loop: F_x compared at each row. */
 typedef struct fit_loop {
     const double *dx, *Fx;
-    const double *normal; /* F_N or delta_z at each row, or NULL: as pressed */
-    load_by normal_by;    /* BY_FORCE, BY_DISPLACEMENT */
+    const double *normal;      /* F_N or delta_z at each row, or NULL: as pressed */
+    load_by normal_by;         /* BY_FORCE, BY_DISPLACEMENT */
+    double noise_dx, noise_Fx; /* standard deviations; 0: estimated */
 } fit_loop;
 
 typedef struct fit_question {
@@ -31,7 +32,10 @@ typedef struct fit_answer {
     double value[FIT_NAMES];
     double deviation[FIT_NAMES]; /* standard error, from the scatter of the residuals */
     double correlation[FIT_NAMES][FIT_NAMES];
-    double rms;           /* of all residuals */
+    double rms; /* of all residuals; in units of the noise, where a loop has it in both columns */
+    bool noisy; /* it has: distances are across the curve, turning points unknowns */
+    size_t turns;
+    double noise_dx, noise_Fx;
     double together;      /* correlation of each residual with the next: of noise it is near 0 */
     bool drifts;          /* of a loop: it is not by chance, and the deviations are too small */
     dim d;                /* of them */

@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Turning points, a table of the curve to each branch, and feet of perpendiculars on it. */
+#include "study/branches.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/turning.h"
+
+enum { NODES = 97 }; /* of a branch, closer where it begins */
+
+/* ---- what is measured -------------------------------------------------------------------------- */
+
+static double spread(const double *v, size_t n) {
+    double lo = v[0], hi = v[0];
+    for (size_t i = 1; i < n; i++) {
+        lo = fmin(lo, v[i]);
+        hi = fmax(hi, v[i]);
+    }
+    return hi - lo;
+}
+
+/* Of several rows near the crest noise has chosen the turning point: it is where their parabola has its own. */
+static size_t crest(const branches *b, size_t row, size_t from, size_t to) {
+    enum { MOST = 400 };
+    double at[MOST], c[3];
+    size_t first = row, last = row;
+    while (first > from && row - first < MOST / 2 && fabs(b->dx[first - 1] - b->dx[row]) <= 6 * b->noise_dx)
+        first--;
+    while (last < to && last - first + 1 < MOST && fabs(b->dx[last + 1] - b->dx[row]) <= 6 * b->noise_dx)
+        last++;
+    const size_t n = last - first + 1;
+    for (size_t i = 0; i < n; i++)
+        at[i] = (double)i;
+    const double here = (double)(row - first);
+    if (n < 5 || !turning_parabola(at, b->dx + first, n, here, false, c) || c[2] == 0)
+        return row;
+    return first + (size_t)fmin(fmax(round(here - c[1] / (2 * c[2])), 0), (double)(n - 1));
+}
+
+/* Rows that begin or end with a turning point. */
+static void add_ends(branches *b, size_t *at) {
+    const double next = b->turns ? b->dx[at[0]] : b->dx[b->rows - 1];
+    if (!b->twice && b->turns && fabs(b->dx[0]) > 6 * b->noise_dx && (b->dx[0] > 0) != (next > b->dx[0])) {
+        memmove(at + 1, at, b->turns * sizeof *at);
+        at[0] = 0;
+        b->turns++;
+    }
+    if (b->twice && b->turns % 2)
+        at[b->turns++] = b->rows - 1;
+}
+
+
+static void find_levels(branches *b, const size_t *at) {
+    const size_t last = b->rows - 1;
+    for (size_t i = 0; i < b->turns; i++) {
+        const size_t from = i ? (at[i - 1] + at[i]) / 2 : at[i] / 2,
+                     to = i + 1 < b->turns ? (at[i] + at[i + 1]) / 2 : (at[i] + last) / 2;
+        b->level[i] = turning_level(b->dx, at[i], from, to, b->noise_dx, true);
+        b->first[i + 1] = at[i] > 0 ? crest(b, at[i], from, to) + 1 : 0;
+    }
+    b->first[0] = 0;
+    b->first[b->turns + 1] = b->rows;
+    memcpy(b->turn, b->level, b->turns * sizeof *b->turn);
+}
+
+/* ---- branches ---------------------------------------------------------------------------------- */
+
+static double begin_of(const branches *b, size_t branch) {
+    return branch ? b->turn[branch - 1] : b->twice && b->turns ? b->turn[b->turns - 1] : 0;
+}
+
+static double end_of(const branches *b, size_t branch) {
+    return branch < b->turns ? b->turn[branch] : b->end;
+}
+
+static bool goes_up(const branches *b, size_t branch) {
+    return b->up == (branch % 2 == 0);
+}
+
+/* The last branch has no turning point at its end: it goes as far as its rows. */
+static void find_ends(branches *b) {
+    const size_t begin = b->first[b->turns], last = b->rows - 1;
+    b->up = (b->turns ? b->turn[0] : b->dx[last]) > begin_of(b, 0);
+    const bool up = goes_up(b, b->turns);
+    b->end = b->turns ? b->turn[b->turns - 1] : 0;
+    for (size_t i = begin; i < b->rows; i++)
+        b->end = up ? fmax(b->end, b->dx[i]) : fmin(b->end, b->dx[i]);
+    b->end += (up ? 4 : -4) * b->noise_dx;
+}
+
+/* Of nodes along a branch: they are closer where it begins and bends most. */
+static double place(size_t node) {
+    const double s = (double)node / (NODES - 1);
+    return s * s;
+}
+
+static double node_at(double part) {
+    return sqrt(fmax(part, 0)) * (NODES - 1);
+}
+
+/* A load that is constant but for its noise is its mean; else that of the rows about each node. */
+static bool find_loads(branches *b, calc_error *error) {
+    double noise, mean = 0, square = 0;
+    if (!turning_noise(b->normal, b->rows, &noise, error))
+        return false;
+    for (size_t i = 0; i < b->rows; i++)
+        mean += b->normal[i] / (double)b->rows;
+    for (size_t i = 0; i < b->rows; i++)
+        square += (b->normal[i] - mean) * (b->normal[i] - mean) / (double)b->rows;
+    const bool constant = sqrt(square) <= 1.5 * noise;
+    for (size_t k = 0; k <= b->turns; k++) {
+        double *load = b->load + k * NODES, sum[NODES] = {0}, count[NODES] = {0}, before = b->normal[0];
+        const double from = begin_of(b, k), width = end_of(b, k) - from;
+        for (size_t i = b->first[k]; i < b->first[k + 1] && !constant; i++) {
+            const double at = fmin(node_at((b->dx[i] - from) / width), NODES - 1);
+            const size_t node = (size_t)(at >= 0 ? round(at) : 0);
+            sum[node] += b->normal[i];
+            count[node]++;
+        }
+        if (b->first[k] < b->rows)
+            before = b->normal[b->first[k]];
+        for (size_t j = 0; j < NODES; j++)
+            load[j] = before = constant ? mean : count[j] > 0 ? sum[j] / count[j] : before;
+    }
+    return true;
+}
+
+bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, calc_error *error) {
+    const size_t n = b->rows;
+    size_t *at = malloc((n + 2) * sizeof *at);
+    b->twice = twice;
+    b->range = spread(b->dx, n);
+    b->first = malloc((n + 3) * sizeof *b->first);
+    if (!at || !b->first)
+        return free(at), calc_no_memory(error);
+    if (!turning_noise(b->dx, n, &b->noise_dx, error) || !turning_noise(b->Fx, n, &b->noise_Fx, error))
+        return free(at), false;
+    b->noise_dx = noise_dx > 0 ? noise_dx : b->noise_dx;
+    b->turns = turning_points(b->dx, n, b->noise_dx, at);
+    if (noise_dx == 0 && n < 16 * (b->turns + 1)) /* too few to tell noise from a curve */
+        b->noise_dx = b->noise_Fx = 0;
+    b->noise_Fx = noise_Fx > 0 ? noise_Fx : b->noise_Fx;
+    add_ends(b, at);
+    const double height = spread(b->Fx, n);
+    b->noise_Fx = fmax(b->noise_Fx, 1e-6 * height);
+    b->noisy = noise_dx > 0 ||
+               (b->noise_dx > 1e-4 * b->range && b->noise_dx / b->range > 0.02 * b->noise_Fx / height);
+    b->memory = malloc((3 * b->turns + n + (b->turns + 1) * NODES) * sizeof *b->memory);
+    if (!b->memory)
+        return free(at), calc_no_memory(error);
+    b->level = b->memory;
+    b->turn = b->level + b->turns;
+    b->across = b->turn + b->turns;
+    b->load = b->across + n + b->turns;
+    find_levels(b, at);
+    free(at);
+    find_ends(b);
+    return !b->normal || find_loads(b, error);
+}
+
+void branches_free(branches *b) {
+    free(b->first);
+    free(b->memory);
+    b->first = NULL;
+    b->memory = NULL;
+}
+
+/* ---- the curve of a branch --------------------------------------------------------------------- */
+
+typedef struct table {
+    double x[NODES], F[NODES], slope[NODES], bend[NODES];
+} table;
+
+/* The slope at b of the parabola through three points, one after the other. */
+static double slope_at(const double *x, const double *F, size_t a, size_t b, size_t c) {
+    const double left = (F[b] - F[a]) / (x[b] - x[a]), right = (F[c] - F[b]) / (x[c] - x[b]),
+                 part = (x[b] - x[a]) / (x[c] - x[a]);
+    return left + part * (right - left);
+}
+
+static void bend(table *t) {
+    const size_t last = NODES - 1;
+    for (size_t i = 1; i < last; i++)
+        t->slope[i] = slope_at(t->x, t->F, i - 1, i, i + 1);
+    t->slope[0] = 2 * (t->F[1] - t->F[0]) / (t->x[1] - t->x[0]) - t->slope[1];
+    t->slope[last] =
+        2 * (t->F[last] - t->F[last - 1]) / (t->x[last] - t->x[last - 1]) - t->slope[last - 1];
+    for (size_t i = 1; i < last; i++)
+        t->bend[i] = (t->slope[i + 1] - t->slope[i - 1]) / (t->x[i + 1] - t->x[i - 1]);
+    t->bend[0] = t->bend[1];
+    t->bend[last] = t->bend[last - 1];
+}
+
+static bool run_branch(const branches *b, size_t branch, table *t, branches_step *step, void *context) {
+    const double from = begin_of(b, branch), to = end_of(b, branch);
+    for (size_t i = 0; i < NODES; i++)
+        if (!step(context, from + place(i) * (to - from), b->normal ? b->load[branch * NODES + i] : 0,
+                  &t->x[i], &t->F[i]))
+            return false;
+    bend(t);
+    return true;
+}
+
+typedef struct point {
+    double F, slope, bend;
+} point;
+
+/* Cubic pieces; straight on beyond both ends. */
+static point curve(const table *t, bool up, double x) {
+    size_t lo = 0, hi = NODES - 1;
+    if ((x < t->x[lo]) == up || (x > t->x[hi]) == up) {
+        const size_t end = (x < t->x[lo]) == up ? lo : hi;
+        return (point){t->F[end] + t->slope[end] * (x - t->x[end]), t->slope[end], 0};
+    }
+    while (hi - lo > 1) {
+        const size_t mid = (lo + hi) / 2;
+        if ((x < t->x[mid]) == up)
+            hi = mid;
+        else
+            lo = mid;
+    }
+    const double h = t->x[hi] - t->x[lo], s = (x - t->x[lo]) / h, rise = (t->F[hi] - t->F[lo]) / h,
+                 a = t->slope[lo] - rise, c = t->slope[hi] - rise;
+    return (point){t->F[lo] + h * (s * rise + s * (1 - s) * ((1 - s) * a - s * c)),
+                   rise + (1 - s) * (1 - 3 * s) * a + s * (3 * s - 2) * c,
+                   (1 - s) * t->bend[lo] + s * t->bend[hi]};
+}
+
+/* From the foot of the perpendicular, by the method of Gauss and Newton. */
+static double across(const branches *b, const table *t, bool up, double x, double F) {
+    enum { STEPS = 8 };
+    const double sx = b->noisy ? b->noise_dx : 0, sF = b->noise_Fx;
+    double foot = x;
+    point at = curve(t, up, foot);
+    for (int i = 0; i < STEPS && sx > 0; i++) {
+        const double steep = at.slope * sx / sF, off = (x - foot) / sx + steep * (F - at.F) / sF,
+                     by = off / (1 + steep * steep) * sx;
+        foot += by;
+        at = curve(t, up, foot);
+        if (fabs(by) < 1e-9 * sx)
+            break;
+    }
+    const double steep = at.slope * sx / sF, along = sqrt(1 + steep * steep),
+                 bent = at.bend * sx * sx / sF / (along * along * along);
+    return ((F - at.F) - at.slope * (x - foot)) / sF / along + fmax(-0.5, fmin(0.5, bent / 2));
+}
+
+/* Those that a closed loop has come through before it begins. */
+static bool run_before(const branches *b, branches_step *step, void *context) {
+    double x, F;
+    for (size_t i = 0; i < b->turns && b->twice; i++)
+        if (!step(context, b->turn[i], b->normal ? b->load[i * NODES + NODES - 1] : 0, &x, &F))
+            return false;
+    return true;
+}
+
+bool branches_across(branches *b, size_t n, branches_step *step, void *context) {
+    table t;
+    memset(b->across, 0, (b->rows + b->turns) * sizeof *b->across);
+    if (!run_before(b, step, context))
+        return false;
+    for (size_t k = 0; k <= b->turns; k++) {
+        const bool up = goes_up(b, k);
+        if (b->first[k] == b->rows) /* nothing is behind the last turning point */
+            break;
+        if (!run_branch(b, k, &t, step, context))
+            return false;
+        if (k < b->turns && b->noisy)
+            b->across[b->rows + k] = (b->level[k] - t.x[NODES - 1]) / b->noise_dx;
+        for (size_t i = (b->first[k] + n - 1) / n * n; i < b->first[k + 1]; i += n)
+            b->across[i] = across(b, &t, up, b->dx[i], b->Fx[i]);
+    }
+    return true;
+}

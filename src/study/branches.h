@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A measured loop with noise in both columns, as branches between turning points: how far each row is from
+ * the curve of a model, across it, in units of the two noises. Knows numbers, and the model by a function. */
+#ifndef STUDY_BRANCHES_H
+#define STUDY_BRANCHES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "text/error.h"
+
+/* One step to a displacement, under this normal load where there is one to each row (else 0), and where that
+ * lies on the measured curve. False: the model cannot. */
+typedef bool branches_step(void *context, double dx, double normal, double *x, double *F);
+
+typedef struct branches {
+    size_t rows;
+    const double *dx, *Fx, *normal; /* borrowed; normal may be NULL */
+    double noise_dx, noise_Fx;
+    bool twice;     /* a closed loop from its midst: its turning points are run through first */
+    bool noisy;     /* turning points are unknowns: d_x has a noise that matters */
+    size_t turns;   /* turning points */
+    double *level;  /* of them, as measured */
+    double range;   /* of d_x */
+    double *turn;   /* of them, as they are tried */
+    double *across; /* of each row: its distance; then of each turning point */
+    /* private */
+    size_t *first; /* row of each branch; one more than there are */
+    bool up;       /* the first of them; the others follow in turn */
+    double end;    /* of the last */
+    double *load;  /* normal loads at the nodes of all branches */
+    double *memory;
+} branches;
+
+/* noise_dx, noise_Fx: given, or 0. Free with branches_free whatever comes. */
+bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, calc_error *error);
+void branches_free(branches *b);
+
+/* Distances of every n-th row from the curve at the present turning points; those between are 0. With noise
+ * in both columns across has a bias of half the curvature of the curve, which is taken off. */
+bool branches_across(branches *b, size_t n, branches_step *step, void *context);
+#endif
