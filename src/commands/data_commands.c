@@ -126,13 +126,30 @@ static bool read_loop(shell *sh, const lexer *lx, const heard *along, const choi
     return true;
 }
 
+/* `noise dx=10 nm Fx=0.5 N`, or one of them. */
+static bool read_noise(const lexer *lx, said *all, fit_loop *loop) {
+    const heard *word = said_of(all, "noise", 0), *of[2] = {said_of(all, "dx", 0), said_of(all, "Fx", 0)};
+    for (size_t i = 0; i < 2; i++) {
+        if (!of[i])
+            continue;
+        if (!word || !said_of(all, "along", 0))
+            return calc_fail(lx->error, of[i]->at, of[i]->len,
+                             "%s= tells the noise of a measured loop: along FILE.csv noise %s=...",
+                             of[i]->of->name, of[i]->of->name);
+        *(i ? &loop->noise_Fx : &loop->noise_dx) = (double)of[i]->v.v;
+    }
+    return !word || of[0] || of[1] ||
+           calc_fail(lx->error, word->at, word->len, "expected dx=10 nm or Fx=0.5 N behind noise");
+}
+
 static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, named_columns *columns,
                      size_t names) {
     const heard *along = said_of(all, "along", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     choices chosen;
     q->c = &sh->calc;
-    if (!read_names(sh, &own, q) || !choices_of(all, NULL, &chosen, lx->error))
+    if (!read_names(sh, &own, q) || !choices_of(all, NULL, &chosen, lx->error) ||
+        !read_noise(lx, all, &q->loop))
         return false;
     if (!along && !said_of(all, "for", 0))
         return lex_fail(lx, "expected for EXPR = EXPR to FILE.csv, or along FILE.csv");
@@ -149,6 +166,11 @@ static void report_fit(answer *out, const fit_question *q, const fit_answer *a) 
     answer_number(out, "iterations", a->iterations);
     answer_number(out, "rms", a->rms);
     answer_number(out, "neighbours", a->together);
+    if (a->noisy) {
+        answer_quantity(out, "noise_dx", (value){a->noise_dx, DIM_LENGTH});
+        answer_quantity(out, "noise_Fx", (value){a->noise_Fx, DIM_FORCE});
+        answer_number(out, "turning_points", (double)a->turns);
+    }
     answer_group(out, "deviation");
     for (size_t i = 0; i < q->count; i++)
         answer_number(out, q->name[i].text, a->deviation[i]);
@@ -175,7 +197,14 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
                 shell_note(sh, "the data hardly tell %s and %s apart", q->name[i].text, q->name[j].text);
         }
     format_value(&sh->set, (value){a->rms, a->d}, rms, sizeof rms);
-    answer_words(out, "rms = %s over %zu rows\n", rms, q->rows);
+    answer_words(out, "rms = %s%s over %zu rows\n", rms, a->noisy ? " of the noise" : "", q->rows);
+    if (a->noisy) {
+        char dx[CALC_VALUE_TEXT], Fx[CALC_VALUE_TEXT];
+        calc_value_text(DIM_LENGTH, a->noise_dx, dx);
+        calc_value_text(DIM_FORCE, a->noise_Fx, Fx);
+        answer_words(out, "noise of dx = %s, of Fx = %s; %zu turning point%s found with them\n", dx, Fx,
+                     a->turns, a->turns == 1 ? "" : "s");
+    }
     for (size_t i = 0; i < q->count; i++)
         if (a->deviation[i] > fabs(a->value[i]))
             shell_note(sh, "the data hardly determine %s", q->name[i].text);

@@ -414,7 +414,8 @@ const command commands[] = {
      .run = do_fit,
      .group = "backwards",
      .keywords = "least squares regression identify parameter measured data inverse calibrate",
-     .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv] [using NAME = COLUMN, ...]",
+     .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv] [noise] [dx=10 nm] [Fx=0.5 N] "
+              "[using NAME = COLUMN, ...]",
      .summary = "inputs from measured data, with how sure they are",
      .help = "Starts from the present values; the scene stays as it is. With `for` each row is\n"
              "an equation whose columns are names: depth = dz(force). With `along` the file is\n"

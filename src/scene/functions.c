@@ -31,6 +31,8 @@ bool call_dz(scene *s, value F, long double *out, calc_error *error) {
 
 bool call_FN(scene *s, value d, long double *out, calc_error *error) {
     fret_press press;
+    if (s->gaps && d.v < 0)
+        d.v = 0;
     if (!pressed_by(s, BY_DISPLACEMENT, d, &press, error))
         return false;
     *out = press.F;

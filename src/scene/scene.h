@@ -76,6 +76,7 @@ struct scene {
     unsigned springs;
     /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
     fret_normal *like;
+    bool gaps;           /* of a scratch scene: FN(dz) of dz < 0, before contact, is 0 and no error */
     double pieces_error; /* of the polynomials among them, relative */
     unsigned used;       /* what has answered: raised by whatever does, cleared by whoever wants to know */
     const volatile sig_atomic_t *stop; /* never NULL */

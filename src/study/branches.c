@@ -21,7 +21,8 @@ static double spread(const double *v, size_t n) {
     return hi - lo;
 }
 
-/* Of several rows near the crest noise has chosen the turning point: it is where their parabola has its own. */
+/* Of several rows near the crest noise has chosen the turning point: it is where their parabola has its own.
+ */
 static size_t crest(const branches *b, size_t row, size_t from, size_t to) {
     enum { MOST = 400 };
     double at[MOST], c[3];
@@ -50,7 +51,6 @@ static void add_ends(branches *b, size_t *at) {
     if (b->twice && b->turns % 2)
         at[b->turns++] = b->rows - 1;
 }
-
 
 static void find_levels(branches *b, const size_t *at) {
     const size_t last = b->rows - 1;
@@ -185,8 +185,7 @@ static void bend(table *t) {
     for (size_t i = 1; i < last; i++)
         t->slope[i] = slope_at(t->x, t->F, i - 1, i, i + 1);
     t->slope[0] = 2 * (t->F[1] - t->F[0]) / (t->x[1] - t->x[0]) - t->slope[1];
-    t->slope[last] =
-        2 * (t->F[last] - t->F[last - 1]) / (t->x[last] - t->x[last - 1]) - t->slope[last - 1];
+    t->slope[last] = 2 * (t->F[last] - t->F[last - 1]) / (t->x[last] - t->x[last - 1]) - t->slope[last - 1];
     for (size_t i = 1; i < last; i++)
         t->bend[i] = (t->slope[i + 1] - t->slope[i - 1]) / (t->x[i + 1] - t->x[i - 1]);
     t->bend[0] = t->bend[1];

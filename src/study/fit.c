@@ -17,8 +17,9 @@
 /* Where a trial point has no value its residuals are this large: the step is taken back. */
 static const double refused = 1e6;
 enum { ITERATIONS = 200, BEGINNINGS = 4, TURNS = 64, UNKNOWNS = FIT_NAMES + TURNS };
-static const double apart = 1e-5;   /* of the two places of a difference, as a part of q */
-static const double visible = 1e-6; /* residuals of a loop, as a part of it */
+static const double apart = 1e-5;    /* of the two places of a difference, as a part of q */
+static const double visible = 1e-6;  /* residuals of a loop, as a part of it */
+static const double rounding = 1e-9; /* of equations, as a part of their sides */
 #define NO_ROW ((size_t)-1)
 
 typedef struct state {
@@ -411,7 +412,8 @@ static bool begin_fit(state *s, gsl_vector *q, bool moved, calc_error *error) {
 }
 
 /* A scale taken at the start may be wrong: where another name is 0 there, nothing may depend on this one. So
- * scales are taken anew where the fit has ended, and where one differs much the fit is repeated. */
+ * scales are taken anew where the fit has ended, and where one differs much, or the residuals have become
+ * small beside their unit, the fit is repeated. */
 static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error) {
     const state before = *s;
     *again = false;
@@ -422,12 +424,14 @@ static bool begin_again(state *s, gsl_vector *q, bool *again, calc_error *error)
     if (!residuals(s, s->beside, s->residual))
         return false; /* unreached: the fit has just been there */
     choose_scales(s);
+    choose_unit(s);
+    *again = s->unit < 0.01 * before.unit && s->unit > rounding * s->size;
     for (size_t i = 0; i < s->of->count; i++)
         *again = *again || fabs(log10(s->scale[i] / before.scale[i])) > 2;
-    if (*again) {
+    if (*again)
         gsl_vector_set_all(q, 1);
-        choose_unit(s);
-    }
+    else
+        s->unit = before.unit;
     for (size_t i = 0; i < s->parameters && !*again; i++) {
         s->start[i] = before.start[i];
         s->scale[i] = before.scale[i];
@@ -639,6 +643,8 @@ static bool begin_points(state *s, calc_error *error) {
     const size_t columns = of->left ? of->columns : 0;
     const bool ok =
         points_open(&s->p, of->c, s->knobs, of->count + columns, s->sides, of->left ? 2 : 0, error);
+    if (ok)
+        s->p.t->scene.gaps = true;
     s->p.all = passes * of->rows;
     return ok;
 }

@@ -133,6 +133,69 @@ def closed_loop(tests):
                 and abs(values["E0"] / E0 - 1) < 1e-3 and "twice" not in done.stderr, tests.report(done))
 
 
+def noisy_in_both(tests):
+    """Noise in the driving column too: mu within its stated error, from starts that are wrong by decades."""
+    mu, E0 = 0.62, 210e9
+    path = [2e-6 * math.sin(2 * math.pi * i / 200) for i in range(251)]
+    clean = loop(mu, E0, path)
+    for seed in (1, 2, 3):
+        noise = random.Random(seed)
+        rows = [(d * 1e6 + noise.gauss(0, 0.01), f + noise.gauss(0, 0.5)) for d, f in zip(path, clean)]
+        name = write(tests, "both.csv", "dx [um],Fx [N]", rows)
+        for said in ("", " noise dx=10 nm Fx=0.5 N"):
+            values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + name + said)
+            tests.check("fit: noise in both columns, seed %d%s" % (seed, said), event and abs(values["mu"] - mu) < 2 * event["deviation"]["mu"]
+                        and abs(values["E0"] - E0) < 2 * event["deviation"]["E0"] and event["deviation"]["mu"] < 0.004
+                        and abs(event["noise_dx"] / 1e-8 - 1) < 0.3 and event["turning_points"] == 2, tests.report(done))
+    want = values, event
+    for E in (0.21, 2.1, 21, 210, 2100, 21e3, 210e3):
+        for start in (0.05, 0.4, 2):
+            values, event, done = answers(tests, SETUP % (E, start) + "; fit mu, E0 along " + name + said)
+            tests.check("fit: begun at E0 = %g GPa, mu = %g" % (E, start), event and all(
+                abs(values[n] - want[0][n]) < 1e-5 * want[1]["deviation"][n] for n in ("mu", "E0")), tests.report(done))
+    loaded = write(tests, "both-load.csv", "dx [um],Fx [N],FN [N]", [row + (FN + noise.gauss(0, 0.5),) for row in rows])
+    values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + loaded)
+    tests.check("fit: noise in three columns", event and abs(values["mu"] - mu) < 2 * event["deviation"]["mu"]
+                and abs(values["E0"] - E0) < 2 * event["deviation"]["E0"], tests.report(done))
+    for said, text in ((" noise", "expected dx=10 nm or Fx=0.5 N behind noise"), (" dx=10 nm", "dx= tells the noise of a measured loop"),
+                       (" noise dx=0 nm", "must be positive"), (" noise Fx=1 mm", "Fx is a force, not a length")):
+        done = tests.run("-c", SETUP % (210, 0.4) + "; fit mu along " + name + said)
+        tests.check("fit refuses:" + said, done.returncode == 1 and text in done.stderr, tests.report(done))
+
+
+def moved_starts(tests):
+    """A start that a row cannot have, and one that lies far off, are moved."""
+    rows = [(q, 1e6 * loss) for q, loss in ((q, dissipated(0.7, 210e9, q)) for q in (10, 20, 30, 40, 50, 60))]
+    name = write(tests, "losses-Q.csv", "Q [N],Ed [uJ]", rows)
+    for start in (0.05, 0.4, 2):
+        values, event, done = answers(tests, SETUP % (210, start) + "; fit mu for Ed = dW(Q) to " + name)
+        tests.check("fit: losses from mu = %g" % start, event and abs(values["mu"] / 0.7 - 1) < 1e-6, tests.report(done))
+    noise = random.Random(3)
+    cN = 210e9 / (2 * (1 - NU ** 2))
+    rows = [(h + noise.gauss(0, 0.002), (4 / 3 * cN * math.sqrt(R) * max(h - 0.4, 0) ** 1.5 * 1e-9) + noise.gauss(0, 0.2))
+            for h in (0.04 * i for i in range(80))]
+    name = write(tests, "indented.csv", "Depth [um],Load [N]", rows)
+    first = None
+    for h0 in (0, 0.5, 3, -3):
+        for E in (0.21, 100, 210e3):
+            values, event, done = answers(tests, SETUP % (E, 0.4) + "; h0 = %g um; fit E0, h0 for Load = FN(Depth - h0) to %s" % (h0, name))
+            first = first or values
+            tests.check("fit: indented, from h0 = %g um, E0 = %g GPa" % (h0, E), event and all(
+                abs(values[n] - true) < 2.5 * event["deviation"][n] and abs(values[n] - first[n]) < 1e-4 * event["deviation"][n]
+                for n, true in (("E0", 210e9), ("h0", 0.4e-6))), tests.report(done))
+
+
+def dissipated(mu, E0, FA):
+    """Per cycle, of a paraboloid: 18 mu^2 F_N^2/(5 a G*) {1-l^(5/3) - 5 F_A/(6 mu F_N) (1+l^(2/3))}, l = 1-F_A/(mu F_N), with
+    the tangential stiffness 2 a G* (Mindlin and Deresiewicz, for both bodies)."""
+    cN = E0 / (2 * (1 - NU ** 2))
+    a = (3 * FN * R / (4 * cN)) ** (1 / 3)
+    eta = (2 - NU) / (2 * (1 - NU))
+    part = FA / (mu * FN)
+    rest = 1 - part
+    return 18 * (mu * FN) ** 2 / (5 * a * cN / eta) * (1 - rest ** (5 / 3) - 5 * part / 6 * (1 + rest ** (2 / 3)))
+
+
 def equations(tests):
     """Depth against force; what cannot be told apart."""
     E0 = 180e9
@@ -525,6 +588,8 @@ def run(tests):
     refusals(tests)
     noisy_loops(tests, 20 if tests.few else 100)
     drifting(tests)
+    noisy_in_both(tests)
+    moved_starts(tests)
     closed_loop(tests)
     equations(tests)
     many_rows(tests)
