@@ -171,9 +171,13 @@ bool columns_turn_pull(const csv *c, csv_values *FN) {
 }
 
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
-    double sum = 0;
-    for (size_t i = 1; i < c->rows; i++)
-        sum += (dx->v[i] - dx->v[i - 1]) * (Fx->v[i] - Fx->v[i - 1]);
+    double x = 0, F = 0, sum = 0; /* about the means: between neighbours noise would tell */
+    for (size_t i = 0; i < c->rows; i++) {
+        x += dx->v[i] / (double)c->rows;
+        F += Fx->v[i] / (double)c->rows;
+    }
+    for (size_t i = 0; i < c->rows; i++)
+        sum += (dx->v[i] - x) * (Fx->v[i] - F);
     return sum < 0;
 }
 

@@ -207,19 +207,20 @@ typedef struct point {
 } point;
 
 /* Cubic pieces; straight on beyond both ends. */
-static point curve(const table *t, bool up, double x) {
-    size_t lo = 0, hi = NODES - 1;
-    if ((x < t->x[lo]) == up || (x > t->x[hi]) == up) {
-        const size_t end = (x < t->x[lo]) == up ? lo : hi;
+static point curve(const table *t, double x) {
+    const size_t last = NODES - 1;
+    const double way = t->x[last] - t->x[0], part = (x - t->x[0]) / way;
+    if (!(part > 0 && part < 1)) {
+        const size_t end = part > 0 ? last : 0;
         return (point){t->F[end] + t->slope[end] * (x - t->x[end]), t->slope[end], 0};
     }
-    while (hi - lo > 1) {
-        const size_t mid = (lo + hi) / 2;
-        if ((x < t->x[mid]) == up)
-            hi = mid;
-        else
-            lo = mid;
-    }
+    size_t lo = (size_t)node_at(part);
+    lo = lo < last ? lo : last - 1;
+    while (lo > 0 && (t->x[lo] - t->x[0]) / way > part)
+        lo--;
+    while (lo + 2 < NODES && (t->x[lo + 1] - t->x[0]) / way <= part)
+        lo++;
+    const size_t hi = lo + 1;
     const double h = t->x[hi] - t->x[lo], s = (x - t->x[lo]) / h, rise = (t->F[hi] - t->F[lo]) / h,
                  a = t->slope[lo] - rise, c = t->slope[hi] - rise;
     return (point){t->F[lo] + h * (s * rise + s * (1 - s) * ((1 - s) * a - s * c)),
@@ -228,17 +229,17 @@ static point curve(const table *t, bool up, double x) {
 }
 
 /* From the foot of the perpendicular, by the method of Gauss and Newton. */
-static double across(const branches *b, const table *t, bool up, double x, double F) {
+static double across(const branches *b, const table *t, double x, double F) {
     enum { STEPS = 8 };
     const double sx = b->noisy ? b->noise_dx : 0, sF = b->noise_Fx;
     double foot = x;
-    point at = curve(t, up, foot);
+    point at = curve(t, foot);
     for (int i = 0; i < STEPS && sx > 0; i++) {
         const double steep = at.slope * sx / sF, off = (x - foot) / sx + steep * (F - at.F) / sF,
                      by = off / (1 + steep * steep) * sx;
         foot += by;
-        at = curve(t, up, foot);
-        if (fabs(by) < 1e-9 * sx)
+        at = curve(t, foot);
+        if (fabs(by) < 1e-6 * sx)
             break;
     }
     const double steep = at.slope * sx / sF, along = sqrt(1 + steep * steep),
@@ -255,13 +256,18 @@ static bool run_before(const branches *b, branches_step *step, void *context) {
     return true;
 }
 
+enum { GLANCE = 6 };
+
+size_t branches_glance(const branches *b) {
+    return b->first[b->turns + 1 < GLANCE ? b->turns + 1 : GLANCE];
+}
+
 bool branches_across(branches *b, size_t n, branches_step *step, void *context) {
     table t;
     memset(b->across, 0, (b->rows + b->turns) * sizeof *b->across);
     if (!run_before(b, step, context))
         return false;
-    for (size_t k = 0; k <= b->turns; k++) {
-        const bool up = goes_up(b, k);
+    for (size_t k = 0; k <= b->turns && !(n > 1 && k == GLANCE); k++) {
         if (b->first[k] == b->rows) /* nothing is behind the last turning point */
             break;
         if (!run_branch(b, k, &t, step, context))
@@ -269,7 +275,7 @@ bool branches_across(branches *b, size_t n, branches_step *step, void *context) 
         if (k < b->turns && b->noisy)
             b->across[b->rows + k] = (b->level[k] - t.x[NODES - 1]) / b->noise_dx;
         for (size_t i = (b->first[k] + n - 1) / n * n; i < b->first[k + 1]; i += n)
-            b->across[i] = across(b, &t, up, b->dx[i], b->Fx[i]);
+            b->across[i] = across(b, &t, b->dx[i], b->Fx[i]);
     }
     return true;
 }

@@ -22,13 +22,13 @@ typedef struct branches {
     size_t turns;   /* turning points */
     double *level;  /* of them, as measured */
     double range;   /* of d_x */
+    size_t *first;  /* row of each branch, of which there is one more; and their end */
     double *turn;   /* of them, as they are tried */
     double *across; /* of each row: its distance; then of each turning point */
     /* private */
-    size_t *first; /* row of each branch; one more than there are */
-    bool up;       /* the first of them; the others follow in turn */
-    double end;    /* of the last */
-    double *load;  /* normal loads at the nodes of all branches */
+    bool up;      /* the first of them; the others follow in turn */
+    double end;   /* of the last */
+    double *load; /* normal loads at the nodes of all branches */
     double *memory;
 } branches;
 
@@ -36,7 +36,10 @@ typedef struct branches {
 bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, calc_error *error);
 void branches_free(branches *b);
 
-/* Distances of every n-th row from the curve at the present turning points; those between are 0. With noise
+/* Rows of the first branches, which tell as much as a glance needs. */
+size_t branches_glance(const branches *b);
+/* Distances of all rows from the curve at the present turning points; of every n-th row, n > 1: of the first
+ * branches alone, where others are 0. With noise
  * in both columns across has a bias of half the curvature of the curve, which is taken off. */
 bool branches_across(branches *b, size_t n, branches_step *step, void *context);
 #endif

@@ -16,7 +16,7 @@
 
 /* Where a trial point has no value its residuals are this large: the step is taken back. */
 static const double refused = 1e6;
-enum { ITERATIONS = 200, BEGINNINGS = 4, TURNS = 64, UNKNOWNS = FIT_NAMES + TURNS };
+enum { ITERATIONS = 200, BEGINNINGS = 4, MANY = 4, TURNS = 64, UNKNOWNS = FIT_NAMES + TURNS };
 static const double apart = 1e-5;    /* of the two places of a difference, as a part of q */
 static const double visible = 1e-6;  /* residuals of a loop, as a part of it */
 static const double rounding = 1e-9; /* of equations, as a part of their sides */
@@ -230,24 +230,66 @@ static void no_slope(const state *s, size_t i, double q) {
     calc_fail(s->p.error, 0, 0, "no value close beside %s, for the derivative: %s", at, s->p.none.text);
 }
 
+/* Every so many parameters from `first` to before `end`. */
+typedef struct comb {
+    size_t first, every, end;
+} comb;
+
+static bool residuals_moved(state *s, const gsl_vector *q, const comb *of, double by, double *out) {
+    gsl_vector_memcpy(s->beside, q);
+    for (size_t i = of->first; i < of->end; i += of->every)
+        gsl_vector_set(s->beside, i, gsl_vector_get(q, i) + by);
+    return residuals(s, s->beside, out);
+}
+
 /* Differences about q; at the end of the scene, where one of the two has no value, from q to the other. */
+static bool differences(state *s, const gsl_vector *q, const comb *of) {
+    const double at = gsl_vector_get(q, of->first), h = ask_step(apart / 2, at, 1);
+    double hi = h, lo = -h;
+    const bool above = residuals_moved(s, q, of, hi, s->above),
+               below = residuals_moved(s, q, of, lo, s->below);
+    if (!above && !below)
+        no_slope(s, of->first, at);
+    if (!above)
+        residuals_moved(s, q, of, hi = 0, s->above);
+    if (!below)
+        residuals_moved(s, q, of, lo = 0, s->below);
+    for (size_t row = 0; row < s->residuals; row++)
+        s->above[row] = (s->above[row] - s->below[row]) / s->unit / (hi - lo);
+    return !s->p.error->raised;
+}
+
+/* A turning point is felt until the next but one wipes it out: rows of the branches behind it. */
+enum { FELT = 3 };
+static void put_slopes(const state *s, const comb *of, gsl_matrix *J) {
+    const size_t names = s->of->count, ends = s->loop.turns + 1;
+    const bool alone = of->first + of->every >= of->end;
+    for (size_t i = of->first; i < of->end; i += of->every) {
+        const size_t next = i - names + 1, begin = alone ? 0 : s->loop.first[next],
+                     end = alone                ? s->residuals
+                           : next + FELT > ends ? s->of->rows
+                                                : s->loop.first[next + FELT];
+        for (size_t row = begin; row < end; row++)
+            gsl_matrix_set(J, row, i, s->above[row]);
+        if (!alone)
+            gsl_matrix_set(J, s->of->rows + i - names, i, s->above[s->of->rows + i - names]);
+    }
+}
+
+/* Names one by one; turning points far from each other at once, the last of a closed loop, which comes before
+ * all, by itself. */
 static int gsl_jacobian(const gsl_vector *q, void *context, gsl_matrix *J) {
     state *s = context;
-    for (size_t i = 0; i < s->parameters; i++) {
-        const double at = gsl_vector_get(q, i), h = ask_step(apart / 2, at, 1);
-        double hi = at + h, lo = at - h;
-        gsl_vector_memcpy(s->beside, q);
-        const bool above = residuals_beside(s, i, hi, s->above), below = residuals_beside(s, i, lo, s->below);
-        if (!above && !below)
-            no_slope(s, i, at);
-        if (!above)
-            residuals_beside(s, i, hi = at, s->above);
-        if (!below)
-            residuals_beside(s, i, lo = at, s->below);
-        if (s->p.error->raised)
+    const size_t names = s->of->count, all = s->parameters, last = all - (s->twice && all > names);
+    gsl_matrix_set_zero(J);
+    for (size_t i = 0; i < all; i++) {
+        const bool turn = i >= names && i < last;
+        const comb of = {i, turn ? FELT : 1, turn ? last : i + 1};
+        if (turn && i >= names + FELT)
+            continue;
+        if (!differences(s, q, &of))
             return GSL_EFAILED;
-        for (size_t row = 0; row < s->residuals; row++)
-            gsl_matrix_set(J, row, i, (s->above[row] - s->below[row]) / s->unit / (hi - lo));
+        put_slopes(s, &of, J);
     }
     return GSL_SUCCESS;
 }
@@ -355,7 +397,7 @@ static void seek(state *s) {
     static const double decades[ROUNDS] = {4, 1, 0.3, 0.1};
     const size_t names = s->of->count;
     double best[FIT_NAMES], least;
-    s->stride = s->of->rows / ROWS + 1;
+    s->stride = (s->of->left ? s->of->rows : branches_glance(&s->loop)) / ROWS + 1;
     memcpy(best, s->start, sizeof best);
     least = misfit(s, best);
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -462,9 +504,9 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[UNK
                        calc_error *error) {
     const size_t p = s->parameters, names = s->of->count;
     gsl_matrix *J = s->J, *V = gsl_matrix_alloc(p, p);
-    gsl_vector *sv = gsl_vector_alloc(p);
+    gsl_vector *sv = gsl_vector_alloc(p), *tau = gsl_vector_alloc(p);
     double norm[UNKNOWNS], most = 0;
-    bool ok = V && sv;
+    bool ok = V && sv && tau;
     gsl_matrix_memcpy(J, gsl_multifit_nlinear_jac(w));
     for (size_t i = 0; i < p; i++) {
         const gsl_vector_const_view column = gsl_matrix_const_column(J, i);
@@ -479,8 +521,15 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[UNK
         else
             gsl_vector_scale(&column.vector, 1 / norm[i]);
     }
-    if (ok) /* finite columns: it converges; unlike others it allocates nothing, which it would not check */
-        gsl_linalg_SV_decomp_jacobi(J, V, sv);
+    if (ok) { /* of J = Q R that of R; finite columns: it converges; unlike others it allocates nothing, which
+                 it would not check */
+        gsl_matrix_view R = gsl_matrix_submatrix(J, 0, 0, p, p);
+        gsl_linalg_QR_decomp(J, tau);
+        for (size_t i = 1; i < p; i++)
+            for (size_t j = 0; j < i; j++)
+                gsl_matrix_set(&R.matrix, i, j, 0);
+        gsl_linalg_SV_decomp_jacobi(&R.matrix, V, sv);
+    }
     if (ok && gsl_vector_get(sv, p - 1) < 1e-5 * gsl_vector_get(sv, 0)) {
         char list[FIT_NAMES * (LEX_NAME + 6)] = "";
         size_t left = 0;
@@ -502,6 +551,7 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[UNK
         covariance(V, sv, norm, C);
     gsl_matrix_free(V);
     gsl_vector_free(sv);
+    gsl_vector_free(tau);
     return ok || error->raised ? ok : calc_no_memory(error);
 }
 
@@ -667,16 +717,19 @@ static bool begin_loop(state *s, calc_error *error) {
 }
 
 bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
-    const gsl_multifit_nlinear_parameters method = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_parameters method = gsl_multifit_nlinear_default_parameters();
     state s = {.of = question, .parameters = question->count, .residuals = question->rows, .stride = 1};
     *out = (fit_answer){.rms = 0};
     gsl_set_error_handler_off();
     if (question->rows <= question->count)
         return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", question->rows,
                          question->count);
-    if ((!question->left && !begin_loop(&s, error)) || !begin_points(&s, error))
+    if (!begin_points(&s, error) || (!question->left && !begin_loop(&s, error)))
         return branches_free(&s.loop), points_close(&s.p), false;
     const size_t n = s.residuals, p = s.parameters;
+    if (p > question->count + MANY)
+        method.solver =
+            gsl_multifit_nlinear_solver_cholesky; /* half the time; noise leaves no digits to lose */
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &method, n, p);
     gsl_vector *q = gsl_vector_alloc(p);
     s.beside = gsl_vector_alloc(p);
