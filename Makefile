@@ -174,6 +174,13 @@ hard-diagram: deps-check
 	@{ echo '# make hard-diagram HARD_STEPS=$(HARD_STEPS)'; nice $(B)/tests/hard/hard --diagrams $(HARD_STEPS); } > $(B)/diagram.txt; \
 	  status=$$?; mv $(B)/diagram.txt tests/hard/diagram.txt; tail -n 1 tests/hard/diagram.txt; exit $$status
 
+# Do the standard errors of fit hold? FITS loops with noise of each kind. The table is kept in git.
+FITS ?= 200
+fits: deps-check
+	@$(MAKE) --no-print-directory -s $(B)/fret
+	@nice python3 tests/hard/fits.py $(B)/fret $(FITS) > $(B)/fits.txt; status=$$?; \
+	  mv $(B)/fits.txt tests/hard/fits.txt; tail -n 1 tests/hard/fits.txt; exit $$status
+
 # Every allocation and every system call of every kind of statement fails once. The table is kept in git.
 faults: deps-check
 	@$(MAKE) --no-print-directory -s $(B)/fret $(B)/tests/faults.so $(B)/tests/calls
@@ -276,5 +283,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: published coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram faults latency bench format install clean FORCE
+.PHONY: published coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram fits faults latency bench format install clean FORCE
 -include $(shell find $(B) -name chroots -prune -o -name '*.d' -print 2>/dev/null)

@@ -11,6 +11,7 @@
 #include "statement/progress.h"
 #include "statement/target.h"
 #include "study/fit.h"
+#include "study/loop.h"
 #include "study/uncertainty.h"
 
 /* As `ans`. */
@@ -193,8 +194,11 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
         for (size_t j = i + 1; j < q->count; j++) {
             answer_words(out, "correlation of %s and %s = %.3g\n", q->name[i].text, q->name[j].text,
                          a->correlation[i][j]);
-            if (fabs(a->correlation[i][j]) > 0.99)
-                shell_note(sh, "the data hardly tell %s and %s apart", q->name[i].text, q->name[j].text);
+            if (fabs(a->correlation[i][j]) <= 0.99)
+                continue;
+            const char *instead = fit_instead(q->name[i].text, q->name[j].text);
+            shell_note(sh, "the data hardly tell %s and %s apart%s%s", q->name[i].text, q->name[j].text,
+                       instead ? ": " : "", instead ? instead : "");
         }
     format_value(&sh->set, (value){a->rms, a->d}, rms, sizeof rms);
     answer_words(out, "rms = %s%s over %zu rows\n", rms, a->noisy ? " of the noise" : "", q->rows);
@@ -240,6 +244,100 @@ static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, cal
     return ok;
 }
 
+/* ---- fit: by cycle ----------------------------------------------------------------------------- */
+
+enum { CYCLE_COLUMNS = 2 * FIT_NAMES + 4 };
+
+static bool cycle_columns(const fit_question *q, column *c) {
+    char name[2 * LEX_NAME];
+    bool ok = column_si(&c[0], "cycle", DIM_NONE) && column_si(&c[1], "line", DIM_NONE);
+    for (size_t i = 0; i < q->count && ok; i++) {
+        snprintf(name, sizeof name, "%s deviation", q->name[i].text);
+        ok = column_si(&c[2 + 2 * i], q->name[i].text, q->name[i].d) &&
+             column_si(&c[3 + 2 * i], name, q->name[i].d);
+    }
+    return ok && column_si(&c[2 + 2 * q->count], "dW", DIM_ENERGY) &&
+           column_si(&c[3 + 2 * q->count], "slides", DIM_NONE);
+}
+
+/* Rows of one cycle, begun where the one before has ended. */
+static bool fit_cycle(const fit_question *q, const loop_cycle *c, const double *from, fit_answer *a,
+                      calc_error *error) {
+    fit_question one = *q;
+    const bool whole = c->last < c->first;
+    const size_t first = whole ? 0 : c->first;
+    one.rows = whole ? q->rows : c->last - c->first + 1;
+    one.loop.dx += first;
+    one.loop.Fx += first;
+    if (one.loop.normal)
+        one.loop.normal += first;
+    one.loop.closed = true;
+    one.from = from;
+    return fit(&one, a, error);
+}
+
+static bool cycle_rows(shell *sh, answer *out, const fit_question *q, const csv *data, const loop_answer *l,
+                       calc_error *error) {
+    double from[FIT_NAMES] = {0};
+    size_t fitted = 0;
+    calc_error first, why;
+    error_clear(&first);
+    for (size_t k = 0; k < l->cycles; k++) {
+        const loop_cycle *c = &l->cycle[k];
+        fit_answer a = {.rms = 0};
+        long double row[CYCLE_COLUMNS] = {(long double)(k + 1), (long double)data->row[c->first].line};
+        error_clear(&why);
+        const bool ok = fit_cycle(q, c, fitted ? from : NULL, &a, &why);
+        if (why.stop)
+            return *error = why, false;
+        if (!ok && !first.raised)
+            first = why;
+        for (size_t i = 0; i < q->count; i++) {
+            row[2 + 2 * i] = ok ? a.value[i] : (double)NAN;
+            row[3 + 2 * i] = ok ? a.deviation[i] : (double)NAN;
+            from[i] = ok ? a.value[i] : from[i];
+        }
+        row[2 + 2 * q->count] = c->dW;
+        row[3 + 2 * q->count] = c->slides;
+        answer_row(out, row);
+        fitted += ok;
+    }
+    if (!fitted)
+        return *error = first, false;
+    answered(sh, from[q->count - 1], q->name[q->count - 1].d);
+    if (fitted < l->cycles)
+        shell_note(sh, "%zu of %zu cycles have no values: %s", l->cycles - fitted, l->cycles, first.text);
+    return true;
+}
+
+static bool fit_by_cycle(shell *sh, const fit_question *q, const csv *data, calc_error *error) {
+    loop_answer l;
+    answer out;
+    column columns[CYCLE_COLUMNS] = {{.name = NULL}};
+    bool ok = loop_find(q->loop.dx, q->loop.Fx, q->rows, &l, error);
+    if (ok) {
+        answer_begin(&out, &sh->set, sh->out);
+        ok = cycle_columns(q, columns) && answer_columns(&out, "cycles", columns, 4 + 2 * q->count);
+        const bool rows = ok && cycle_rows(sh, &out, q, data, &l, error);
+        ok = (answer_end(&out, rows) && ok) || calc_no_memory(error);
+        ok = ok && rows;
+    }
+    columns_free(columns, CYCLE_COLUMNS);
+    loop_free(&l);
+    return ok;
+}
+
+static bool is_by_cycle(const lexer *lx, said *all) {
+    const heard *by = said_of(all, "by", 0);
+    char word[LEX_NAME] = "";
+    if (by)
+        hole_word(lx, by, word);
+    if (by && (strcmp(word, "cycle") || !said_of(all, "along", 0)))
+        calc_fail(lx->error, by->at, by->len,
+                  "by cycle gives a row for each cycle of a measured loop: along FILE.csv by cycle");
+    return by != NULL;
+}
+
 bool do_fit(shell *sh, lexer *lx, const command *self) {
     const size_t names = sh->calc.names.count;
     fit_question *q = calloc(1, sizeof *q);
@@ -248,8 +346,11 @@ bool do_fit(shell *sh, lexer *lx, const command *self) {
     fit_answer a;
     said all;
     bool ok = (q || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all) &&
-              read_fit(sh, lx, &all, q, &data, &columns, names) && fit(q, &a, lx->error) &&
-              print_fit(sh, q, &a, lx->error);
+              read_fit(sh, lx, &all, q, &data, &columns, names);
+    if (ok && is_by_cycle(lx, &all))
+        ok = !lx->error->raised && fit_by_cycle(sh, q, &data, lx->error);
+    else
+        ok = ok && fit(q, &a, lx->error) && print_fit(sh, q, &a, lx->error);
     names_forget(sh, names);
     csv_free(&data);
     free(q);

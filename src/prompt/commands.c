@@ -415,15 +415,20 @@ const command commands[] = {
      .group = "backwards",
      .keywords = "least squares regression identify parameter measured data inverse calibrate",
      .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv] [noise] [dx=10 nm] [Fx=0.5 N] "
-              "[using NAME = COLUMN, ...]",
+              "[by WORD] [using NAME = COLUMN, ...]",
      .summary = "inputs from measured data, with how sure they are",
      .help = "Starts from the present values; the scene stays as it is. With `for` each row is\n"
              "an equation whose columns are names: depth = dz(force). With `along` the file is\n"
              "a measured loop: driven by dx (and FN or dz, where there is such a column), Fx\n"
-             "compared. Answers are values with their standard errors, correlations and the\n"
-             "rms of the residuals; data that do not determine a name, or cannot tell two\n"
-             "apart, are an error that names them. A note says where the residuals of a loop\n"
-             "are no noise but go together, by a drift or an offset: take that off the file.\n\n"
+             "compared. Where dx has noise too, its turning points are unknowns, and distances\n"
+             "are across the curve in units of both noises: noise dx=10 nm Fx=0.5 N gives\n"
+             "them, else they are estimated from row to row. by cycle: a row each, with the\n"
+             "energy of the rows and whether the flanks slide. Answers are values with their\n"
+             "standard errors, correlations and the rms of the residuals; data that do not\n"
+             "determine a name, or cannot tell two apart, are an error that names them. A note\n"
+             "says where the residuals of a loop are no noise but go together, by a drift or\n"
+             "an offset: take that off the file. The present values are one start of many; a\n"
+             "row before contact, FN(dz) of dz < 0, is one without load.\n\n"
              "    $ cat depth.csv\n"
              "    force [N],depth [um]\n"
              "    20,1.21\n"

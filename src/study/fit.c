@@ -106,7 +106,7 @@ static bool press_of(state *s, load_step *out, calc_error *error) {
     *out = (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE};
     if (loop->normal) {
         out->normal = (unsigned char)loop->normal_by;
-        out->normal_value = loop->normal[0];
+        out->normal_value = s->loop.noisy ? s->loop.load[0] : loop->normal[0];
         return true;
     }
     if (!tried->end.steps)
@@ -429,6 +429,8 @@ static bool begin_fit(state *s, gsl_vector *q, bool moved, calc_error *error) {
             return ask_lacks(of->c, k, " to start from", "", error);
         if (k->is_input)
             input_range(k->in, &lo, &hi);
+        if (of->from)
+            s->start[i] = of->from[i];
         s->ratio[i] = lo == 0 && s->start[i] > 0;
         s->bounded[i] = isfinite(lo) && isfinite(hi);
         s->scale[i] = s->bounded[i] ? 0.1 * (hi - lo) : 1;
@@ -437,7 +439,7 @@ static bool begin_fit(state *s, gsl_vector *q, bool moved, calc_error *error) {
         s->start[i] = s->loop.level[i - of->count];
         s->scale[i] = s->loop.range;
     }
-    if (moved || !of->left)
+    if (moved || (!of->left && !of->from))
         seek(s);
     gsl_vector_set_all(q, 1);
     if (!residuals(s, q, s->residual)) {
@@ -498,6 +500,38 @@ static void covariance(const gsl_matrix *V, const gsl_vector *sv, const double *
         }
 }
 
+/* What tells two names apart that a loop, or whatever the data are, shows together. */
+static const struct {
+    const char *a, *b, *instead;
+} pairs[] = {
+    {"E0", "k", "depths at loads decades apart tell k: fit k, E0 for depth = dz(force) to FILE.csv"},
+    {"E0", "c0", "a contact shows E0/c0^k alone: give c0, where E = E0"},
+    {"k", "c0", "a contact shows E0/c0^k alone: give c0, where E = E0"},
+    {"mu", "FN", "measure FN: a column FN beside Fx"},
+    {"E0", "FN", "measure FN: a column FN beside Fx"},
+    {"E0", "nu", "give nu, which changes little"},
+    {"E0", "R", "measure the shape: a profile of the body (geometry file)"},
+    {"E0", "E0_2", "a contact shows the sum of both compliances: give the modulus of one body"},
+};
+
+const char *fit_instead(const char *a, const char *b) {
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        if ((!strcmp(pairs[i].a, a) && !strcmp(pairs[i].b, b)) ||
+            (!strcmp(pairs[i].a, b) && !strcmp(pairs[i].b, a)))
+            return pairs[i].instead;
+    return NULL;
+}
+
+/* Of the first pair among the names that the direction v takes along. */
+static const char *instead_of(const state *s, const gsl_matrix *V, size_t v) {
+    const char *instead = NULL;
+    for (size_t i = 0; i < s->of->count && !instead; i++)
+        for (size_t j = 0; j < i && !instead; j++)
+            if (fabs(gsl_matrix_get(V, i, v)) > 0.05 && fabs(gsl_matrix_get(V, j, v)) > 0.05)
+                instead = fit_instead(s->of->name[i].text, s->of->name[j].text);
+    return instead ? instead : "give the value of one";
+}
+
 /* In plain words, where columns of the Jacobian vanish or depend on each other; else the covariances of a
  * unit variance. */
 static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[UNKNOWNS][UNKNOWNS],
@@ -543,9 +577,8 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[UNK
                          : left   ? " and "
                                   : "");
             }
-        ok = calc_fail(
-            error, 0, 0,
-            "the data cannot tell %s apart: only a combination of them shows; give the value of one", list);
+        ok = calc_fail(error, 0, 0, "the data cannot tell %s apart: only a combination of them shows; %s",
+                       list, instead_of(s, V, p - 1));
     }
     if (ok)
         covariance(V, sv, norm, C);
@@ -669,7 +702,7 @@ static bool run_fit(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, 
     if (run_once(s, w, q, false, out, error))
         return true;
     const calc_error first = *error;
-    if (!s->of->left || error->stop || error->strange || error->circle)
+    if ((!s->of->left && !s->of->from) || error->stop || error->strange || error->circle)
         return false;
     error_clear(error);
     if (run_once(s, w, q, true, out, error))
@@ -703,7 +736,7 @@ static bool begin_loop(state *s, calc_error *error) {
     const fit_question *of = s->of;
     const fit_loop *loop = &of->loop;
     s->loop = (branches){.rows = of->rows, .dx = loop->dx, .Fx = loop->Fx, .normal = loop->normal};
-    s->twice = begins_midway(of);
+    s->twice = loop->closed || begins_midway(of);
     if (!branches_find(&s->loop, loop->noise_dx, loop->noise_Fx, s->twice, error))
         return false;
     if (s->loop.noisy) {

@@ -14,13 +14,15 @@ typedef struct fit_loop {
     const double *normal;      /* F_N or delta_z at each row, or NULL: as pressed */
     load_by normal_by;         /* BY_FORCE, BY_DISPLACEMENT */
     double noise_dx, noise_Fx; /* standard deviations; 0: estimated */
+    bool closed;               /* one cycle of many: it begins in its midst */
 } fit_loop;
 
 typedef struct fit_question {
     calc *c;
     knob name[FIT_NAMES];
     size_t count;
-    size_t rows; /* more than names */
+    const double *from; /* values close to the answer, in place of the present ones; or NULL */
+    size_t rows;        /* more than names */
     /* each row an equation; left NULL: a loop */
     const expr *left, *right;
     const column_knob *column; /* no more than FIT_COLUMNS, borrowed */
@@ -46,6 +48,8 @@ typedef struct fit_answer {
 
 /* Starts from the present values. Errors: a name without one; a row without a value; names that the data do
  * not determine, or cannot tell apart. */
+const char *fit_instead(const char *a,
+                        const char *b); /* what to measure that tells two names apart, or NULL */
 bool fit(const fit_question *question, fit_answer *out, calc_error *error);
 
 #endif

@@ -111,6 +111,7 @@ static loop_cycle measure(const measured *m, size_t a, size_t b, size_t c) {
                  Fc = turning_level(F, c, (b + c) / 2, c, m->noise_F, false);
     double error[2];
     loop_cycle out = {.first = a,
+                      .last = c,
                       .dW = area(m, a, c),
                       .dxA = fabs(xc - xb) / 2,
                       .FA = fabs(Fc - Fb) / 2,
@@ -159,8 +160,10 @@ static bool measure_turned(measured *m, double *turned, loop_answer *out, calc_e
     from.turn[0] = 0;
     from.turn[from.turns++] = n;
     const bool ok = measure_all(&from, out, error);
-    if (ok)
+    if (ok) {
         out->cycle->first = begin;
+        out->cycle->last = begin - 1;
+    }
     out->drift_dx = m->x[n - 1] - m->x[0];
     out->drift_Fx = m->F[n - 1] - m->F[0];
     return ok;

@@ -8,7 +8,7 @@
 /* From one turning point of d_x to the next but one. Amplitudes and centre are those of d_x and F_x between
  * the last two turning points, where noise has been averaged (turning_level). */
 typedef struct loop_cycle {
-    size_t first; /* row that it begins with */
+    size_t first, last; /* rows that it begins and ends with; last < first: around the end of the file */
     double dW; /* area of the polygon of its rows, closed: of M rows to a cycle (2pi/M)^2/6 too small [J] */
     double dxA, FA;   /* amplitudes [m, N] */
     double dx0, Fx0;  /* centre */

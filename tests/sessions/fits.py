@@ -163,6 +163,46 @@ def noisy_in_both(tests):
         tests.check("fit refuses:" + said, done.returncode == 1 and text in done.stderr, tests.report(done))
 
 
+def by_cycle(tests):
+    """A row for each cycle; mu falls from one to the next. The table has the energy of each, and gaps where a cycle tells nothing."""
+    path = [1.2e-6 * math.sin(2 * math.pi * i / 100) for i in range(126)]
+    rows, noise, true = [], random.Random(9), (0.5, 0.45, 0.4)
+    for i, mu in enumerate(true):
+        part = list(zip(path, loop(mu, 200e9, path)))[25 + (i > 0):]
+        rows += [(d * 1e6 + noise.gauss(0, 0.005), f + noise.gauss(0, 0.3)) for d, f in part]
+    name = write(tests, "cycles.csv", "dx [um],Fx [N]", rows)
+    done = tests.run("--format=csv", "-c", SETUP % (210, 0.4) + "; fit mu, E0 along " + name + " by cycle")
+    lines = [line.split(",") for line in done.stdout.splitlines()]
+    tests.check("fit: columns of cycles", lines and lines[0] == ["cycle", "line", "mu", "mu deviation", "E0 [Pa]", "E0 deviation [Pa]", "dW [J]", "slides"]
+                and len(lines) == 4, tests.report(done))
+    for line, mu in zip(lines[1:], true):
+        cycle, row, got, stated, E0, off, dW, slides = map(float, line)
+        own = [(d * 1e-6, f) for d, f in rows[int(row) - 2:int(row) + 98]]
+        area = abs(sum((f + g) / 2 * (e - d) for (d, f), (e, g) in zip(own, own[1:] + own[:1])))
+        tests.check("fit: cycle %g" % cycle, abs(got - mu) < 3 * stated and stated < 0.02 and abs(E0 - 200e9) < 3 * off
+                    and abs(dW / area - 1) < 0.03 and slides == 0, tests.report(done))
+    for said, want in ((" by rows", "by cycle gives a row for each cycle"), ("", None)):
+        done = tests.run("-c", SETUP % (210, 0.4) + "; fit mu along " + name + said)
+        tests.check("fit:%s" % (said or " all cycles at once"), (want or "") in done.stderr and (done.returncode == 1) == (want is not None), tests.report(done))
+    half = write(tests, "no-cycle.csv", "dx [um],Fx [N]", rows[:40])
+    done = tests.run("-c", SETUP % (210, 0.4) + "; fit mu along " + half + " by cycle")
+    tests.check("fit: no cycle", done.returncode == 1 and "no cycle is closed" in done.stderr, tests.report(done))
+
+
+def told_apart(tests):
+    """Two names that a loop shows together, and what to measure instead."""
+    path = [1.2e-6 * math.sin(2 * math.pi * i / 100) for i in range(126)]
+    noise = random.Random(2)
+    rows = [(d * 1e6 + noise.gauss(0, 0.005), f + noise.gauss(0, 0.3)) for d, f in zip(path, loop(0.5, 200e9, path))]
+    name = write(tests, "apart.csv", "dx [um],Fx [N]", rows)
+    for names, want in (("mu, E0, k", "the data hardly tell E0 and k apart: depths at loads decades apart tell k"),
+                        ("mu, E0, c0", "E0 and c0 apart: only a combination of them shows; a contact shows E0/c0^k alone"),
+                        ("mu, E0, nu", "E0 and nu apart: only a combination of them shows; give nu"),
+                        ("mu, E0, R", "E0 and R apart: only a combination of them shows; measure the shape")):
+        done = tests.run("-c", "material E0=150 GPa nu=0.3 k=0.05 c0=1 mm; geometry paraboloid R=10 mm; friction 0.4; press FN=100 N; fit %s along %s" % (names, name))
+        tests.check("fit: one loop, " + names, want in done.stderr, tests.report(done))
+
+
 def moved_starts(tests):
     """A start that a row cannot have, and one that lies far off, are moved."""
     rows = [(q, 1e6 * loss) for q, loss in ((q, dissipated(0.7, 210e9, q)) for q in (10, 20, 30, 40, 50, 60))]
@@ -590,6 +630,8 @@ def run(tests):
     drifting(tests)
     noisy_in_both(tests)
     moved_starts(tests)
+    by_cycle(tests)
+    told_apart(tests)
     closed_loop(tests)
     equations(tests)
     many_rows(tests)
