@@ -24,7 +24,7 @@ LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas)
 LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,$(CURSES))
 
 # what is left out with GSL=no, and without
-BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit uncertainty smooth nonnegative)) \
+BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit branches uncertainty smooth nonnegative)) \
 	src/commands/study_commands.c src/commands/data_commands.c,src/commands/study_none.c)
 CORE  := $(wildcard src/number/*.c src/law/*.c src/history/*.c src/field/*.c src/arrays/*.c)
 ABOVE := text scene language study plot statement commands help prompt
