@@ -103,11 +103,14 @@ static bool read_loop(shell *sh, const lexer *lx, const heard *along, const choi
         return false;
     const char *by = csv_has(data, "FN") ? "FN" : csv_has(data, "dz") ? "dz" : NULL;
     q->loop.normal_by = by && by[0] == 'd' ? BY_DISPLACEMENT : BY_FORCE;
-    csv_values *dx = columns_take(data, "dx", DIM_LENGTH, error),
+    long double K_rig;
+    const bool contact = csv_has(data, "dx") || !scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet());
+    q->loop.rig = csv_has(data, "drig") || !contact;
+    csv_values *dx = columns_take(data, q->loop.rig ? "drig" : "dx", DIM_LENGTH, error),
                *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL,
                *normal =
                    Fx && by ? columns_take(data, by, by[0] == 'd' ? DIM_LENGTH : DIM_FORCE, error) : NULL;
-    if (!csv_has(data, "dx") || !csv_has(data, "Fx"))
+    if ((!csv_has(data, "dx") && !q->loop.rig) || !csv_has(data, "Fx"))
         calc_append(&sh->calc, error, " (a loop needs dx and Fx, and may have FN or dz)");
     if (error->raised || !csv_settle(data, error))
         return heard_place(error, along);

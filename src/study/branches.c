@@ -68,7 +68,7 @@ static void find_levels(branches *b, const size_t *at) {
 /* ---- branches ---------------------------------------------------------------------------------- */
 
 static double begin_of(const branches *b, size_t branch) {
-    return branch ? b->turn[branch - 1] : b->twice && b->turns ? b->turn[b->turns - 1] : 0;
+    return branch ? b->turn[branch - 1] : b->twice && b->turns ? b->turn[b->turns - 1] : b->rest;
 }
 
 static double end_of(const branches *b, size_t branch) {

@@ -17,6 +17,7 @@ typedef struct branches {
     size_t rows;
     const double *dx, *Fx, *normal; /* borrowed; normal may be NULL */
     double noise_dx, noise_Fx;
+    double rest;    /* where a loop that is not of the next kind begins */
     bool twice;     /* a closed loop from its midst: its turning points are run through first */
     bool noisy;     /* turning points are unknowns: d_x has a noise that matters */
     size_t turns;   /* turning points */

@@ -28,6 +28,7 @@ typedef struct state {
     expr sides[2];                       /* left and right */
     knob knobs[FIT_NAMES + FIT_COLUMNS]; /* names, and columns behind them */
     branches loop;
+    double K_rig, d0, F0; /* of a loop that is read at the rig, else 0 */
     /* Names, and behind them turning points; rows, and behind them those as measured. */
     size_t parameters, residuals;
     size_t stride; /* every such row is looked at */
@@ -118,14 +119,19 @@ static bool press_of(state *s, load_step *out, calc_error *error) {
     return true;
 }
 
+static unsigned char driven(const fit_loop *loop) {
+    return loop->rig ? BY_RIG : BY_DISPLACEMENT;
+}
+
 static fret_status run_rows(state *s, runner *r, double *out) {
     const fit_loop *loop = &s->of->loop;
     fret_status st = {.code = FRET_OK};
     fret_state now;
     for (size_t pass = 0; pass < 1u + s->twice; pass++)
         for (size_t i = 0; i < s->of->rows && !st.code; i++) {
-            load_item item = {
-                .step = {.kind = LOAD_STEP, .tangential = BY_DISPLACEMENT, .tangential_value = loop->dx[i]}};
+            load_item item = {.step = {.kind = LOAD_STEP,
+                                       .tangential = driven(loop),
+                                       .tangential_value = loop->dx[i] - s->d0}};
             if (loop->normal) {
                 item.step.normal = (unsigned char)loop->normal_by;
                 item.step.normal_value = loop->normal[i];
@@ -133,7 +139,7 @@ static fret_status run_rows(state *s, runner *r, double *out) {
             s->bad_row = i;
             st = run_item(r, &item);
             engine_forces(&r->engine, &now);
-            out[i] = loop->Fx[i] - (double)now.Fx;
+            out[i] = loop->Fx[i] - s->F0 - (double)now.Fx;
         }
     return st;
 }
@@ -148,7 +154,8 @@ static bool step_branch(void *context, double dx, double normal, double *x, doub
     way *w = context;
     const fit_loop *loop = &w->s->of->loop;
     fret_state now;
-    load_item item = {.step = {.kind = LOAD_STEP, .tangential = BY_DISPLACEMENT, .tangential_value = dx}};
+    load_item item = {
+        .step = {.kind = LOAD_STEP, .tangential = driven(loop), .tangential_value = dx - w->s->d0}};
     if (loop->normal) {
         item.step.normal = (unsigned char)loop->normal_by;
         item.step.normal_value = normal;
@@ -156,7 +163,7 @@ static bool step_branch(void *context, double dx, double normal, double *x, doub
     w->status = run_item(w->r, &item);
     engine_forces(&w->r->engine, &now);
     *x = dx;
-    *F = (double)now.Fx;
+    *F = (double)now.Fx + w->s->F0;
     return !w->status.code;
 }
 
@@ -166,6 +173,19 @@ static fret_status run_branches(state *s, runner *r, double *out) {
     branches_across(&s->loop, s->stride, step_branch, &w);
     memcpy(out, s->loop.across, s->residuals * sizeof *out);
     return w.status;
+}
+
+static bool read_rig(state *s, scene *tried, calc_error *error) {
+    static const input of[] = {IN_K_RIG, IN_D0, IN_F0};
+    double *const to[] = {&s->K_rig, &s->d0, &s->F0};
+    for (size_t i = 0; i < 3; i++) {
+        long double v;
+        if (!scene_get(tried, of[i], &v, error))
+            return false;
+        *to[i] = (double)v;
+    }
+    s->loop.rest = s->d0;
+    return true;
 }
 
 static bool loop_run(state *s, double *out, fret_status (*run)(state *s, runner *r, double *out)) {
@@ -180,8 +200,9 @@ static bool loop_run(state *s, double *out, fret_status (*run)(state *s, runner 
         return false;
     tried->used |= ASKED_TANGENTIAL;
     if (!scene_normal(tried, &view.normal, &error) || !scene_friction(tried, &view.mu, &error) ||
-        !press_of(s, &press.step, &error))
+        !press_of(s, &press.step, &error) || (s->of->loop.rig && !read_rig(s, tried, &error)))
         return points_failed(&s->p, &error);
+    view.K_rig = s->K_rig;
     fret_status st = engine_make(&r.engine, MODEL_MEMORY, view.normal, view.mu, 0, 0);
     if (!st.code)
         st = run_item(&r, &press);
@@ -511,6 +532,7 @@ static const struct {
     {"E0", "FN", "measure FN: a column FN beside Fx"},
     {"E0", "nu", "give nu, which changes little"},
     {"E0", "R", "measure the shape: a profile of the body (geometry file)"},
+    {"E0", "K_rig", "measure K_rig on a body that does not yield, or loops at several FN"},
     {"E0", "E0_2", "a contact shows the sum of both compliances: give the modulus of one body"},
 };
 

@@ -11,6 +11,7 @@ enum { FIT_NAMES = 8, FIT_COLUMNS = 64 }; /* as many as a file has */
 /* A measured loop: F_x compared at each row. */
 typedef struct fit_loop {
     const double *dx, *Fx;
+    bool rig;                  /* these are readings: dx + Fx/K_rig + d0, Fx + F0 */
     const double *normal;      /* F_N or delta_z at each row, or NULL: as pressed */
     load_by normal_by;         /* BY_FORCE, BY_DISPLACEMENT */
     double noise_dx, noise_Fx; /* standard deviations; 0: estimated */

@@ -203,6 +203,26 @@ def told_apart(tests):
         tests.check("fit: one loop, " + names, want in done.stderr, tests.report(done))
 
 
+def at_the_rig(tests):
+    """Readings of a rig of 80 N/um with offsets: without noise to the last digits, with it within the stated errors."""
+    mu, E0, K = 0.4, 210e9, 80e6
+    path = [2.6e-6 * math.sin(2 * math.pi * i / 200) for i in range(251)]
+    clean = [((d + f / K) * 1e6, f) for d, f in zip(path, loop(mu, E0, path))]
+    scene = SETUP % (150, 0.3) + "; rig stiffness=80 N/um; "
+    exact = write(tests, "rig-exact.csv", "drig [um],Fx [N]", clean)
+    values, event, done = answers(tests, scene + "fit mu, E0 along " + exact)
+    tests.check("fit: readings without noise", event and abs(values["mu"] / mu - 1) < 1e-5 and abs(values["E0"] / E0 - 1) < 1e-5, tests.report(done))
+    noise = random.Random(5)
+    noisy = [(d + 0.05 + noise.gauss(0, 0.01), f + 0.4 + noise.gauss(0, 0.3)) for d, f in clean]
+    name = write(tests, "rig-noise.csv", "Weg [um],Kraft [N]", noisy)
+    values, event, done = answers(tests, scene + "fit mu, E0, d0, F0 along " + name)
+    tests.check("fit: readings with noise", event and all(abs(values[n] - true) < 2 * event["deviation"][n] for n, true in
+                (("mu", mu), ("E0", E0), ("d0", 0.05e-6), ("F0", 0.4))), tests.report(done))
+    values, event, done = answers(tests, scene + "fit mu, E0, K_rig, d0, F0 along " + name)
+    tests.check("fit: the rig and E0 from one loop", event and abs(values["K_rig"] - K) < 2 * event["deviation"]["K_rig"]
+                and "hardly tell E0 and K_rig apart: measure K_rig" in done.stderr, tests.report(done))
+
+
 def moved_starts(tests):
     """A start that a row cannot have, and one that lies far off, are moved."""
     rows = [(q, 1e6 * loss) for q, loss in ((q, dissipated(0.7, 210e9, q)) for q in (10, 20, 30, 40, 50, 60))]
@@ -630,6 +650,7 @@ def run(tests):
     drifting(tests)
     noisy_in_both(tests)
     moved_starts(tests)
+    at_the_rig(tests)
     by_cycle(tests)
     told_apart(tests)
     closed_loop(tests)
