@@ -591,6 +591,7 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[UNK
         size_t left = 0;
         for (size_t i = 0; i < names; i++)
             left += fabs(gsl_matrix_get(V, i, p - 1)) > 0.05;
+        const bool several = left > 1;
         for (size_t i = 0; i < names; i++)
             if (fabs(gsl_matrix_get(V, i, p - 1)) > 0.05) {
                 left--;
@@ -599,8 +600,13 @@ static bool determined(state *s, gsl_multifit_nlinear_workspace *w, double C[UNK
                          : left   ? " and "
                                   : "");
             }
-        ok = calc_fail(error, 0, 0, "the data cannot tell %s apart: only a combination of them shows; %s",
-                       list, instead_of(s, V, p - 1));
+        if (several)
+            ok = calc_fail(error, 0, 0, "the data cannot tell %s apart: only a combination of them shows; %s",
+                           list, instead_of(s, V, p - 1));
+        else /* a name against turning points, or these alone */
+            ok = calc_fail(error, 0, 0,
+                           "the data do not determine %s: the rows near the turning points are too few",
+                           *list ? list : "where dx turns");
     }
     if (ok)
         covariance(V, sv, norm, C);
