@@ -180,13 +180,13 @@ def limits(tests):
         expect(tests, "a sum of 5e6 terms", done, 1, "", "more than 2097152 numbers, names and operators")
     if tests.sanitized:  # frames are larger there
         return
-    script = SCENE + "cycle FA=20 N\n" + "".join("d%d := %s + 1\n" % (i, "d%d" % (i - 1) if i else "1")
-                                                 for i in range(90)) + "d89\n"
+    script = SCENE + "cycle FA=20 N\n" + "".join("w%d := %s + 1\n" % (i, "w%d" % (i - 1) if i else "1")
+                                                 for i in range(90)) + "w89\n"
     script += "(" * 150 + "1" + ")" * 150 + "\n" + "table dW(F), a(F) for F = 1 N .. 30 N steps 600 to /dev/null\n"
     script += "table " + ", ".join("x^%d" % i for i in range(1, 39)) + " for x = 1 .. 2 to /dev/null\n"
     script += "table dW for FA = 1 N .. 20 N steps 5 with mu = 0.3, 0.4\nexplain dW\nhistory to /dev/null\n"
     with tests.file(script) as path:
-        expect(tests, "a stack of 256 kB", limited(tests, [path], resource.RLIMIT_STACK, 256 * 1024), 0, "d89 = 91")
+        expect(tests, "a stack of 256 kB", limited(tests, [path], resource.RLIMIT_STACK, 256 * 1024), 0, "w89 = 91")
         done = limited(tests, ["-c", "plot x, 2*x, x^2, x^3, x/2, x/3 for x = 1 .. 2 steps 1000000 to many.gp"],
                        resource.RLIMIT_AS, 120 * MB)
         expect(tests, "a plot of 6e6 points in 120 MB", done, 0, "", "many.gp")
