@@ -78,6 +78,18 @@ bool call_ux(scene *s, value r, long double *out, calc_error *error) {
     return field_at(s, r, true, fret_field_surface_x, out, error);
 }
 
+bool call_slip(scene *s, value r, long double *out, calc_error *error) {
+    return field_at(s, r, true, fret_field_slip, out, error);
+}
+
+bool call_WdA(scene *s, value r, long double *out, calc_error *error) {
+    return scene_work(s, false, r.v, out, error);
+}
+
+bool call_dWdA(scene *s, value r, long double *out, calc_error *error) {
+    return scene_work(s, true, r.v, out, error);
+}
+
 /* The state of a scene with friction. */
 static bool tangential_state(scene *s, const fret_contact **out, calc_error *error) {
     double mu;

@@ -12,6 +12,7 @@ static void forget_fields(answers *a) {
     fret_field_free(a->pressed);
     fret_field_free(a->dragged);
     a->pressed = a->dragged = NULL;
+    friction_work_end(&a->work);
 }
 
 static void answers_end(answers *a, bool keep) {

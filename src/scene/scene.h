@@ -28,10 +28,19 @@ typedef struct load_reach {
     size_t last_cycle;  /* its index, or NO_CYCLE */
 } load_reach;
 
+/* Friction's work by place: so far, and of the last closed period, if there is one, times how many it stands
+ * for; at all levels of the run. */
+typedef struct friction_work {
+    unsigned levels; /* 0: not made yet */
+    fret_work *far[LEVELS], *period[LEVELS];
+    unsigned times[LEVELS];
+} friction_work;
+
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
     fret_normal *normal, *k0;      /* or NULL: not made yet */
     fret_field *pressed, *dragged; /* of the press, and of the history, as they are now; or NULL */
+    friction_work work;
     bool press_ready, reach_ready, state_ready;
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
@@ -154,6 +163,9 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
 /* Fields of the press and of the history as they are now. */
 bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error);
 bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error);
+/* Friction's work by place up to now, and of the last closed period; the load is run again for it. */
+bool scene_work(scene *s, bool period, long double r, long double *out, calc_error *error);
+void friction_work_end(friction_work *w);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);
 bool scene_friction(scene *s, double *mu, calc_error *error);
