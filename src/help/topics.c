@@ -47,7 +47,7 @@ static void quantities(FILE *to) {
             quantity_line(to, q, false);
     fputs("Functions of the scene:\n", to);
     for (size_t i = 0; (q = quantity_row(i)); i++)
-        if (q->call)
+        if (quantity_arguments(q))
             quantity_line(to, q, true);
 }
 

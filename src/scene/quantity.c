@@ -17,6 +17,9 @@
 #define IMPOSED(which) .in = 1 + (which), .imposed = "press"
 #define GETTER(function) .of = OF_GETTER, .get = get_##function
 #define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
+#define STRESS(which)                                                                                        \
+    .d = PRESSURE, .of = OF_FUNCTION, .call_at = call_##which, .argument = "x, y, z", .argument_d = LENGTH,  \
+    .by = MODEL_MEMORY, .reads = READS_TANGENTIAL, .load = true
 #define FORCE                                                                                                \
     { 1, 0, 0, 0 }
 #define LENGTH                                                                                               \
@@ -224,6 +227,28 @@ static const quantity quantities[] = {
      .reads = READS_NORMAL, .load = true, .formulas = {{"q_z(x) = c_N(x) w_1D(x)", "(11)", 0}}},
     {.name = "qx1D", .by = MODEL_MEMORY, .title = "tangential line load", .keywords = "springs", .d = STIFFNESS, .unit = "N/mm", .of = OF_FUNCTION, CALL(qx1D, x, LENGTH),
      .reads = READS_TANGENTIAL, .load = true, .formulas = {{"q_x(x) = c_T(x) u_1D(x)", "(14)", 0}}},
+
+    /* ---- in the body ---- */
+    {.name = "sxx", .title = "stress along x inside, k = 0, tension positive", .keywords = "subsurface tensor tension bulk surface crack", STRESS(sxx),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xx + q_x(t) Q_xx] dt at zeta = z+i t (help stresses)", NULL, 0}}},
+    {.name = "syy", .title = "stress across x inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(syy),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_yy + q_x(t) Q_yy] dt at zeta = z+i t (help stresses)", NULL, 0}}},
+    {.name = "szz", .title = "stress along z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(szz),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_zz + q_x(t) Q_zz] dt at zeta = z+i t (help stresses)", NULL, 0}}},
+    {.name = "sxy", .title = "shear stress in the plane inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(sxy),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xy + q_x(t) Q_xy] dt at zeta = z+i t (help stresses)", NULL, 0}}},
+    {.name = "sxz", .title = "shear stress, of x and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(sxz),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xz + q_x(t) Q_xz] dt at zeta = z+i t (help stresses)", NULL, 0}}},
+    {.name = "syz", .title = "shear stress, of y and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(syz),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_yz + q_x(t) Q_yz] dt at zeta = z+i t (help stresses)", NULL, 0}}},
+    {.name = "mises", .title = "equivalent stress of von Mises inside, k = 0", .keywords = "yield plastic subsurface", STRESS(mises),
+     .formulas = {{"sqrt(1/2 [(s1-s2)^2+(s2-s3)^2+(s3-s1)^2]) of the principal stresses", NULL, 0}}},
+    {.name = "tresca", .title = "equivalent stress of Tresca inside, k = 0", .keywords = "yield plastic shear subsurface", STRESS(tresca),
+     .formulas = {{"sigma1-sigma3, twice the largest shear stress", NULL, 0}}},
+    {.name = "sigma1", .title = "largest principal stress inside, k = 0", .keywords = "tension crack principal", STRESS(sigma1),
+     .formulas = {{"largest eigenvalue of the stress", NULL, 0}}},
+    {.name = "sigma3", .title = "smallest principal stress inside, k = 0", .keywords = "compression principal", STRESS(sigma3),
+     .formulas = {{"smallest eigenvalue of the stress", NULL, 0}}},
 };
 /* clang-format on */
 enum { QUANTITIES = sizeof quantities / sizeof *quantities };

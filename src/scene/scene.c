@@ -11,7 +11,8 @@
 static void forget_fields(answers *a) {
     fret_field_free(a->pressed);
     fret_field_free(a->dragged);
-    a->pressed = a->dragged = NULL;
+    fret_field_free(a->straight);
+    a->pressed = a->dragged = a->straight = NULL;
     friction_work_end(&a->work);
 }
 

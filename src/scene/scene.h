@@ -40,6 +40,7 @@ typedef struct friction_work {
 typedef struct answers {
     fret_normal *normal, *k0;      /* or NULL: not made yet */
     fret_field *pressed, *dragged; /* of the press, and of the history, as they are now; or NULL */
+    fret_field *straight;          /* as dragged, in chords after swinging; or NULL */
     friction_work work;
     bool press_ready, reach_ready, state_ready;
     fret_press press;
@@ -163,6 +164,8 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
 /* Fields of the press and of the history as they are now. */
 bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error);
 bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error);
+/* Of which stress inside is asked: of the press alone where nothing tangential has been, else without curves. */
+bool scene_stress_field(scene *s, const fret_field **field, calc_error *error);
 /* Friction's work by place up to now, and of the last closed period; the load is run again for it. */
 bool scene_work(scene *s, bool period, long double r, long double *out, calc_error *error);
 void friction_work_end(friction_work *w);
