@@ -273,7 +273,7 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
     const bool power = !s->in.geometry || s->in.geometry->power, local = is_local(q, call);
     const char *of = local ? "largest value" : models[model].steps ? "largest value so far" : "value";
     double good = sine > 0 && local ? 1e-12 : sine > 0 || q->by || !power ? 1e-13 : DBL_EPSILON;
-    good = fmax(good, sine);
+    good = fmax(q->call_at ? 1e-12 : good, sine);
     if (s->used & USED(MODEL_PIECES))
         good = fmax(good, s->pieces_error);
     explain_error(p, good, of);
