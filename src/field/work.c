@@ -60,8 +60,8 @@ static fret_status copy_phases(fret_work *w, const fret_slips *slips, size_t fir
     return fret_ok();
 }
 
-fret_status fret_work_make(const fret_normal *normal, double mu, const fret_slips *slips, size_t first, size_t end,
-                           fret_work **out) {
+fret_status fret_work_make(const fret_normal *normal, double mu, const fret_slips *slips, size_t first,
+                           size_t end, fret_work **out) {
     fret_work *w = calloc(1, sizeof *w);
     fret_press press = {.dz = 0};
     *out = w;

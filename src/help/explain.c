@@ -116,8 +116,7 @@ static bool explain_part(const page *p, const part *of) {
     const quantity *call = of->call && of->q->call ? of->q : NULL; /* of one argument */
     if (has && call)
         text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
-    const bool ok =
-        !has || influences(&p->sh->calc, &e, v.v, call, argument, &study, p->error);
+    const bool ok = !has || influences(&p->sh->calc, &e, v.v, call, argument, &study, p->error);
     if (ok)
         explain_quantity(p, of, has ? &e : NULL, v, &study, of->whole && p->conditioning);
     expr_free(&e);

@@ -290,7 +290,7 @@ static bool has_effect(const influence_study *study, input in) {
 
 /* The inputs that the result was made of. */
 static void put_numbers(const page *p, const quantity *q, const influence_study *study) {
-    const unsigned of_load = INPUT_PRESS | INPUT_CYCLE;
+    const input_set of_load = INPUT_PRESS | INPUT_CYCLE;
     scene *s = p->sh->calc.now;
     for (input in = 0; in < INPUTS; in++) {
         const quantity *row = quantity_of_input(in);

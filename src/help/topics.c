@@ -272,8 +272,8 @@ static const char cracking_text[] =
     "Ruiz' parameters (Ruiz, Boddington, Chen, Exp. Mech. 24, 1984) are friction's\n"
     "traction times slip, and that times tension; they rank places and scenes of one\n"
     "material, and are no strength. Smith, Watson and Topper's (J. Mater. 5, 1970) is\n"
-    "the largest stress times the amplitude of strain, here of sxx/E0 alone, which is\n"
-    "that of a bar: of the plane in which it is largest, and of a notch, it says less.\n"
+    "the largest stress times the amplitude of strain, here of sxx/E0 alone, that of\n"
+    "a bar: other planes, and how stress falls off below, it does not know.\n"
     "`maximize Sxx(x) over x = -1.5*a .. 1.5*a` tells the place.\n\n"
     "Stress inside: with the line loads q_z = qz1D(t), q_x = qx1D(t) on the imaginary\n"
     "axis, zeta = z + i t, rho^2 = x^2+y^2+zeta^2, V = 1/rho, L = ln(rho+zeta),\n"
@@ -285,10 +285,10 @@ static const char cracking_text[] =
     "    Q_yy = 2nu V_x + 2nu chi_xyy - z L_xyy, Q_zz = -z V_x,zeta\n"
     "    Q_xy = V_y + 2nu chi_xxy - z L_xxy\n"
     "    Q_xz = V_zeta - z V_xx, Q_yz = -z V_xy\n\n"
-    "of Boussinesq's and Cerruti's point loads, to 1e-12 of p0, 1e-6 after FN has swung.\n"
-    "x is along Fx, z > 0 in the first body, z < 0 in the second; tension is positive.\n"
-    "Elastic bodies, k = 0: what yields (mises) has other stresses. slip(r) is the mean\n"
-    "over the angle.\n";
+    "of Boussinesq's and Cerruti's point loads, to 1e-12 of p0, and 1e-6 after FN has\n"
+    "swung. x is along Fx, z > 0 in the first body, z < 0 in the second; tension is\n"
+    "positive. All for k = 0 and as long as it is elastic: `yield = 500 MPa` has a note\n"
+    "tell where mises exceeds it. slip(r) is the mean over the angle.\n";
 
 static const char limits_text[] =
     "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"

@@ -116,6 +116,8 @@ static void word_missing(const calc *c, calc_error *error) {
         snprintf(text, size, "there is no load yet: press first (press FN=100 N)");
     else if (INPUT_BIT(in) & INPUT_RIG)
         snprintf(text, size, "%s is not set: there is no rig (rig stiffness=80 N/um)", name);
+    else if (INPUT_BIT(in) & INPUT_STRESS)
+        snprintf(text, size, "%s is not set (%s = 500 MPa)", name, name);
     else if (INPUT_BIT(in) & INPUT_CYCLE)
         snprintf(text, size,
                  c->now->end.cycles ? "%s is no amplitude of the last cycle"

@@ -182,21 +182,23 @@ bool call_qx1D(scene *s, value x, long double *out, calc_error *error) {
 static bool stress_at(scene *s, const value place[3], fret_stress *out, calc_error *error) {
     const fret_field *field;
     const bool second = place[2].v < 0;
-    long double k = 0, nu = 0;
-    if (!scene_get(s, IN_K, &k, error))
+    long double k = 0, nu = 0, sB = 0;
+    if (!scene_get(s, IN_K, &k, error) || !scene_get(s, IN_SB, &sB, error))
         return false;
     if (k != 0)
-        return calc_fail(error, 0, 0,
-                         "stress inside is known of homogeneous bodies, k = 0: of graded ones no such form is "
-                         "(k = %.6Lg)",
-                         k);
+        return calc_fail(
+            error, 0, 0,
+            "stress inside is known of homogeneous bodies, k = 0: of graded ones no such form is "
+            "(k = %.6Lg)",
+            k);
     if (second && s->in.second == SECOND_RIGID)
         return calc_fail(error, 0, 0, "z < 0 is in the second body, which is rigid: it has no stress");
     if (!scene_get(s, second ? IN_NU_2 : IN_NU, &nu, error) || !scene_stress_field(s, &field, error))
         return false;
     s->used |= USED(MODEL_QUADRATURE);
-    fret_status st = fret_field_stress(field, (double)nu, (double)place[0].v, (double)place[1].v,
-                                       (double)place[2].v, out);
+    fret_status st =
+        fret_field_stress(field, (double)nu, (double)place[0].v, (double)place[1].v, (double)place[2].v, out);
+    out->xx += second ? 0 : (double)sB;
     return calc_status(error, &st);
 }
 

@@ -19,7 +19,8 @@ quantity_call_function call_a, call_dz, call_FN, call_p0, call_c, call_dx, call_
 quantity_call_function call_Ksec, call_Kp, call_Kpp, call_loss_factor;
 
 /* fields.c: at a place, state now */
-quantity_call_function call_E, call_f, call_g, call_p, call_qx, call_uz, call_ux, call_slip, call_WdA, call_dWdA;
+quantity_call_function call_E, call_f, call_g, call_p, call_qx, call_uz, call_ux, call_slip, call_WdA,
+    call_dWdA;
 quantity_call_function call_w1D, call_u1D, call_s1D, call_qz1D, call_qx1D, call_cN, call_cT;
 
 /* Stress inside. */

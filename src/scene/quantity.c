@@ -19,7 +19,7 @@
 #define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
 #define STRESS(which)                                                                                        \
     .d = PRESSURE, .of = OF_FUNCTION, .call_at = call_##which, .argument = "x, y, z", .argument_d = LENGTH,  \
-    .by = MODEL_MEMORY, .reads = READS_TANGENTIAL, .load = true
+    .by = MODEL_MEMORY, .reads = READS_TANGENTIAL | INPUT_BIT(IN_SB), .load = true
 #define FORCE                                                                                                \
     { 1, 0, 0, 0 }
 #define LENGTH                                                                                               \
@@ -83,6 +83,12 @@ static const quantity quantities[] = {
      .formulas = {{"reading = drig + d0", NULL, 0}}},
     {.name = "F0", .title = "offset of the rig's forces", .keywords = "zero machine reading", .d = FORCE, INPUT(IN_F0),
      .formulas = {{"reading = Fx + F0", NULL, 0}}},
+    {.name = "yield", .title = "yield stress", .keywords = "plastic strength mises", .d = PRESSURE, INPUT(IN_YIELD),
+     .formulas = {{"a note tells where mises exceeds it", NULL, 0}}},
+    {.name = "yield_2", .title = "yield stress of the second body", .keywords = "plastic strength mises", .d = PRESSURE, INPUT(IN_YIELD_2),
+     .formulas = {{"as yield, of a second body that differs", NULL, 0}}},
+    {.name = "sB", .title = "bulk stress along x of the first body", .keywords = "fatigue tension fretting", .d = PRESSURE, INPUT(IN_SB),
+     .formulas = {{"added to sxx", NULL, 0}}},
     {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN), CALL(FN, d, LENGTH),
      .reads = READS_NORMAL, .load = true,
      .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(13)", WHEN_POWER},

@@ -60,7 +60,7 @@ typedef struct quantity {
     const char *argument;
     dim argument_d;
     dim argument_or;     /* what the argument may be instead; a number: nothing else */
-    unsigned reads;      /* inputs that it can depend on */
+    input_set reads;     /* inputs that it can depend on */
     bool load;           /* it depends on the load program too */
     const char *imposed; /* the command whose target it may be, or NULL */
     formula formulas[FORMULAS];

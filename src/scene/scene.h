@@ -73,8 +73,8 @@ typedef struct scene_use {
 
 struct scene {
     inputs in;
-    unsigned settled, settling; /* inputs whose definitions have been, are being evaluated */
-    program *program;           /* or NULL: nothing is pressed */
+    input_set settled, settling; /* inputs whose definitions have been, are being evaluated */
+    program *program;            /* or NULL: nothing is pressed */
     load_mark end;
     const instant *now; /* or NULL: the end of the program */
     bool sound;         /* of a scratch scene: a copy of one whose program runs to its end */
@@ -164,7 +164,8 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
 /* Fields of the press and of the history as they are now. */
 bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error);
 bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error);
-/* Of which stress inside is asked: of the press alone where nothing tangential has been, else without curves. */
+/* Of which stress inside is asked: of the press alone where nothing tangential has been, else without curves.
+ */
 bool scene_stress_field(scene *s, const fret_field **field, calc_error *error);
 /* Friction's work by place up to now, and of the last closed period; the load is run again for it. */
 bool scene_work(scene *s, bool period, long double r, long double *out, calc_error *error);
