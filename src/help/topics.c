@@ -287,8 +287,8 @@ static const char cracking_text[] =
     "    Q_xz = V_zeta - z V_xx, Q_yz = -z V_xy\n\n"
     "of Boussinesq's and Cerruti's point loads, to 1e-12 of p0, and 1e-6 after FN has\n"
     "swung. x is along Fx, z > 0 in the first body, z < 0 in the second; tension is\n"
-    "positive. All for k = 0 and as long as it is elastic: `yield = 500 MPa` has a note\n"
-    "tell where mises exceeds it. slip(r) is the mean over the angle.\n";
+    "positive. All for k = 0 and as long as it is elastic: after `yield = 500 MPa` a\n"
+    "note tells where mises exceeds it. slip(r) is the mean over the angle.\n";
 
 static const char limits_text[] =
     "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"

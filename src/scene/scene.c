@@ -7,6 +7,14 @@
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
+void friction_work_end(friction_work *w) {
+    for (unsigned i = 0; i < LEVELS; i++) {
+        fret_work_free(w->far[i]);
+        fret_work_free(w->period[i]);
+    }
+    *w = (friction_work){.levels = 0};
+}
+
 /* The fields of a state that is no longer. */
 static void forget_fields(answers *a) {
     fret_field_free(a->pressed);

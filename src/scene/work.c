@@ -4,14 +4,6 @@
 
 #include "scene/load.h"
 
-void friction_work_end(friction_work *w) {
-    for (unsigned i = 0; i < LEVELS; i++) {
-        fret_work_free(w->far[i]);
-        fret_work_free(w->period[i]);
-    }
-    *w = (friction_work){.levels = 0};
-}
-
 /* To the end of the program, or to an instant on its way: by the same looks, since a load that is parted
  * otherwise in time is another one. */
 static fret_status run_watched(runner *r, const instant *now) {

@@ -669,6 +669,7 @@ static const struct row {
     ROW(fret_contact_watch),
     ROW(fret_slips_clear),
     ROW(fret_slips_count),
+    ROW(fret_slips_repeat),
     ROW(fret_slips_free),
     ROW(fret_work_make),
     ROW(fret_work_at),
