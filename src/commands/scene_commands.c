@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands that set material, second body, friction, rig, bulk stress and geometry. Each reads everything, then
- * changes everything or nothing. */
+/* Commands that set material, second body, friction, rig, bulk stress and geometry. Each reads everything,
+ * then changes everything or nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -258,7 +258,9 @@ bool inputs_same(const inputs *a, const inputs *b, input_set which) {
 
 void input_range(input in, double *lo, double *hi) {
     const bool nu = in == IN_NU || in == IN_NU_2;
-    *lo = in == IN_K || nu ? -1 : in == IN_PHASE || in == IN_D0 || in == IN_F0 || in == IN_SB ? -(double)INFINITY : 0;
+    *lo = in == IN_K || nu                                              ? -1
+          : in == IN_PHASE || in == IN_D0 || in == IN_F0 || in == IN_SB ? -(double)INFINITY
+                                                                        : 0;
     *hi = in == IN_K ? 1 : nu ? 0.5 : (double)INFINITY;
 }
 
