@@ -90,6 +90,8 @@ void fret_slips_free(fret_slips *slips);
 void fret_slips_clear(fret_slips *slips);
 /* How many phases there are. */
 size_t fret_slips_count(const fret_slips *slips);
+/* Those from number `first` on stand for `times` more that are as they are: periods that need not be run. */
+void fret_slips_repeat(fret_slips *slips, size_t first, double times);
 /* Steps and swings of the contact add to slips from here on, which it borrows; NULL: to none. Copies of a
  * contact are not watched, a copy to it changes nothing in this. Error: FRET_OUTSIDE (FRET_DOUBLE). */
 fret_status fret_contact_watch(fret_contact *contact, fret_slips *slips);

@@ -16,11 +16,12 @@ FRET_BEGIN
  * itself. A wear law V = alpha W [m^3/J] makes a depth alpha w(r) of it. */
 typedef struct fret_work fret_work;
 
-/* Of the phases from number `first` on, which it copies: what had slipped before the last period, say, was
- * fret_slips_count then. Takes as long as a field of the deepest contact. Borrows the normal contact that was
- * stepped. Errors: FRET_NO_MEMORY (also where slips could not be kept), FRET_INTERRUPTED. */
+/* Of the phases from number `first` on to those before `end`, which it copies: what had slipped before the
+ * last period, say, was fret_slips_count then. Takes as long as a field of the deepest contact. Borrows the
+ * normal contact that was stepped. Errors: FRET_NO_MEMORY (also where slips could not be kept),
+ * FRET_INTERRUPTED. */
 fret_status fret_work_make(const fret_normal *normal, double mu, const fret_slips *slips, size_t first,
-                           fret_work **out);
+                           size_t end, fret_work **out);
 void fret_work_free(fret_work *work);
 
 /* w(r) [J/m^2], >= 0, for r >= 0 [m], else FRET_NEGATIVE, FRET_NOT_FINITE; threads may share it.

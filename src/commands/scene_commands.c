@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands that set material, second body, friction, rig and geometry. Each reads everything, then changes
- * everything or nothing. */
+/* Commands that set material, second body, friction, rig, bulk stress and geometry. Each reads everything,
+ * then changes everything or nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,9 +36,9 @@ static void edit_put(edit *e, input in, long double v) {
 static void apply(inputs *in, void *context) {
     const edit *e = context;
     if (e->clear_material)
-        inputs_unset(in, INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0));
+        inputs_unset(in, INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0) | INPUT_BIT(IN_YIELD));
     if (e->clear_second) {
-        inputs_unset(in, INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2));
+        inputs_unset(in, INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_YIELD_2));
         in->second = e->second;
     }
     if (e->clear_rig)
@@ -195,6 +195,22 @@ bool do_rig(shell *sh, lexer *lx, const command *self) {
                  usage);
     else
         ok = scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    said_drop(sh, &s);
+    return ok;
+}
+
+bool do_bulk(shell *sh, lexer *lx, const command *self) {
+    said s;
+    edit e = {.clear_material = false};
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    gather(&e, &s);
+    if (said_of(&s, "none", 0))
+        edit_put(&e, IN_SB, 0);
+    char usage[GRAMMAR_USAGE];
+    command_usage(self, usage);
+    const bool ok = s.count ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
+                            : lex_fail(lx, "bulk of what stress? usage: %s", usage);
     said_drop(sh, &s);
     return ok;
 }

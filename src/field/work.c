@@ -46,8 +46,9 @@ static fret_real deepest(const fret_work *w, const slip_phase *p) {
     return fret_law_depth(w->normal, N);
 }
 
-static fret_status copy_phases(fret_work *w, const fret_slips *slips, size_t first) {
-    w->count = first < slips->count ? slips->count - first : 0;
+static fret_status copy_phases(fret_work *w, const fret_slips *slips, size_t first, size_t end) {
+    end = end < slips->count ? end : slips->count;
+    w->count = first < end ? end - first : 0;
     w->phase = calloc(w->count + 1, sizeof *w->phase);
     w->swung = calloc(slips->swings + 1, sizeof *w->swung);
     if (slips->failed || !w->phase || !w->swung)
@@ -60,7 +61,7 @@ static fret_status copy_phases(fret_work *w, const fret_slips *slips, size_t fir
 }
 
 fret_status fret_work_make(const fret_normal *normal, double mu, const fret_slips *slips, size_t first,
-                           fret_work **out) {
+                           size_t end, fret_work **out) {
     fret_work *w = calloc(1, sizeof *w);
     fret_press press = {.dz = 0};
     *out = w;
@@ -68,7 +69,7 @@ fret_status fret_work_make(const fret_normal *normal, double mu, const fret_slip
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     w->normal = normal;
     w->mu = mu;
-    fret_status st = copy_phases(w, slips, first);
+    fret_status st = copy_phases(w, slips, first, end);
     for (size_t i = 0; i < w->count && !st.code; i++)
         press.dz = fmaxl(press.dz, deepest(w, &w->phase[i]));
     if (!st.code && press.dz > 0)
@@ -283,7 +284,7 @@ fret_status fret_work_at(const fret_work *w, fret_real r, fret_real *out) {
     for (size_t i = 0; i < w->count && !a.st.code; i++) {
         const slip_phase *p = &w->phase[i];
         fret_sum_add(&sum, fmaxl(0, p->kind == GROSS   ? gross_work(&a, p)
-                                    : p->kind == SWUNG ? swung_work(&a, &w->swung[p->swung])
+                                    : p->kind == SWUNG ? p->gain * swung_work(&a, &w->swung[p->swung])
                                                        : straight_work(&a, p)));
     }
     *out = w->mu * w->mu * n->foundation.eta * fret_sum_value(&sum);

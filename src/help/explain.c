@@ -113,10 +113,10 @@ static bool explain_part(const page *p, const part *of) {
     influence_study study = {.count = 0};
     value v = {0}, argument = {0};
     const bool has = part_value(p, of, &e, &v);
-    if (has && of->call)
+    const quantity *call = of->call && of->q->call ? of->q : NULL; /* of one argument */
+    if (has && call)
         text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
-    const bool ok =
-        !has || influences(&p->sh->calc, &e, v.v, of->call ? of->q : NULL, argument, &study, p->error);
+    const bool ok = !has || influences(&p->sh->calc, &e, v.v, call, argument, &study, p->error);
     if (ok)
         explain_quantity(p, of, has ? &e : NULL, v, &study, of->whole && p->conditioning);
     expr_free(&e);

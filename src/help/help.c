@@ -102,10 +102,10 @@ static void quantity_help(FILE *to, size_t row) {
     if (quantity_is_input(q))
         fprintf(to, "    an input%s: %s = EXPR sets it, %s := EXPR binds it\n",
                 q->imposed ? " after a press by it" : "", q->name, q->name);
-    if (!q->call)
+    if (!quantity_arguments(q))
         return;
     fprintf(to, "    as a function: %s(%s)\n", q->name, q->argument);
-    snprintf(when, sizeof when, "%s is ", q->argument);
+    snprintf(when, sizeof when, "%s %s ", q->argument, q->call ? "is" : "are each");
     dim_line(to, when, q->argument_d, NULL);
     if (!dim_equal(q->argument_or, DIM_NONE))
         dim_line(to, "or ", q->argument_or, NULL);

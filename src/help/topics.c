@@ -47,7 +47,7 @@ static void quantities(FILE *to) {
             quantity_line(to, q, false);
     fputs("Functions of the scene:\n", to);
     for (size_t i = 0; (q = quantity_row(i)); i++)
-        if (q->call)
+        if (quantity_arguments(q))
             quantity_line(to, q, true);
 }
 
@@ -262,6 +262,34 @@ const char coupling_text[] =
     "beta the mismatch (Spence 1968), and between the two where some slips. For other\n"
     "k the size is not known.\n";
 
+static const char cracking_text[] =
+    "Cracks begin where the surface is pulled and where it slips. Indicators of both\n"
+    "are definitions over the last cycle, along the line y = 0 of the surface:\n\n"
+    "    Sxx(x) := (maximum sxx(x, 0 m, 0 m) along cycle)     the largest tension\n"
+    "    Ruiz1(x) := (maximum qx(abs(x))*slip(abs(x)) along cycle)\n"
+    "    Ruiz2(x) := Sxx(x)*Ruiz1(x)\n"
+    "    SWT(x) := Sxx(x)*(Sxx(x) - (minimum sxx(x, 0 m, 0 m) along cycle))/(2*E0)\n\n"
+    "Ruiz' parameters (Ruiz, Boddington, Chen, Exp. Mech. 24, 1984) are friction's\n"
+    "traction times slip, and that times tension; they rank places and scenes of one\n"
+    "material, and are no strength. Smith, Watson and Topper's (J. Mater. 5, 1970) is\n"
+    "the largest stress times the amplitude of strain, here of sxx/E0 alone, that of\n"
+    "a bar: other planes, and how stress falls off below, it does not know.\n"
+    "`maximize Sxx(x) over x = -1.5*a .. 1.5*a` tells the place.\n\n"
+    "Stress inside: with the line loads q_z = qz1D(t), q_x = qx1D(t) on the imaginary\n"
+    "axis, zeta = z + i t, rho^2 = x^2+y^2+zeta^2, V = 1/rho, L = ln(rho+zeta),\n"
+    "chi = zeta L - rho, and subscripts for derivatives,\n\n"
+    "    P_xx = 2nu V_zeta - (1-2nu) L_xx - z V_xx, P_yy alike\n"
+    "    P_zz = V_zeta - z V_zeta,zeta, P_xy = -(1-2nu) L_xy - z V_xy\n"
+    "    P_xz = -z V_x,zeta, P_yz = -z V_y,zeta\n"
+    "    Q_xx = 2(1+nu) V_x + 2nu chi_xxx - z L_xxx\n"
+    "    Q_yy = 2nu V_x + 2nu chi_xyy - z L_xyy, Q_zz = -z V_x,zeta\n"
+    "    Q_xy = V_y + 2nu chi_xxy - z L_xxy\n"
+    "    Q_xz = V_zeta - z V_xx, Q_yz = -z V_xy\n\n"
+    "of Boussinesq's and Cerruti's point loads, to 1e-12 of p0, and 1e-6 after FN has\n"
+    "swung. x is along Fx, z > 0 in the first body, z < 0 in the second; tension is\n"
+    "positive. All for k = 0 and as long as it is elastic: after `yield = 500 MPa` a\n"
+    "note tells where mises exceeds it. slip(r) is the mean over the angle.\n";
+
 static const char limits_text[] =
     "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
     "0.4 % of dW in a comparison with boundary elements.\n\n"
@@ -391,6 +419,18 @@ static const topic topics[] = {
      .example = "    fret> material E0=210 GPa nu=0.3; geometry sphere R=10 mm\n"
                 "    fret> kappa\n"
                 "    kappa = 2\n"},
+    {.name = "cracking",
+     .summary = "tension and slip over a cycle: where cracks may begin",
+     .keywords = "crack fatigue fretting Ruiz SWT Smith Watson Topper tension yield stress tensor",
+     .text = cracking_text,
+     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                "    fret> cycle FA=20 N\n"
+                "    fret> maximize (maximum sxx(x, 0 m, 0 m) along cycle) over x = 0 m .. 1.5*a\n"
+                "    x = 186.626 um\n"
+                "    (maximum sxx(x, 0 m, 0 m) along cycle) = 827.73 MPa\n"
+                "    fret> Ruiz(x) := (maximum qx(abs(x))*slip(abs(x)) along cycle)\n"
+                "    fret> Ruiz(0.9*a)\n"
+                "    Ruiz(0.9*a) = 14.9162 N/m\n"},
     {.name = "limits",
      .summary = "what the theory leaves out",
      .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",

@@ -29,6 +29,11 @@ size_t fret_slips_count(const fret_slips *s) {
     return s->count;
 }
 
+void fret_slips_repeat(fret_slips *s, size_t first, double times) {
+    for (size_t i = first; i < s->count; i++)
+        s->phase[i].gain *= 1 + (fret_real)times;
+}
+
 void fret_slips_add(fret_slips *s, const slip_phase *phase) {
     if (!s)
         return;

@@ -11,7 +11,7 @@
 typedef struct slip_phase {
     enum { BY_DEPTHS, BY_LOADS, GROSS, SWUNG } kind;
     fret_real edge[2], front[2], gain;
-    size_t swung; /* of a swinging load: number among those */
+    size_t swung; /* of a swinging load, whose gain is 1: number among those */
 } slip_phase;
 
 struct swung_phase; /* history/swing.h */

@@ -193,7 +193,7 @@ static void tell(const fret_swing *c, const slip *l) {
         return;
     all->swung = grown;
     all->swung[all->swings] = (swung_phase){*l->way, l->which, l->lo, l->hi, *front};
-    fret_slips_add(all, &(slip_phase){.kind = SWUNG, .swung = all->swings++});
+    fret_slips_add(all, &(slip_phase){.kind = SWUNG, .gain = 1, .swung = all->swings++});
 }
 
 /* Between two instants with the front at the level of `which`, which falls. */

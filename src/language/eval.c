@@ -406,18 +406,25 @@ static bool takes(const quantity *q, dim d) {
 }
 
 static bool call_quantity(machine *m, const expr_node *n, value *out) {
-    const expr_node *a = &m->e->nodes[n->left];
-    value arg = a->v;
+    value arg[PARAMETERS];
     char wants[192], phrase[128];
-    if (!takes(n->q, arg.d) && !is_bare_zero(a, arg)) {
+    for (size_t i = 0; i < n->right; i++) {
+        const expr_node *a = &m->e->nodes[m->e->arguments[n->left + i]];
+        arg[i] = a->v;
+        if (takes(n->q, a->v.d) || is_bare_zero(a, a->v))
+            continue;
         dim_describe(n->q->argument_d, phrase, sizeof phrase);
-        snprintf(wants, sizeof wants, "%s(%s) takes %s", n->q->name, n->q->argument, phrase);
-        return dim_wrong(m, a, arg.d, wants);
+        snprintf(wants, sizeof wants, "%s(%s) takes %s%s", n->q->name, n->q->argument, phrase,
+                 n->right > 1 ? " each" : "");
+        return dim_wrong(m, a, a->v.d, wants);
     }
     *out = (value){1, n->q->d};
-    if (!m->dry)
-        mark_asked(m->c, n->q);
-    return m->dry || n->q->call(m->c->now, arg, &out->v, m->error) || calc_place(m->error, n->at, n->len);
+    if (m->dry)
+        return true;
+    mark_asked(m->c, n->q);
+    const bool ok = n->q->call ? n->q->call(m->c->now, arg[0], &out->v, m->error)
+                               : n->q->call_at(m->c->now, arg, &out->v, m->error);
+    return ok || calc_place(m->error, n->at, n->len);
 }
 
 static bool eval(machine *m, const expr_node *n, value *out) {

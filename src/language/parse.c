@@ -41,12 +41,16 @@ static size_t operands(const expr_node *n) {
         return 2;
     case N_BUILTIN:
         return builtin_row(n->index)->f2 ? 2 : 1;
-    case N_CALL:
     case N_NEGATE:
         return 1;
     default:
         return 0;
     }
+}
+
+/* Does it take them from a list? */
+static bool is_listed(const expr_node *n) {
+    return n->kind == N_CALL || n->kind == N_APPLY;
 }
 
 static bool add_node(parser *p, const expr_node *node, size_t *index) {
@@ -97,7 +101,7 @@ static bool split_tail(parser *p, size_t first, expr *body) {
     const size_t count = e->count - first;
     size_t arguments = e->argument_count;
     for (size_t i = first; i < e->count; i++)
-        if (e->nodes[i].kind == N_APPLY && e->nodes[i].left < arguments)
+        if (is_listed(&e->nodes[i]) && e->nodes[i].left < arguments)
             arguments = e->nodes[i].left;
     *body = (expr){.count = count,
                    .room = count,
@@ -114,7 +118,7 @@ static bool split_tail(parser *p, size_t first, expr *body) {
         body->arguments[i] = e->arguments[arguments + i] - first;
     for (size_t i = 0; i < count; i++) {
         expr_node *n = &body->nodes[i];
-        if (n->kind == N_APPLY) {
+        if (is_listed(n)) {
             n->left -= arguments;
         } else if (operands(n)) {
             n->left -= first;
@@ -217,27 +221,6 @@ static bool parse_at(parser *p, size_t first, size_t begin, size_t *out) {
 
 /* ---- names ------------------------------------------------------------------------------------- */
 
-static bool parse_quantity(parser *p, const quantity *q, size_t *out) {
-    lexer *lx = p->lx;
-    expr_node node = {.kind = N_QUANTITY, .at = lx->at, .q = q};
-    const bool call = lex_peek(lx) == T_OPEN;
-    if (call && !q->call)
-        return lex_fail(lx, "%s is not a function", q->name);
-    if (!call && !quantity_has_value(q))
-        return lex_fail(lx, "%s is a function: %s(%s)", q->name, q->name, q->argument);
-    lex_next(lx);
-    if (call) {
-        node.kind = N_CALL;
-        lex_next(lx);
-        if (!parse_sum(p, &node.left))
-            return false;
-        if (lx->kind != T_CLOSE)
-            return lex_one_value(lx) && lex_fail(lx, "expected ) after the argument of %s", q->name);
-        lex_next(lx);
-    }
-    return add_node(p, &node, out);
-}
-
 /* What follows an argument goes on with no other, or there are more of them. */
 static bool wrong_count(const parser *p, const char *name, int count, const char *more) {
     lexer *lx = p->lx;
@@ -249,6 +232,51 @@ static bool wrong_count(const parser *p, const char *name, int count, const char
     const bool comma = lex_decimal_comma(lx, lx->at, &from, &len);
     return lex_fail(lx, "%s takes %d argument%s%s%s", name, count, count > 1 ? "s" : "", more,
                     comma ? "; a decimal comma is a point here" : "");
+}
+
+/* From ( on; their roots, one after the other in e->arguments. */
+static bool parse_arguments(parser *p, const char *name, unsigned count, expr_node *node) {
+    lexer *lx = p->lx;
+    size_t root[PARAMETERS];
+    expr *e = p->e;
+    for (unsigned j = 0; j < count; j++) {
+        lex_next(lx);
+        if (!parse_sum(p, &root[j]))
+            return false;
+        if (node->kind == N_CALL && count == 1 && lx->kind != T_CLOSE)
+            return lex_one_value(lx) && lex_fail(lx, "expected ) after the argument of %s", name);
+        if (lx->kind != (j + 1 < count ? T_COMMA : T_CLOSE))
+            return wrong_count(p, name, (int)count, "");
+    }
+    lex_next(lx);
+    node->left = e->argument_count;
+    node->right = count;
+    for (unsigned j = 0; j < count; j++) {
+        size_t *arguments =
+            fret_array_for(e->arguments, &e->argument_room, e->argument_count + 1, sizeof *arguments);
+        if (!arguments)
+            return calc_no_memory(lx->error);
+        e->arguments = arguments;
+        e->arguments[e->argument_count++] = root[j];
+    }
+    return true;
+}
+
+static bool parse_quantity(parser *p, const quantity *q, size_t *out) {
+    lexer *lx = p->lx;
+    expr_node node = {.kind = N_QUANTITY, .at = lx->at, .q = q};
+    const bool call = lex_peek(lx) == T_OPEN;
+    if (call && !quantity_arguments(q))
+        return lex_fail(lx, "%s is not a function", q->name);
+    if (!call && !quantity_has_value(q))
+        return lex_fail(lx, "%s is a function: %s(%s)", q->name, q->name, q->argument);
+    lex_next(lx);
+    if (call) {
+        node.kind = N_CALL;
+        if (!parse_arguments(p, q->name, quantity_arguments(q), &node))
+            return false;
+    }
+    return add_node(p, &node, out);
 }
 
 static bool parse_builtin(parser *p, size_t i, size_t *out) {
@@ -291,32 +319,6 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
     return add_node(p, &node, out);
 }
 
-/* The roots of the arguments, one after the other in e->arguments. */
-static bool parse_arguments(parser *p, const definition *d, expr_node *node) {
-    lexer *lx = p->lx;
-    size_t root[PARAMETERS];
-    expr *e = p->e;
-    for (unsigned j = 0; j < d->parameters; j++) {
-        lex_next(lx);
-        if (!parse_sum(p, &root[j]))
-            return false;
-        if (lx->kind != (j + 1 < d->parameters ? T_COMMA : T_CLOSE))
-            return wrong_count(p, d->label, (int)d->parameters, "");
-    }
-    lex_next(lx);
-    node->left = e->argument_count;
-    node->right = d->parameters;
-    for (unsigned j = 0; j < d->parameters; j++) {
-        size_t *arguments =
-            fret_array_for(e->arguments, &e->argument_room, e->argument_count + 1, sizeof *arguments);
-        if (!arguments)
-            return calc_no_memory(lx->error);
-        e->arguments = arguments;
-        e->arguments[e->argument_count++] = root[j];
-    }
-    return true;
-}
-
 static bool parse_own(parser *p, size_t index, size_t *out) {
     lexer *lx = p->lx;
     const definition *d = (const definition *)p->c->names.row[index].definition;
@@ -329,7 +331,7 @@ static bool parse_own(parser *p, size_t index, size_t *out) {
     if (!function)
         return add_node(p, &node, out);
     node.kind = N_APPLY;
-    return parse_arguments(p, d, &node) && add_node(p, &node, out);
+    return parse_arguments(p, d->label, d->parameters, &node) && add_node(p, &node, out);
 }
 
 /* An argument of the function that is defined. */

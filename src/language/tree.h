@@ -8,7 +8,7 @@
 typedef enum node_kind {
     N_NUMBER,
     N_QUANTITY,
-    N_CALL,  /* of a quantity */
+    N_CALL,  /* of a quantity: its arguments as those of N_APPLY */
     N_NAME,  /* of the user */
     N_APPLY, /* of the user's function */
     N_PARAMETER,
@@ -25,7 +25,7 @@ struct expr_node {
     char op;            /* + - * / ^, U: a number and its unit, ?: one that may belong to the divisor alone */
     unsigned len;
     size_t at;          /* its place in the statement */
-    size_t left, right; /* N_APPLY: first of the arguments, and how many */
+    size_t left, right; /* N_CALL, N_APPLY: first of the arguments, and how many */
     size_t index; /* of a name, parameter or builtin; number: has it a unit? operator: where it stands */
     union {
         const quantity *q;

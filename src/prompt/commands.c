@@ -154,6 +154,24 @@ const command commands[] = {
              "    fret> friction 0.4\n"
              "    fret> mu\n"
              "    mu = 0.4\n"},
+    {.name = "bulk",
+     .run = do_bulk,
+     .group = "the bodies",
+     .keywords = "stress fatigue tension sB sxx",
+     .changes = true,
+     .takes = "stress:=50 MPa | none",
+     .summary = "a bulk stress along x in the first body",
+     .help = "Adds sB to sxx in the first body, z >= 0, and so to mises and its like. It is an\n"
+             "input: `sB = 50 MPa` does the same. What it does to the contact, a shift of the\n"
+             "stick zone, is left out.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
+             "    fret> bulk stress=50 MPa\n"
+             "    warning: a bulk stress also shifts the stick zone, which is left out: in the plane case "
+             "by a*sB/(4*mu*p0) (Nowell, Hills 1987)\n"
+             "    fret> sxx(a, 0 m, 0 m)/p0 at sB = 0 Pa\n"
+             "    sxx(a, 0 m, 0 m)/p0 = 0.133333\n"
+             "    fret> sxx(a, 0 m, 0 m)\n"
+             "    sxx(a, 0 m, 0 m) = 232.784 MPa\n"},
     {.name = "rig",
      .run = do_rig,
      .group = "the load",

@@ -360,6 +360,9 @@ bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
     write_geometry(&w);
     write_friction(&w);
     write_rig(&w);
+    for (input i = IN_YIELD; i <= IN_SB; i++)
+        if (is_set(&w, i))
+            write_input(&w, i);
     write_load(&w, whole);
     const bool ok = write_names(&w);
     for (input i = 0; i < INPUTS; i++)

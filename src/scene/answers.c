@@ -282,6 +282,29 @@ bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error) 
     return calc_status(error, &st);
 }
 
+bool scene_stress_field(scene *s, const fret_field **field, calc_error *error) {
+    const load_reach *reach;
+    const fret_contact *now, *straight;
+    fret_status st = fine;
+    if (!scene_reach(s, &reach, error))
+        return false;
+    if (!reach->by)
+        return scene_pressed_field(s, field, error);
+    if (s->answers.straight) {
+        *field = s->answers.straight;
+        return true;
+    }
+    if (!scene_dragged_field(s, field, error) || !scene_history(s, &now, error))
+        return false;
+    if (!fret_contact_curved(now))
+        return true;
+    if (!scene_straight(s, &straight, error))
+        return false;
+    st = fret_field_make(straight, &s->answers.straight);
+    *field = s->answers.straight;
+    return calc_status(error, &st);
+}
+
 /* ---- running it again -------------------------------------------------------------------------- */
 
 bool trace_begin(scene_trace *t, scene *s, watch w, bool limit, calc_error *error) {

@@ -155,8 +155,16 @@ fret_status engine_at_rig(const engine *e, double K_rig, fret_step *step) {
     return s.st;
 }
 
+fret_status engine_watch(engine *e, fret_slips *slips) {
+    e->slips = slips;
+    return fret_contact_watch(e->contact, slips);
+}
+
 void engine_repeat(engine *e, unsigned times, long double loss) {
     e->more += times * loss;
+    e->times = 1 + times;
+    if (e->slips)
+        fret_slips_repeat(e->slips, e->begun, times);
 }
 
 static long double dissipated(const engine *e) {
@@ -167,6 +175,13 @@ static long double dissipated(const engine *e) {
 
 void engine_mark(engine *e) {
     e->spent = e->springs ? dissipated(e) : 0;
+    e->begun = e->slips ? fret_slips_count(e->slips) : 0;
+}
+
+void engine_close(engine *e) {
+    e->closed[0] = e->begun;
+    e->closed[1] = e->slips ? fret_slips_count(e->slips) : 0;
+    e->times = 1;
 }
 
 long double engine_spent(const engine *e) {

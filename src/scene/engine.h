@@ -37,6 +37,10 @@ typedef struct engine {
     const model_row *kind;
     fret_contact *contact;
     fret_springs *springs;
+    fret_slips *slips; /* what slips is added to these, of who wants to know; or NULL */
+    size_t begun;      /* how many there were at engine_mark */
+    size_t closed[2];  /* of the last period: the first of them, and one beyond the last; none: both alike */
+    unsigned times;    /* that period stands for so many */
     bool sine;         /* swinging loads are taken as they are */
     long double spent; /* dissipated since engine_mark, step by step: W may be far larger */
     long double more;  /* dissipated in periods that were not run: engine_repeat */
@@ -62,8 +66,11 @@ void engine_repeat(engine *e, unsigned times, long double loss);
 /* A period of the sine itself, or the part from one of its times, 0..1, to another; taken: false where the
  * contact cannot, nothing has changed. */
 fret_status engine_swing(engine *e, const fret_sine *sine, double from, double to, bool *taken);
-/* From here on engine_spent counts. */
+/* Slips are the caller's. */
+fret_status engine_watch(engine *e, fret_slips *slips);
+/* From here on engine_spent counts: a period begins; and has ended. */
 void engine_mark(engine *e);
+void engine_close(engine *e);
 long double engine_spent(const engine *e);
 
 #endif

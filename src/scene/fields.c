@@ -78,6 +78,18 @@ bool call_ux(scene *s, value r, long double *out, calc_error *error) {
     return field_at(s, r, true, fret_field_surface_x, out, error);
 }
 
+bool call_slip(scene *s, value r, long double *out, calc_error *error) {
+    return field_at(s, r, true, fret_field_slip, out, error);
+}
+
+bool call_WdA(scene *s, value r, long double *out, calc_error *error) {
+    return scene_work(s, false, r.v, out, error);
+}
+
+bool call_dWdA(scene *s, value r, long double *out, calc_error *error) {
+    return scene_work(s, true, r.v, out, error);
+}
+
 /* The state of a scene with friction. */
 static bool tangential_state(scene *s, const fret_contact **out, calc_error *error) {
     double mu;
@@ -164,3 +176,54 @@ bool call_qx1D(scene *s, value x, long double *out, calc_error *error) {
     *out = c * u;
     return true;
 }
+
+/* ---- stress inside ----------------------------------------------------------------------------- */
+
+static bool stress_at(scene *s, const value place[3], fret_stress *out, calc_error *error) {
+    const fret_field *field;
+    const bool second = place[2].v < 0;
+    long double k = 0, nu = 0, sB = 0;
+    if (!scene_get(s, IN_K, &k, error) || !scene_get(s, IN_SB, &sB, error))
+        return false;
+    if (k != 0)
+        return calc_fail(
+            error, 0, 0,
+            "stress inside is known of homogeneous bodies, k = 0: of graded ones no such form is "
+            "(k = %.6Lg)",
+            k);
+    if (second && s->in.second == SECOND_RIGID)
+        return calc_fail(error, 0, 0, "z < 0 is in the second body, which is rigid: it has no stress");
+    if (!scene_get(s, second ? IN_NU_2 : IN_NU, &nu, error) || !scene_stress_field(s, &field, error))
+        return false;
+    s->used |= USED(MODEL_QUADRATURE);
+    fret_status st =
+        fret_field_stress(field, (double)nu, (double)place[0].v, (double)place[1].v, (double)place[2].v, out);
+    out->xx += second ? 0 : (double)sB;
+    return calc_status(error, &st);
+}
+
+static double principal(const fret_stress *t, int which) {
+    double of[3];
+    fret_stress_principal(t, of);
+    return of[which];
+}
+
+#define STRESS(name, what)                                                                                   \
+    bool call_##name(scene *s, const value place[3], long double *out, calc_error *error) {                  \
+        fret_stress t;                                                                                       \
+        if (!stress_at(s, place, &t, error))                                                                 \
+            return false;                                                                                    \
+        *out = what;                                                                                         \
+        return true;                                                                                         \
+    }
+
+STRESS(sxx, t.xx)
+STRESS(syy, t.yy)
+STRESS(szz, t.zz)
+STRESS(sxy, t.xy)
+STRESS(sxz, t.xz)
+STRESS(syz, t.yz)
+STRESS(mises, fret_stress_mises(&t))
+STRESS(tresca, fret_stress_tresca(&t))
+STRESS(sigma1, principal(&t, 0))
+STRESS(sigma3, principal(&t, 2))

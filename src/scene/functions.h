@@ -19,8 +19,14 @@ quantity_call_function call_a, call_dz, call_FN, call_p0, call_c, call_dx, call_
 quantity_call_function call_Ksec, call_Kp, call_Kpp, call_loss_factor;
 
 /* fields.c: at a place, state now */
-quantity_call_function call_E, call_f, call_g, call_p, call_qx, call_uz, call_ux;
+quantity_call_function call_E, call_f, call_g, call_p, call_qx, call_uz, call_ux, call_slip, call_WdA,
+    call_dWdA;
 quantity_call_function call_w1D, call_u1D, call_s1D, call_qz1D, call_qx1D, call_cN, call_cT;
+
+/* Stress inside. */
+typedef bool quantity_call_at(scene *s, const value place[3], long double *out, calc_error *error);
+quantity_call_at call_sxx, call_syy, call_szz, call_sxy, call_sxz, call_syz, call_mises, call_tresca,
+    call_sigma1, call_sigma3;
 
 /* The foundation of the scene, whether or not it has a geometry; normal: only c_N is wanted. */
 bool foundation_of(scene *s, bool normal, fret_foundation *out, calc_error *error);

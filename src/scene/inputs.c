@@ -243,7 +243,7 @@ void inputs_drop(inputs *in) {
     *in = (inputs){.geometry = NULL};
 }
 
-bool inputs_same(const inputs *a, const inputs *b, unsigned which) {
+bool inputs_same(const inputs *a, const inputs *b, input_set which) {
     if ((a->bindings | b->bindings) & which || a->geometry != b->geometry || a->table != b->table ||
         a->second != b->second || a->sum.terms != b->sum.terms)
         return false;
@@ -258,7 +258,9 @@ bool inputs_same(const inputs *a, const inputs *b, unsigned which) {
 
 void input_range(input in, double *lo, double *hi) {
     const bool nu = in == IN_NU || in == IN_NU_2;
-    *lo = in == IN_K || nu ? -1 : in == IN_PHASE || in == IN_D0 || in == IN_F0 ? -(double)INFINITY : 0;
+    *lo = in == IN_K || nu                                              ? -1
+          : in == IN_PHASE || in == IN_D0 || in == IN_F0 || in == IN_SB ? -(double)INFINITY
+                                                                        : 0;
     *hi = in == IN_K ? 1 : nu ? 0.5 : (double)INFINITY;
 }
 
@@ -274,7 +276,7 @@ fret_status input_status(input in, double v) {
     return (fret_status){code, NULL, v, 0};
 }
 
-void inputs_unset(inputs *in, unsigned set) {
+void inputs_unset(inputs *in, input_set set) {
     for (input i = 0; i < INPUTS; i++)
         if (set & INPUT_BIT(i)) {
             inputs_bind(in, i, NULL);
@@ -286,7 +288,7 @@ void inputs_unset(inputs *in, unsigned set) {
 /* What does not go with an input that is given: A and h (r/r0)^n are two ways to say the same, as moduli of a
  * body are, and one of the second makes it a body of its own. */
 static void leave_others(inputs *in, input which) {
-    const unsigned bit = INPUT_BIT(which), second = INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2);
+    const input_set bit = INPUT_BIT(which), second = INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2);
     if (bit & second && in->second != SECOND_GIVEN) {
         inputs_unset(in, second & ~bit);
         in->second = SECOND_GIVEN;
@@ -325,7 +327,7 @@ void inputs_geometry(inputs *in, const geometry *g, const fret_gap *terms, share
         in->sum = *terms;
 }
 
-bool inputs_any(const inputs *in, unsigned set) {
+bool inputs_any(const inputs *in, input_set set) {
     for (input i = 0; i < INPUTS; i++)
         if (set & INPUT_BIT(i) && (in->set[i] || in->bound[i]))
             return true;
@@ -404,6 +406,9 @@ bool inputs_get(const inputs *in, input which, long double *out, calc_error *err
     case IN_FNA:
     case IN_PHASE:
         here = here || which == IN_K || inputs_any(in, INPUT_AMPLITUDE);
+        break;
+    case IN_SB:
+        here = true;
         break;
     case IN_D0:
     case IN_F0:

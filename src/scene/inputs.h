@@ -33,6 +33,9 @@ typedef enum input {
     IN_K_RIG, /* these three: of the rig */
     IN_D0,
     IN_F0,
+    IN_YIELD,
+    IN_YIELD_2,
+    IN_SB,
     IN_N, /* from here on: parameters of the geometry */
     IN_A,
     IN_H,
@@ -44,7 +47,8 @@ typedef enum input {
 } input;
 
 /* The inputs as a set, for tables that say what depends on what. */
-#define INPUT_BIT(in) (1u << (in))
+typedef unsigned long long input_set;
+#define INPUT_BIT(in) ((input_set)1 << (in))
 #define INPUT_MODULUS (INPUT_BIT(IN_E0) | INPUT_BIT(IN_G0) | INPUT_BIT(IN_ESTAR)) /* one of them is set */
 #define INPUT_MODULUS_2 (INPUT_BIT(IN_E0_2) | INPUT_BIT(IN_G0_2))
 #define INPUT_MODULI (INPUT_MODULUS | INPUT_MODULUS_2)
@@ -52,10 +56,11 @@ typedef enum input {
     (INPUT_MODULI | INPUT_BIT(IN_NU) | INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_K)) /* without c0 */
 #define INPUT_PRESS                                                                                          \
     (INPUT_BIT(IN_FN) | INPUT_BIT(IN_DZ) | INPUT_BIT(IN_CONTACT) | INPUT_BIT(IN_P0) | INPUT_BIT(IN_PMEAN))
-#define INPUT_GEOMETRY ((~0u << IN_N) & ((1u << INPUTS) - 1))
+#define INPUT_GEOMETRY (INPUT_BIT(INPUTS) - INPUT_BIT(IN_N))
 #define INPUT_AMPLITUDE (INPUT_BIT(IN_FA) | INPUT_BIT(IN_DXA) | INPUT_BIT(IN_DRIGA))
 #define INPUT_CYCLE (INPUT_AMPLITUDE | INPUT_BIT(IN_FNA) | INPUT_BIT(IN_PHASE))
 #define INPUT_RIG (INPUT_BIT(IN_K_RIG) | INPUT_BIT(IN_D0) | INPUT_BIT(IN_F0))
+#define INPUT_STRESS (INPUT_BIT(IN_YIELD) | INPUT_BIT(IN_YIELD_2) | INPUT_BIT(IN_SB)) /* no contact's */
 
 typedef struct inputs inputs;
 
@@ -66,8 +71,8 @@ typedef struct geometry {
     double n; /* exponent of a power whose name fixes it, else 0 */
     bool power;
     enum { PARAMETERS_NAMED, PARAMETERS_TERMS, PARAMETERS_FILE } by;
-    unsigned required, allowed; /* sets of inputs */
-    const char *takes;          /* behind its name, as rows of commands do */
+    input_set required, allowed;
+    const char *takes; /* behind its name, as rows of commands do */
     const char *meaning;
     const char *keywords; /* other words to find it by */
     const char *example;  /* of `help`: a transcript, indented by four */
@@ -101,7 +106,7 @@ struct inputs {
     double v[INPUTS];
     bool set[INPUTS];
     counted *bound[INPUTS]; /* NAME := EXPR, a definition (names.h): v follows it */
-    unsigned bindings;      /* which are bound */
+    input_set bindings;     /* which are bound */
     second_body second;
     const geometry *geometry;
     double radii[2];     /* R1 and R2 [m], of which R has been made; 0: R was given */
@@ -114,7 +119,7 @@ void inputs_copy(inputs *to, const inputs *from);
 void inputs_drop(inputs *in);
 
 /* Are these inputs the same, the bodies and the shape, and no definitions among them? */
-bool inputs_same(const inputs *a, const inputs *b, unsigned which);
+bool inputs_same(const inputs *a, const inputs *b, input_set which);
 
 /* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2, mu = 0 and FNA
  * = 0 belong. */
@@ -123,14 +128,14 @@ void input_range(input in, double *lo, double *hi);
 fret_status input_status(input in, double v);
 
 /* Is one of them set? */
-bool inputs_any(const inputs *in, unsigned set);
+bool inputs_any(const inputs *in, input_set set);
 /* Is Poisson's ratio given? Where Estar stands alone pressing needs none. */
 bool inputs_know_nu(const inputs *in);
 
 /* Puts a value in and unsets what it replaces: A and h, r0; another modulus; a second body that was the same.
  * Unbinds. */
 void inputs_put(inputs *in, input which, double v);
-void inputs_unset(inputs *in, unsigned set);
+void inputs_unset(inputs *in, input_set set);
 /* Ends a binding, the value stays; takes over `to` (NULL: none). */
 void inputs_bind(inputs *in, input which, counted *to);
 /* Geometry and its parameters, table and terms as given. Takes over the table. */

@@ -17,6 +17,9 @@
 #define IMPOSED(which) .in = 1 + (which), .imposed = "press"
 #define GETTER(function) .of = OF_GETTER, .get = get_##function
 #define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
+#define STRESS(which)                                                                                        \
+    .d = PRESSURE, .of = OF_FUNCTION, .call_at = call_##which, .argument = "x, y, z", .argument_d = LENGTH,  \
+    .by = MODEL_MEMORY, .reads = READS_TANGENTIAL | INPUT_BIT(IN_SB), .load = true
 #define FORCE                                                                                                \
     { 1, 0, 0, 0 }
 #define LENGTH                                                                                               \
@@ -80,6 +83,12 @@ static const quantity quantities[] = {
      .formulas = {{"reading = drig + d0", NULL, 0}}},
     {.name = "F0", .title = "offset of the rig's forces", .keywords = "zero machine reading", .d = FORCE, INPUT(IN_F0),
      .formulas = {{"reading = Fx + F0", NULL, 0}}},
+    {.name = "yield", .title = "yield stress", .keywords = "plastic strength mises", .d = PRESSURE, INPUT(IN_YIELD),
+     .formulas = {{"a note tells where mises exceeds it", NULL, 0}}},
+    {.name = "yield_2", .title = "yield stress of the second body", .keywords = "plastic strength mises", .d = PRESSURE, INPUT(IN_YIELD_2),
+     .formulas = {{"as yield, of a second body that differs", NULL, 0}}},
+    {.name = "sB", .title = "bulk stress along x of the first body", .keywords = "fatigue tension fretting", .d = PRESSURE, INPUT(IN_SB),
+     .formulas = {{"added to sxx", NULL, 0}}},
     {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN), CALL(FN, d, LENGTH),
      .reads = READS_NORMAL, .load = true,
      .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(13)", WHEN_POWER},
@@ -204,6 +213,15 @@ static const quantity quantities[] = {
     {.name = "ux", .by = MODEL_MEMORY, .title = "tangential surface displacement, both bodies' sum, mean over the angle", .keywords = "deformation", .d = LENGTH,
      .of = OF_FUNCTION, CALL(ux, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"u_x(r) = (2 cos(pi k/2)/pi) int_0^min(r,a) x^k u(x) (r^2-x^2)^(-(1+k)/2) dx", "inverse of (3)", 0}}},
+    {.name = "slip", .by = MODEL_MEMORY, .title = "local slip, mean over the angle", .keywords = "relative displacement fretting annulus", .d = LENGTH,
+     .of = OF_FUNCTION, CALL(slip, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"s(r) = delta_x-u_x(r)", "inverse of (3)", 0}}},
+    {.name = "WdA", .by = MODEL_MEMORY, .title = "friction's work per area so far", .keywords = "dissipation energy wear fretting density", .d = STIFFNESS,
+     .unit = "J/m^2", .of = OF_FUNCTION, CALL(WdA, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"int q_x(r,t) ds(r,t) over the load program; 2 pi int_0^a WdA r dr = W", NULL, 0}}},
+    {.name = "dWdA", .by = MODEL_MEMORY, .title = "friction's work per area in the last closed cycle", .keywords = "dissipation energy wear fretting density",
+     .d = STIFFNESS, .unit = "J/m^2", .of = OF_FUNCTION, CALL(dWdA, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .formulas = {{"the integral of q_x ds over a period; at constant F_N 4 mu p(r) s(r), s at the amplitude", NULL, 0}}},
     {.name = "w1D", .title = "normal spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION, CALL(w1D, x, LENGTH),
      .reads = READS_NORMAL, .load = true, .formulas = {{"w_1D(x) = delta_z-g(x)", "(9)", 0}}},
     {.name = "u1D", .by = MODEL_MEMORY, .title = "tangential spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION,
@@ -215,6 +233,28 @@ static const quantity quantities[] = {
      .reads = READS_NORMAL, .load = true, .formulas = {{"q_z(x) = c_N(x) w_1D(x)", "(11)", 0}}},
     {.name = "qx1D", .by = MODEL_MEMORY, .title = "tangential line load", .keywords = "springs", .d = STIFFNESS, .unit = "N/mm", .of = OF_FUNCTION, CALL(qx1D, x, LENGTH),
      .reads = READS_TANGENTIAL, .load = true, .formulas = {{"q_x(x) = c_T(x) u_1D(x)", "(14)", 0}}},
+
+    /* ---- in the body ---- */
+    {.name = "sxx", .title = "stress along x inside, k = 0, tension positive", .keywords = "subsurface tensor tension bulk surface crack", STRESS(sxx),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xx + q_x(t) Q_xx] dt at zeta = z+i t (help cracking)", NULL, 0}}},
+    {.name = "syy", .title = "stress across x inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(syy),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_yy + q_x(t) Q_yy] dt at zeta = z+i t (help cracking)", NULL, 0}}},
+    {.name = "szz", .title = "stress along z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(szz),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_zz + q_x(t) Q_zz] dt at zeta = z+i t (help cracking)", NULL, 0}}},
+    {.name = "sxy", .title = "shear stress in the plane inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(sxy),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xy + q_x(t) Q_xy] dt at zeta = z+i t (help cracking)", NULL, 0}}},
+    {.name = "sxz", .title = "shear stress, of x and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(sxz),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xz + q_x(t) Q_xz] dt at zeta = z+i t (help cracking)", NULL, 0}}},
+    {.name = "syz", .title = "shear stress, of y and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(syz),
+     .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_yz + q_x(t) Q_yz] dt at zeta = z+i t (help cracking)", NULL, 0}}},
+    {.name = "mises", .title = "equivalent stress of von Mises inside, k = 0", .keywords = "yield plastic subsurface", STRESS(mises),
+     .formulas = {{"sqrt(1/2 [(s1-s2)^2+(s2-s3)^2+(s3-s1)^2]) of the principal stresses", NULL, 0}}},
+    {.name = "tresca", .title = "equivalent stress of Tresca inside, k = 0", .keywords = "yield plastic shear subsurface", STRESS(tresca),
+     .formulas = {{"sigma1-sigma3, twice the largest shear stress", NULL, 0}}},
+    {.name = "sigma1", .title = "largest principal stress inside, k = 0", .keywords = "tension crack principal", STRESS(sigma1),
+     .formulas = {{"largest eigenvalue of the stress", NULL, 0}}},
+    {.name = "sigma3", .title = "smallest principal stress inside, k = 0", .keywords = "compression principal", STRESS(sigma3),
+     .formulas = {{"smallest eigenvalue of the stress", NULL, 0}}},
 };
 /* clang-format on */
 enum { QUANTITIES = sizeof quantities / sizeof *quantities };

@@ -53,12 +53,14 @@ typedef struct quantity {
     bool (*get)(scene *s, long double *out, calc_error *error);
     /* as a function; NULL: it is none */
     bool (*call)(scene *s, value arg, long double *out, calc_error *error);
+    /* as one of a place x, y, z; NULL: it is none */
+    bool (*call_at)(scene *s, const value place[3], long double *out, calc_error *error);
     model_id
         by; /* what answers for the function, or the getter; MODEL_CLOSED: the closed form, or polynomials */
     const char *argument;
     dim argument_d;
     dim argument_or;     /* what the argument may be instead; a number: nothing else */
-    unsigned reads;      /* inputs that it can depend on */
+    input_set reads;     /* inputs that it can depend on */
     bool load;           /* it depends on the load program too */
     const char *imposed; /* the command whose target it may be, or NULL */
     formula formulas[FORMULAS];
@@ -81,6 +83,10 @@ static inline input quantity_input(const quantity *q) {
 /* Is it one of a press? Where that is by another one it is a result. */
 static inline bool quantity_is_imposed(const quantity *q) {
     return q->in && INPUT_PRESS & INPUT_BIT(q->in - 1);
+}
+/* How many it takes as a function; 0: it is none. */
+static inline unsigned quantity_arguments(const quantity *q) {
+    return q->call ? 1 : q->call_at ? 3 : 0;
 }
 /* Can it be asked for without an argument? */
 static inline bool quantity_has_value(const quantity *q) {

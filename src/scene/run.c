@@ -152,6 +152,7 @@ static fret_status take_part(runner *r, double x) {
 /* Whoever looks at the end of a period sees it closed. */
 static void close_period(runner *r) {
     r->cycle_loss = engine_spent(&r->engine);
+    engine_close(&r->engine);
     r->closed = r->place.closed = true;
     r->place.within = false;
     r->place.period++;

@@ -7,11 +7,21 @@
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
+void friction_work_end(friction_work *w) {
+    for (unsigned i = 0; i < LEVELS; i++) {
+        fret_work_free(w->far[i]);
+        fret_work_free(w->period[i]);
+    }
+    *w = (friction_work){.levels = 0};
+}
+
 /* The fields of a state that is no longer. */
 static void forget_fields(answers *a) {
     fret_field_free(a->pressed);
     fret_field_free(a->dragged);
-    a->pressed = a->dragged = NULL;
+    fret_field_free(a->straight);
+    a->pressed = a->dragged = a->straight = NULL;
+    friction_work_end(&a->work);
 }
 
 static void answers_end(answers *a, bool keep) {
@@ -61,7 +71,8 @@ void scene_used_law(scene *s, const fret_normal *normal) {
 }
 
 /* The others are of the bodies and of the shape. */
-static const unsigned keeps_contact = INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE | INPUT_RIG;
+static const input_set keeps_contact =
+    INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE | INPUT_RIG | INPUT_STRESS;
 
 /* Bodies and shape that follow definitions may follow these. */
 void scene_forget(scene *s, bool keep) {
@@ -166,7 +177,7 @@ static void go_back(scene *then, bool amplitude) {
 }
 
 static bool settle(scene *s, input in, calc_error *error) {
-    const unsigned bit = INPUT_BIT(in);
+    const input_set bit = INPUT_BIT(in);
     const bool amplitude = bit & INPUT_CYCLE;
     if (s->settling & bit) {
         error->circle = true;
@@ -195,8 +206,8 @@ static bool settle(scene *s, input in, calc_error *error) {
 }
 
 /* All of a set that are bound get their values. */
-static bool resolve(scene *s, unsigned set, calc_error *error) {
-    unsigned waiting = s->in.bindings & set & ~s->settled;
+static bool resolve(scene *s, input_set set, calc_error *error) {
+    input_set waiting = s->in.bindings & set & ~s->settled;
     for (input in = 0; waiting >> in; in++)
         if (waiting & INPUT_BIT(in) && !settle(s, in, error))
             return false;
@@ -204,8 +215,8 @@ static bool resolve(scene *s, unsigned set, calc_error *error) {
 }
 
 /* What stands for others where these are not given; n tells the dimension of A. */
-static unsigned rests_on(const inputs *given, input in) {
-    const unsigned bit = INPUT_BIT(in);
+static input_set rests_on(const inputs *given, input in) {
+    const input_set bit = INPUT_BIT(in);
     return in == IN_A                                      ? INPUT_GEOMETRY
            : in == IN_NU_2                                 ? bit | INPUT_BIT(IN_NU)
            : bit & INPUT_MODULI && !inputs_any(given, bit) ? INPUT_MATERIAL

@@ -28,10 +28,20 @@ typedef struct load_reach {
     size_t last_cycle;  /* its index, or NO_CYCLE */
 } load_reach;
 
+/* Friction's work by place: so far, and of the last closed period, if there is one, times how many it stands
+ * for; at all levels of the run. */
+typedef struct friction_work {
+    unsigned levels; /* 0: not made yet */
+    fret_work *far[LEVELS], *period[LEVELS];
+    unsigned times[LEVELS];
+} friction_work;
+
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
     fret_normal *normal, *k0;      /* or NULL: not made yet */
     fret_field *pressed, *dragged; /* of the press, and of the history, as they are now; or NULL */
+    fret_field *straight;          /* as dragged, in chords after swinging; or NULL */
+    friction_work work;
     bool press_ready, reach_ready, state_ready;
     fret_press press;
     runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
@@ -63,8 +73,8 @@ typedef struct scene_use {
 
 struct scene {
     inputs in;
-    unsigned settled, settling; /* inputs whose definitions have been, are being evaluated */
-    program *program;           /* or NULL: nothing is pressed */
+    input_set settled, settling; /* inputs whose definitions have been, are being evaluated */
+    program *program;            /* or NULL: nothing is pressed */
     load_mark end;
     const instant *now; /* or NULL: the end of the program */
     bool sound;         /* of a scratch scene: a copy of one whose program runs to its end */
@@ -155,6 +165,12 @@ bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
 /* Fields of the press and of the history as they are now. */
 bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error);
 bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error);
+/* Of which stress inside is asked: of the press alone where nothing tangential has been, else without curves.
+ */
+bool scene_stress_field(scene *s, const fret_field **field, calc_error *error);
+/* Friction's work by place up to now, and of the last closed period; the load is run again for it. */
+bool scene_work(scene *s, bool period, long double r, long double *out, calc_error *error);
+void friction_work_end(friction_work *w);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);
 bool scene_friction(scene *s, double *mu, calc_error *error);

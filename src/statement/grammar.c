@@ -21,7 +21,8 @@ static const struct {
               {"R2", {0, 1, 0, 0}, CURVED, 0},
               {"D", {0, 1, 0, 0}, POSITIVE, 0},
               {"G", {1, -2, 0, 0}, ANY, 1 + IN_G0},
-              {"stiffness", {1, -1, 0, 0}, ANY, 1 + IN_K_RIG}};
+              {"stiffness", {1, -1, 0, 0}, ANY, 1 + IN_K_RIG},
+              {"stress", {1, -2, 0, 0}, ANY, 1 + IN_SB}};
 
 typedef struct parsing {
     grammar *out;

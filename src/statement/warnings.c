@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Warnings of what the theory leaves out: bodies that are dissimilar, contacts too wide or too steep for
- * half-spaces. Each is said once, until it holds no more. */
+ * half-spaces, bulk stress, yield. Each is said once, until it holds no more. */
 #include <math.h>
 
+#include "scene/functions.h"
 #include "statement/shell.h"
 
 /* By how many percent friction stiffens the normal contact where nothing slips, at most: artanh(beta)/beta -
@@ -99,6 +100,84 @@ static void warn_half_space(shell *sh) {
     sh->no_half_space = (wide ? WIDE : 0u) | (steep ? STEEP : 0u);
 }
 
+static bool mises_at(scene *s, long double x, long double z, long double *out) {
+    const value place[3] = {{x, DIM_LENGTH}, {0, DIM_LENGTH}, {z, DIM_LENGTH}};
+    return call_mises(s, place, out, error_quiet());
+}
+
+/* ---- stress ------------------------------------------------------------------------------------ */
+
+static void warn_bulk(shell *sh) {
+    long double sB = 0;
+    scene_get(&sh->calc.scene, IN_SB, &sB, error_quiet());
+    if (sB != 0 && !sh->bulk)
+        shell_warning(sh, "a bulk stress also shifts the stick zone, which is left out: in the plane case by "
+                          "a*sB/(4*mu*p0) (Nowell, Hills 1987)");
+    sh->bulk = sB != 0;
+}
+
+/* The largest mises in the plane of F_x, of one body: the best of a grid of places, uphill from there. */
+static bool hardest(scene *s, long double a, int side, long double at[2], long double *most) {
+    enum { ACROSS = 12, DEEP = 12 };
+    static const long double width = 1.2L;
+    *most = -1;
+    long double v;
+    for (int i = -ACROSS; i <= ACROSS; i++)
+        for (int j = 0; j <= DEEP; j++) {
+            const long double x = width * a * i / ACROSS, z = side * (a * j / DEEP);
+            if (j + (side > 0) == 0 || !mises_at(s, x, z, &v) || v <= *most)
+                continue;
+            *most = v;
+            at[0] = x;
+            at[1] = z;
+        }
+    for (long double h = a / DEEP; *most > 0 && h > 1e-5L * a;) {
+        const long double from = *most, x = at[0], z = at[1];
+        for (int i = 0; i < 4; i++) {
+            const long double to[2] = {x + (i < 2 ? (2 * i - 1) * h : 0), z + (i < 2 ? 0 : (2 * i - 5) * h)};
+            if (to[1] * side < 0 || (side < 0 && to[1] == 0) || !mises_at(s, to[0], to[1], &v) || v <= *most)
+                continue;
+            *most = v;
+            at[0] = to[0];
+            at[1] = to[1];
+        }
+        h = *most > from ? h : h / 2;
+    }
+    return *most > 0;
+}
+
+/* Beyond yield stress of bodies without a plastic part is none. After swinging loads it would take seconds.
+ */
+static void note_yield(shell *sh) {
+    scene *s = &sh->calc.scene;
+    const fret_press *press;
+    const fret_contact *now;
+    const unsigned used = s->used;
+    long double yield, most, at[2];
+    char text[4][CALC_VALUE_TEXT];
+    unsigned yields = 0;
+    for (int body = 0; body < 2; body++) {
+        const input in = body ? IN_YIELD_2 : IN_YIELD;
+        if ((!s->in.set[in] && !s->in.bound[in]) || (body && s->in.second != SECOND_GIVEN) ||
+            !scene_get(s, in, &yield, error_quiet()) || !scene_press(s, &press, error_quiet()) ||
+            !(press->a > 0) || (scene_history(s, &now, error_quiet()) && fret_contact_curved(now)) ||
+            !hardest(s, press->a, body ? -1 : 1, at, &most) || most <= yield)
+            continue;
+        yields |= 1u << body;
+        if (sh->yields & 1u << body)
+            continue;
+        calc_value_text((dim){1, -2, 0, 0}, (double)most, text[0]);
+        calc_value_text((dim){1, -2, 0, 0}, (double)yield, text[1]);
+        calc_value_text(DIM_LENGTH, fabsl(at[0]) < 1e-4L * press->a ? 0 : (double)at[0], text[2]);
+        calc_value_text(DIM_LENGTH, (double)at[1], text[3]);
+        shell_note(sh,
+                   "mises = %s exceeds %s = %s at x = %s, z = %s: the body yields there, which is left out",
+                   text[0], quantity_of_input(in)->name, text[1], text[2], text[3]);
+    }
+    sh->yields = yields;
+    s->used = used;
+}
+
 /* The press from which on the contact is too wide. */
 static void find_widest(shell *sh) {
     scene *s = &sh->calc.scene;
@@ -116,6 +195,8 @@ static void find_widest(shell *sh) {
 void shell_pressed(shell *sh, const load_step *step) {
     if (step->tangential && !sh->dissimilar)
         shell_warn_dissimilar(sh);
+    if (!sh->yields)
+        note_yield(sh);
     if (step->normal == BY_NONE || sh->no_half_space)
         return;
     if (!sh->widest_known)
@@ -129,11 +210,14 @@ void shell_pressed(shell *sh, const load_step *step) {
 
 void shell_warn(shell *sh) {
     sh->widest_known = false;
+    warn_bulk(sh);
     if (!sh->calc.scene.end.steps) {
         sh->no_half_space = 0;
         sh->dissimilar = false;
+        sh->yields = 0;
         return;
     }
     shell_warn_dissimilar(sh);
     warn_half_space(sh);
+    note_yield(sh);
 }

@@ -241,6 +241,10 @@ CALL(fret_slips_count) {
     if (w->slips)
         w->sink[0] = (fret_real)fret_slips_count(w->slips);
 }
+CALL(fret_slips_repeat) {
+    if (w->slips)
+        fret_slips_repeat(w->slips, whole(x[0], 8), x[1]);
+}
 CALL(fret_slips_free) {
     (void)x;
     drop_contacts(w);
@@ -250,7 +254,7 @@ CALL(fret_work_make) {
     w->work = NULL;
     if (have_contact(w) && w->slips)
         (void)known_code(fret_work_make(fret_contact_normal(w->contact), fret_contact_friction(w->contact),
-                                        w->slips, whole(x[0], 8), &w->work));
+                                        w->slips, whole(x[0], 8), whole(x[1], 100), &w->work));
 }
 CALL(fret_work_at) {
     if (w->work)
@@ -665,6 +669,7 @@ static const struct row {
     ROW(fret_contact_watch),
     ROW(fret_slips_clear),
     ROW(fret_slips_count),
+    ROW(fret_slips_repeat),
     ROW(fret_slips_free),
     ROW(fret_work_make),
     ROW(fret_work_at),

@@ -84,7 +84,7 @@ static fret_real whole_work(const fret_normal *n, double mu, const fret_slips *s
     enum { MOST = 400 };
     fret_real node[MOST], sum = 0;
     fret_work *work = NULL;
-    CHECK_OK(fret_work_make(n, mu, s, first, &work));
+    CHECK_OK(fret_work_make(n, mu, s, first, fret_slips_count(s), &work));
     int count = nodes_of(n, s, first, node, MOST - 2);
     node[count++] = 0;
     node[count++] = fret_gap_start(&n->gap);
@@ -221,7 +221,7 @@ static void small_parts(int i, bool swings) {
         fret_field_free(field[1 - j % 2]);
     }
     fret_field_free(field[0]);
-    CHECK_OK(fret_work_make(n, mu, s, 0, &work));
+    CHECK_OK(fret_work_make(n, mu, s, 0, fret_slips_count(s), &work));
     for (int l = PLACES - 1; l >= 0; l--) {
         fret_real w = 0;
         CHECK_OK(fret_work_at(work, a * (l + 0.5L) / PLACES, &w));
@@ -259,7 +259,7 @@ static void closed_cycle(int i, bool gross) {
     const size_t first = fret_slips_count(s);
     for (int j = 0; j < 2; j++)
         CHECK_OK(fret_contact_step(c, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, j ? dA : -dA}));
-    CHECK_OK(fret_work_make(n, mu, s, first, &work));
+    CHECK_OK(fret_work_make(n, mu, s, first, fret_slips_count(s), &work));
     for (double l = 0.05; l < 1.2; l += 0.05) {
         const fret_real r = l * now.a;
         fret_real D = -1, p = 0, slip = -1;
@@ -271,6 +271,17 @@ static void closed_cycle(int i, bool gross) {
         CHECK(r > now.c ? slip > 0 : slip == 0 && (gross || D == 0));
         CHECK(r < now.a || D == 0);
     }
+    fret_real once = 0, more = 0;
+    fret_slips_repeat(s, first, 3);
+    CHECK_OK(fret_work_at(work, 0.97L * now.a, &once));
+    fret_work_free(work);
+    CHECK_OK(fret_work_make(n, mu, s, first, SIZE_MAX, &work));
+    CHECK_OK(fret_work_at(work, 0.97L * now.a, &more));
+    CHECK_REL(more, 4 * once, 1e-15L);
+    fret_work_free(work);
+    CHECK_OK(fret_work_make(n, mu, s, first, first, &work));
+    CHECK_OK(fret_work_at(work, 0.97L * now.a, &more));
+    CHECK(once > 0 && more == 0);
     fret_field_free(field);
     fret_work_free(work);
     fret_slips_free(s);
@@ -287,7 +298,7 @@ static void ends(void) {
     fret_field *field = NULL;
     fret_real w = -1;
     CHECK_OK(fret_slips_make(&s));
-    CHECK_OK(fret_work_make(n, 0.3, s, 0, &work));
+    CHECK_OK(fret_work_make(n, 0.3, s, 0, fret_slips_count(s), &work));
     CHECK_OK(fret_work_at(work, 1e-5L, &w));
     CHECK(w == 0);
     fret_work_free(work);
@@ -297,7 +308,7 @@ static void ends(void) {
     CHECK_OK(fret_contact_watch(c, s));
     CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 50, 10}));
     CHECK_OK(fret_contact_step(c, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 14}));
-    CHECK_OK(fret_work_make(n, 0.3, s, 0, &work));
+    CHECK_OK(fret_work_make(n, 0.3, s, 0, fret_slips_count(s), &work));
     CHECK_OK(fret_work_at(work, 0, &w));
     CHECK(w == 0); /* it sticks */
     CHECK_ERROR(fret_work_at(work, -1e-6L, &w), FRET_NEGATIVE, "r");
@@ -306,7 +317,7 @@ static void ends(void) {
     const size_t before = fret_slips_count(s);
     CHECK_OK(fret_contact_step(c, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, 1}));
     CHECK(fret_slips_count(s) > before);
-    CHECK_OK(fret_work_make(n, 0.3, s, before, &work));
+    CHECK_OK(fret_work_make(n, 0.3, s, before, fret_slips_count(s), &work));
     CHECK_ERROR(fret_work_at(work, 0, &w), FRET_SINGULAR, "r");
     fret_work_free(work);
     CHECK_OK(fret_field_make(c, &field));
