@@ -96,6 +96,13 @@ $(B)/figures/%.png $(B)/figures/%.gif: scripts/paper/%.txt $(B)/fret
 scripts/paper/%.svg: scripts/paper/%.txt $(B)/fret
 	@$(DRAW)
 
+# A page of each lesson, to print.
+HANDOUTS := $(foreach n,$(notdir $(basename $(wildcard scripts/demos/*.txt))),$(B)/handouts/$(n).html)
+handouts: $(HANDOUTS)
+$(HANDOUTS): $(B)/handouts/%.html: scripts/demos/%.txt $(B)/fret
+	@mkdir -p $(@D)
+	@$(B)/fret -c 'demo $(lastword $(subst -, ,$*)) to $@'
+
 # What a terminal shows when these lines have been typed.
 $(STILLS): %.svg: %.keys scripts/still $(B)/fret
 	@python3 scripts/still $@ 80x32 $(B)/fret --no-rc --quiet < $<
@@ -276,5 +283,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: published coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram faults latency bench format install clean FORCE
+.PHONY: published coverage coverage-short mutants fuzz fuzz-build all figures handouts manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram faults latency bench format install clean FORCE
 -include $(shell find $(B) -name chroots -prune -o -name '*.d' -print 2>/dev/null)

@@ -122,7 +122,8 @@ bool plot_band(plot_series *s, double x, double y, double y2);
 
 /* ---- where it goes ------------------------------------------------------------------------------ */
 
-typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL } plot_terminal;
+/* page: SVG, to stand within HTML. */
+typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL, PLOT_PAGE } plot_terminal;
 
 typedef struct plot_target {
     const char *caption;    /* lines below a picture, as typed; NULL: none */

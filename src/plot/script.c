@@ -13,19 +13,17 @@ enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 
 /* ---- kinds -------------------------------------------------------------------------------------- */
 
-/* A tenth of a pixel at the usual size. */
-#define SEEN (1.0 / 6000)
-
 /* Lengths: 900 pixels are 12 cm of a page. */
 static const plot_kind kinds[] = {
-    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3, SEEN},
+    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3, PLOT_SEEN},
     {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3,
-     SEEN},
+     PLOT_SEEN},
     {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / (double)WIDTH,
-     9.5, 2.2, SEEN},
-    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2, SEEN},
+     9.5, 2.2, PLOT_SEEN},
+    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2, PLOT_SEEN},
     {".html", PLOT_ENHANCED,
-     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3, SEEN},
+     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3,
+     PLOT_SEEN},
     {".gif", PLOT_ENHANCED, "gif size %.0f,%.0f font 'Sans,%.3g' enhanced animate delay %.0f loop 0", 1, 15,
      3, PLOT_STRAIGHT},
     {".gp", PLOT_ENHANCED, NULL, 1, 16, 3, 0}};

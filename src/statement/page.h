@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A session on a page of HTML, to hand out: one file, the figures in it, nothing fetched, and well-formed XML
+ * too. */
+#ifndef STATEMENT_PAGE_H
+#define STATEMENT_PAGE_H
+
+#include "text/file.h"
+
+typedef enum page_part {
+    PAGE_GAP, /* ends what is open */
+    PAGE_TITLE,
+    PAGE_WORDS,
+    PAGE_STATEMENT,
+    PAGE_ANSWER, /* what the session answers */
+    PAGE_QUESTION,
+    PAGE_CHOICE,
+    PAGE_ROOM,     /* for an answer by hand */
+    PAGE_SOLUTION, /* of a question: they come together, at the end */
+    PAGE_FIGURE    /* SVG, as it is */
+} page_part;
+
+typedef struct html_page {
+    FILE *to; /* NULL: there is none */
+    page_part open;
+    char last;           /* that was written, but for line ends */
+    file_text solutions; /* to the questions */
+} html_page;
+
+/* False: out of memory. */
+bool page_begin(html_page *p, FILE *to, const char *title);
+/* Lines of text end in their own line ends. */
+void page_put(html_page *p, page_part part, const char *text, size_t len);
+/* With the solutions; false: some found no memory. */
+bool page_end(html_page *p);
+
+#endif
