@@ -20,6 +20,12 @@
 
 enum { TIMEOUT = 30 }; /* seconds for gnuplot */
 
+/* Of pictures: 16:9 with texts for the last row; 8.5 cm with texts of 9 points. */
+static const struct {
+    int width, height;
+    double text;
+} papers[] = {[PAPER_USUAL] = {0, 0, 1}, [PAPER_SLIDE] = {1280, 720, 1.35}, [PAPER_COLUMN] = {640, 480, 1.3}};
+
 /* ---- where it goes ----------------------------------------------------------------------------- */
 
 static void terminal_size(const shell *sh, int *w, int *h) {
@@ -100,6 +106,9 @@ static bool draw_off_page(shell *sh, lexer *lx, const plot_figure *f, const plot
                       .moving = movie && on_terminal && sh->out == stdout && shell_escapes(),
                       .columns = sh->set.plot_width,
                       .rows = sh->set.plot_height,
+                      .width = papers[sh->set.plot_paper].width,
+                      .height = papers[sh->set.plot_paper].height,
+                      .text = papers[sh->set.plot_paper].text,
                       .timeout = TIMEOUT,
                       .stop = &shell_stop};
     if (!file && !to.columns)

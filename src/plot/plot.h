@@ -134,6 +134,7 @@ typedef struct plot_target {
     bool moving;            /* `out` is a terminal whose cursor can go back up: frames in place */
     int columns, rows;      /* of the terminal; 0: 79 x 24 */
     int width, height;      /* of a picture in pixels; 0: 900 a panel (640 with several) x 675 */
+    double text;            /* texts and lines of a picture, times this; 0: 1 */
     double timeout;         /* seconds for gnuplot; 0: 60 */
     file_stop stop;         /* NULL: nothing stops it */
 } plot_target;
