@@ -9,7 +9,7 @@ CC      ?= cc
 # Straight-line vectors pack pairs of doubles through memory: a tenth slower in double-double arithmetic.
 OPT     ?= -O2 -g -fno-tree-slp-vectorize
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion $(WERROR)
-CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE -DGSL_DISABLE_DEPRECATED $(OPT) $(WARN) -ffp-contract=off \
+CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE -D_DARWIN_C_SOURCE -DGSL_DISABLE_DEPRECATED $(OPT) $(WARN) -ffp-contract=off \
 	-fvisibility=hidden -MMD -MP \
 	-Iinclude -Isrc -DFRET_VERSION='"$(VERSION)"' $(CFLAGS)
 # READLINE=no: a prompt without editing and history

@@ -446,7 +446,7 @@ static const topic topics[] = {
      .summary = "the lessons in their order, their questions and answers",
      .keywords = "teacher class course exercise solution handout lesson",
      .print = teaching,
-     .example = "    $ fret -c 'demo pressing' | grep radius\n"
+     .example = "    $ fret -c 'demo pressing' | grep 'the radius'\n"
                 "    How large is the radius a of the contact?\n"
                 "    How many times the radius a?\n"},
     {.name = "theory",

@@ -677,7 +677,7 @@ const command commands[] = {
      .run = do_demo,
      .group = "the session",
      .keywords = "tour lesson teach figure paper",
-     .takes = "[LESSON] [to FILE.html]",
+     .takes = "[LESSON | FILE] [to FILE.html]",
      .summary = "play a lesson, or a tour of the program",
      .help = "A lesson asks, then shows each statement and its answer. At the prompt a key\n"
              "leads on, `b` back, `q` out; in a script it plays through. It begins without a\n"
@@ -689,17 +689,17 @@ const command commands[] = {
              "    Stick and slip: Cattaneo and Mindlin push the sphere sideways\n"
              "    \n"
              "    # 100 N press, friction 0.4: 40 N make the sphere slide. We push with 20 N.\n"
-             "    # Does all of the contact stick? Where will it slip first?\n"},
+             "    # Does all of the contact stick?\n"},
     {.name = "ask",
      .run = do_ask,
      .group = "the session",
      .keywords = "exercise question quiz guess answer hint teach lesson",
      .takes = "TEXT [= EXPR within DEVIATION | of CHOICES = N:9] [hint TEXT]",
      .summary = "a question to who learns, and its answer",
-     .help = "At the prompt, and in a lesson, guesses may be typed: how far off one is is said,\n"
-             "`?` asks for the hint, Enter for the answer. `within 5 %` is a part of the value,\n"
-             "`within 2 um` an amount. Without a terminal the answer is shown. `help lessons`\n"
-             "tells how a lesson is written.\n\n"
+     .help = "At the prompt, and in a lesson, guesses may be typed, and how far off each is is\n"
+             "told: `?` asks for the hint, Enter for the answer. `within 5 %` is a part of the\n"
+             "answer, `within 2 um` an amount. Without a terminal the answer is shown. `help\n"
+             "lessons` tells how a lesson is written.\n\n"
              "    fret> ask \"c/a at half of gross slip?\" = (1-0.5)^(1/3) within 5 %\n"
              "    c/a at half of gross slip?\n"
              "    (1-0.5)^(1/3) = 0.793701\n"

@@ -21,9 +21,9 @@ const char *script_name(size_t i) {
     return scripts[i].name;
 }
 
-static const script *script_find(const char *name, size_t len) {
+static const script *script_find(const char *name) {
     const script *s = scripts;
-    while (s->name && (strlen(s->name) != len || memcmp(s->name, name, len)))
+    while (s->name && strcmp(s->name, name) != 0)
         s++;
     return s->name ? s : NULL;
 }
@@ -265,23 +265,17 @@ static bool write_lesson(lesson *l, FILE *to) {
     return played && whole;
 }
 
-static const script *built_in(const lexer *lx, const span *name) {
-    const script *s = script_find(lx->text + name->at, name->len);
-    char word[LEX_NAME];
+/* NULL with the error, which is at the place. */
+static const script *built_in(const char *name, const span *at, calc_error *error) {
+    const script *s = script_find(name);
     if (s)
         return s;
-    snprintf(word, sizeof word, "%.*s", LEX_SHOWN(name->len), lx->text + name->at);
-    const char *near = suggest(word, script_name);
-    calc_raise(lx->error, name->at, name->len,
+    const char *near = suggest(name, script_name);
+    calc_raise(error, at->at, at->len,
                near ? "there is no demo '%s': did you mean %s?"
                     : "there is no demo '%s': show demos lists them",
-               word, near);
+               name, near);
     return NULL;
-}
-
-/* A name with a `.` or a `/` is that of a file. */
-static bool is_path(const lexer *lx, const span *name) {
-    return memchr(lx->text + name->at, '.', name->len) || memchr(lx->text + name->at, '/', name->len);
 }
 
 /* The page is looked at before long work. */
@@ -319,20 +313,20 @@ static bool play(shell *sh, lexer *lx, const script *s, bool tour, target *page)
     return true;
 }
 
+/* A name with a `.` or a `/` is that of a file. */
 bool do_demo(shell *sh, lexer *lx, const command *self) {
     said all;
     lesson_text own = {.title = NULL};
     target page = {.to = NULL};
-    char path[FILE_NAME];
+    char name[FILE_NAME] = "tour";
     if (!said_read(sh, lx, command_form(self), &all))
         return false;
     const heard *named = said_of(&all, "", 0), *to = said_of(&all, "to", 0);
-    const span *name = named ? &named->hole[0] : NULL;
-    const bool file = named && is_path(lx, name);
-    const script *s = file ? NULL : named ? built_in(lx, name) : script_find("tour", 4);
-    bool ok = file ? hole_file(lx, name, path) &&
-                         (lesson_read(sh, path, &own, lx->error) || heard_place(lx->error, named))
-                   : s != NULL;
+    if (named && !hole_file(lx, &named->hole[0], name))
+        return false;
+    const bool file = strpbrk(name, "./") != NULL;
+    const script *s = file ? NULL : built_in(name, &all.list[0].hole[0], lx->error);
+    bool ok = file ? lesson_read(sh, name, &own, lx->error) || heard_place(lx->error, named) : s != NULL;
     const script taught = {.title = own.title, .line = (const char *const *)own.line};
     ok = ok && (!to || open_page(lx, to, &page)) && play(sh, lx, s ? s : &taught, !named, &page);
     ok = target_close(sh, lx, &page, ok);

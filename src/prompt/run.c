@@ -70,8 +70,7 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
     scene_mark *before = NULL;
     lex_next(lx);
     const bool bare = lx->kind == T_END;
-    if (lx->error->raised && !grammar_first(command_form(c), HOLE_FILE) &&
-        !grammar_first(command_form(c), HOLE_WORD))
+    if (lx->error->raised && !grammar_first(command_form(c), HOLE_FILE))
         return false;
     if (c->changes && !(before = undo_mark(&sh->calc)))
         return calc_no_memory(lx->error);

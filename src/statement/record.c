@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Transcripts and pages as a session goes on: streams that write to two places. Writes the file that it is
  * given. */
-#define _GNU_SOURCE /* fopencookie, which musl has too */
 #include "statement/record.h"
 
 #include <stdlib.h>
@@ -114,8 +113,8 @@ static struct recorder *make_recorder(shell *sh, calc_error *error) {
     struct recorder *r = calloc(1, sizeof *r);
     if (r) {
         *r = (struct recorder){.sh = sh, .log.fd = -1, .outer = sh->record};
-        r->both_out = fopencookie(r, "w", (cookie_io_functions_t){.write = write_out});
-        r->both_err = fopencookie(r, "w", (cookie_io_functions_t){.write = write_err});
+        r->both_out = file_stream(r, write_out);
+        r->both_err = file_stream(r, write_err);
         if (r->both_out && r->both_err) {
             setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
             setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
@@ -161,8 +160,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     struct recorder *r = make_recorder(sh, error);
     if (!r)
         return false;
-    if (html && (!(r->to_log = fopencookie(r, "w", (cookie_io_functions_t){.write = write_log})) ||
-                 !page_begin(&r->page, r->to_log, "fret")))
+    if (html && (!(r->to_log = file_stream(r, write_log)) || !page_begin(&r->page, r->to_log, "fret")))
         calc_raise_memory(error); /* before the file is emptied */
     else
         file_log_open(&r->log, path, &shell_stop, &over, error);
