@@ -134,8 +134,10 @@ static bool draw_off_page(shell *sh, lexer *lx, const plot_figure *f, const plot
 /* movie: of which the figure is the last frame, or NULL. */
 static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *movie, const char *file) {
     const bool on_page = !file && record_on_page(sh);
-    if (on_page && !draw_on_page(sh, f, lx->error))
+    if (on_page && !draw_on_page(sh, f, lx->error)) {
+        lx->error->refused |= record_alone(sh); /* no page without its figures */
         return false;
+    }
     const bool ok = (on_page && record_alone(sh)) || draw_off_page(sh, lx, f, movie, file);
     if (on_page)
         record_together(sh);

@@ -315,6 +315,8 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
             shell_report(sh, from, text, len, line, i + error.at, &error);
             sh->stopped |= error.stop;
             sh->refused |= error.refused;
+            if (error.stop || error.refused)
+                record_tell(sh, error.text);
         }
         if (!done) {
             ok = false;

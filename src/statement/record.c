@@ -16,20 +16,26 @@
 /* There is one session that can record. */
 static struct recorder *recording;
 
+/* Past the recorder, a stream of which may be what calls this. */
+static void tell_below(struct recorder *r, const char *text) {
+    shell *sh = r->sh;
+    FILE *out = sh->out, *err = sh->err;
+    sh->out = r->outer_out ? r->outer_out : r->out;
+    sh->err = r->outer_err ? r->outer_err : r->err;
+    shell_error(sh, text);
+    sh->out = out;
+    sh->err = err;
+}
+
 /* After an error nothing more is recorded. */
 static void check(struct recorder *r, bool ok, const calc_error *error) {
     if (ok)
         return;
     shell *sh = r->sh;
-    FILE *out = sh->out, *err = sh->err;
     char text[CALC_ERROR_TEXT + 40];
     snprintf(text, sizeof text, "%s; what follows is not recorded", error->text);
     r->lost = sh->lost = true;
-    sh->out = r->out; /* this may be called by a stream of the recorder's, which must not write to itself */
-    sh->err = r->err;
-    shell_error(sh, text);
-    sh->out = out;
-    sh->err = err;
+    tell_below(r, text);
 }
 
 static void add_to_log(struct recorder *r, const char *bytes, size_t n) {
@@ -46,7 +52,7 @@ static ssize_t write_log(void *cookie, const char *bytes, size_t n) {
 
 static void write_held(struct recorder *r) {
     if (r->held_count > 0 && r->page.to)
-        page_put(&r->page, PAGE_ANSWER, r->held, r->held_count);
+        handout_put(&r->page, PAGE_ANSWER, r->held, r->held_count);
     else if (r->held_count > 0)
         add_to_log(r, r->held, r->held_count);
     r->held_count = 0;
@@ -97,7 +103,7 @@ static ssize_t write_err(void *cookie, const char *bytes, size_t n) {
 }
 
 static bool free_recorder(struct recorder *r) {
-    const bool ok = !r->page.to || page_end(&r->page);
+    const bool ok = handout_end(&r->page);
     if (r->to_log)
         fclose(r->to_log);
     if (r->both_out)
@@ -138,7 +144,7 @@ static void put_statements(struct recorder *r, const char *text) {
     while (*text) {
         const size_t n = strcspn(text, "\n");
         if (*text != '#' && r->page.to) {
-            page_put(&r->page, PAGE_STATEMENT, text, n + (text[n] == '\n'));
+            handout_put(&r->page, PAGE_STATEMENT, text, n + (text[n] == '\n'));
         } else if (*text != '#') {
             put_text(r, "fret> ");
             put_bytes(r, text, n);
@@ -160,12 +166,11 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     struct recorder *r = make_recorder(sh, error);
     if (!r)
         return false;
-    if (html && (!(r->to_log = file_stream(r, write_log)) || !page_begin(&r->page, r->to_log, "fret")))
+    if (html && (!(r->to_log = file_stream(r, write_log)) || !handout_make(&r->page)))
         calc_raise_memory(error); /* before the file is emptied */
     else
         file_log_open(&r->log, path, &shell_stop, &over, error);
     if (error->raised) {
-        r->lost = true; /* nothing is to be written any more */
         free_recorder(r);
         return false;
     }
@@ -175,7 +180,9 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     if (over)
         shell_say(sh, "overwriting %s", path);
     take_over(sh, r);
-    if (!r->page.to)
+    if (html)
+        handout_begin(&r->page, r->to_log, "fret");
+    else
         put_text(r, "# fret " FRET_VERSION "\n");
     put_statements(r, beginning);
     return true;
@@ -191,7 +198,7 @@ bool record_end(shell *sh, bool tells) {
     sh->err = r->err;
     sh->record = recording = NULL;
     write_held(r);
-    if (r->page.to && !page_end(&r->page))
+    if (r->page.to && !handout_end(&r->page))
         shell_error(sh, "out of memory: the page is without its answers");
     const file_report report = {.direct = !r->log.regular, .size = (unsigned long long)r->log.length};
     if (tells && !r->lost)
@@ -228,8 +235,8 @@ void record_line(shell *sh, const char *text, size_t len) {
     len = until_record(text, len);
     if (r->page.to && len > 0) {
         const bool words = *text == '#';
-        page_put(&r->page, words ? PAGE_WORDS : PAGE_STATEMENT, text + words, len - words);
-        page_put(&r->page, words ? PAGE_WORDS : PAGE_STATEMENT, "\n", 1);
+        handout_put(&r->page, words ? PAGE_WORDS : PAGE_STATEMENT, text + words, len - words);
+        handout_put(&r->page, words ? PAGE_WORDS : PAGE_STATEMENT, "\n", 1);
         return;
     }
     const char *prompt = "fret> ";
@@ -270,10 +277,11 @@ bool record_page(shell *sh, FILE *to, const char *title, calc_error *error) {
     struct recorder *r = make_recorder(sh, error);
     if (!r)
         return false;
-    if (!page_begin(&r->page, to, title)) {
+    if (!handout_make(&r->page)) {
         free_recorder(r);
         return calc_no_memory(error);
     }
+    handout_begin(&r->page, to, title);
     r->outer_out = sh->out;
     r->outer_err = sh->err;
     take_over(sh, r);
@@ -289,6 +297,11 @@ bool record_page_end(shell *sh, calc_error *error) {
     sh->err = r->outer_err;
     sh->record = recording = r->outer;
     return free_recorder(r) || calc_no_memory(error);
+}
+
+void record_tell(shell *sh, const char *text) {
+    if (record_alone(sh))
+        tell_below(sh->record, text);
 }
 
 bool record_on_page(const shell *sh) {
@@ -312,7 +325,7 @@ static void set_apart(shell *sh, bool apart) {
 void record_apart(shell *sh, page_part part, const char *text) {
     set_apart(sh, true);
     if (record_on_page(sh))
-        page_put(&sh->record->page, part, text, strlen(text));
+        handout_put(&sh->record->page, part, text, strlen(text));
 }
 
 void record_together(shell *sh) {

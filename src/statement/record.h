@@ -3,7 +3,7 @@
 #ifndef STATEMENT_RECORD_H
 #define STATEMENT_RECORD_H
 
-#include "statement/page.h"
+#include "statement/handout.h"
 #include "statement/shell.h"
 
 /* Begins a transcript, or a page where the file ends in .html: these statements, for a replay begins without
@@ -27,6 +27,8 @@ bool record_page_end(shell *sh, calc_error *error);
 /* Is there a page, and does it have the session alone? */
 bool record_on_page(const shell *sh);
 bool record_alone(const shell *sh);
+/* An error that ends what is played, to whoever waits for the page that has the session alone. */
+void record_tell(shell *sh, const char *text);
 /* This on a page, if there is one, in place of what the session writes before record_together. */
 void record_apart(shell *sh, page_part part, const char *text);
 void record_together(shell *sh);

@@ -3,7 +3,7 @@
 #ifndef STATEMENT_RECORDER_H
 #define STATEMENT_RECORDER_H
 
-#include "statement/page.h"
+#include "statement/handout.h"
 #include "statement/shell.h"
 
 enum { HELD = 1024 };
@@ -13,7 +13,7 @@ struct recorder {
     file_log log;
     FILE *out, *err;           /* of the session; NULL: a page has it alone */
     FILE *both_out, *both_err; /* with the file */
-    html_page page;            /* of HTML, where it is no transcript */
+    handout page;              /* of HTML, where it is no transcript */
     FILE *to_log;              /* of a page that grows with the session; or NULL */
     bool apart;                /* what is written now is on the page in another way */
     struct recorder *outer;    /* goes on after a page that has the session alone */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A session on a page of HTML, to hand out: one file, the figures in it, nothing fetched, and well-formed XML
  * too. */
-#ifndef STATEMENT_PAGE_H
-#define STATEMENT_PAGE_H
+#ifndef STATEMENT_HANDOUT_H
+#define STATEMENT_HANDOUT_H
 
 #include "text/file.h"
 
@@ -19,18 +19,19 @@ typedef enum page_part {
     PAGE_FIGURE    /* SVG, as it is */
 } page_part;
 
-typedef struct html_page {
+typedef struct handout {
     FILE *to; /* NULL: there is none */
     page_part open;
     char last;           /* that was written, but for line ends */
     file_text solutions; /* to the questions */
-} html_page;
+} handout;
 
-/* False: out of memory. */
-bool page_begin(html_page *p, FILE *to, const char *title);
+/* Before anything is written. False: out of memory. */
+bool handout_make(handout *p);
+void handout_begin(handout *p, FILE *to, const char *title);
 /* Lines of text end in their own line ends. */
-void page_put(html_page *p, page_part part, const char *text, size_t len);
-/* With the solutions; false: some found no memory. */
-bool page_end(html_page *p);
+void handout_put(handout *p, page_part part, const char *text, size_t len);
+/* With the solutions, also of one that has not begun; false: some found no memory. */
+bool handout_end(handout *p);
 
 #endif

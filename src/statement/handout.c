@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pages of HTML. Writes to the stream that it is given. */
-#include "statement/page.h"
+#include "statement/handout.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -66,18 +66,22 @@ static void put_text(FILE *to, const char *text, size_t len) {
     }
 }
 
-bool page_begin(html_page *p, FILE *to, const char *title) {
-    *p = (html_page){.open = PAGE_GAP};
-    if (!file_text_open(&p->solutions))
-        return false;
+bool handout_make(handout *p) {
+    *p = (handout){.open = PAGE_GAP};
+    const bool ok = file_text_open(&p->solutions);
+    if (!ok)
+        p->solutions.text = NULL; /* freed */
+    return ok;
+}
+
+void handout_begin(handout *p, FILE *to, const char *title) {
     p->to = to;
     fputs(head, to);
     put_text(to, title, strlen(title));
     fputs("</title></head><body>\n", to);
-    return true;
 }
 
-static void close_part(html_page *p, page_part next) {
+static void close_part(handout *p, page_part next) {
     fputs(parts[p->open].end, p->to);
     if (p->open == PAGE_WORDS && p->last == '?' && next != PAGE_QUESTION) { /* one by the way */
         fputs(parts[PAGE_ROOM].begin, p->to);
@@ -86,7 +90,7 @@ static void close_part(html_page *p, page_part next) {
     p->open = PAGE_GAP;
 }
 
-void page_put(html_page *p, page_part part, const char *text, size_t len) {
+void handout_put(handout *p, page_part part, const char *text, size_t len) {
     if (part == PAGE_SOLUTION) {
         fputs(parts[part].begin, p->solutions.to);
         put_text(p->solutions.to, text, len);
@@ -111,16 +115,20 @@ void page_put(html_page *p, page_part part, const char *text, size_t len) {
     fflush(p->to);
 }
 
-bool page_end(html_page *p) {
+bool handout_end(handout *p) {
     FILE *to = p->to;
-    page_put(p, PAGE_GAP, "", 0);
+    if (to)
+        handout_put(p, PAGE_GAP, "", 0);
     p->to = NULL;
-    const bool ok = file_text_close(&p->solutions);
-    if (ok && p->solutions.size)
+    const bool ok = !p->solutions.to || file_text_close(&p->solutions);
+    if (to && ok && p->solutions.size)
         fprintf(to, "<div class=\"solutions\"><h2>Answers</h2>\n<ol>\n%s</ol></div>\n", p->solutions.text);
     if (ok)
         free(p->solutions.text);
-    fputs("</body></html>\n", to);
-    fflush(to);
+    p->solutions.text = NULL;
+    if (to)
+        fputs("</body></html>\n", to);
+    if (to)
+        fflush(to);
     return ok;
 }
