@@ -632,8 +632,8 @@ const command commands[] = {
      .takes = "FILE | off",
      .summary = "keep what is typed and answered as a transcript, or a page",
      .help = "A transcript begins with the version, the scene and the settings as they are.\n"
-             "`replay FILE`, or fret --replay FILE, runs it and compares the answers. FILE.html\n"
-             "is a page to read and print, its figures in it.\n\n"
+             "`replay FILE`, or fret --replay FILE, runs it and compares the answers. One that\n"
+             "ends in .html is a page to read and print, its figures in it.\n\n"
              "    fret> record session.txt\n"
              "    fret> friction 0.3; 2*mu\n"
              "    2*mu = 0.6\n"
