@@ -198,8 +198,7 @@ static bool play_step(lesson *l, size_t *i) {
         tell_remark(l, "");
     for (size_t j = *i; j < statements; j++)
         tell_remark(l, s->line[j]);
-    const bool waits = l->keys && s->line[statements] && !is_question(s->line[statements]);
-    const wish w = waits ? ask_key(l->sh) : ON;
+    const wish w = l->keys && s->line[statements] ? ask_key(l->sh) : ON;
     if (w == ON) {
         run_step(l, statements, end);
         *i = end;

@@ -118,7 +118,7 @@ static bool free_recorder(struct recorder *r) {
 static struct recorder *make_recorder(shell *sh, calc_error *error) {
     struct recorder *r = calloc(1, sizeof *r);
     if (r) {
-        *r = (struct recorder){.sh = sh, .log.fd = -1, .outer = sh->record};
+        *r = (struct recorder){.sh = sh, .log.fd = -1};
         r->both_out = file_stream(r, write_out);
         r->both_err = file_stream(r, write_err);
         if (r->both_out && r->both_err) {
@@ -282,6 +282,7 @@ bool record_page(shell *sh, FILE *to, const char *title, calc_error *error) {
         return calc_no_memory(error);
     }
     handout_begin(&r->page, to, title);
+    r->outer = sh->record;
     r->outer_out = sh->out;
     r->outer_err = sh->err;
     take_over(sh, r);
