@@ -527,7 +527,7 @@ def lessons(tests):
     live.child.send("mu = 0.123\rdemo sticking\r")
     tests.check("a lesson asks first", live.wait("Does all of the contact stick") and "c/a = " not in live.raw, live.raw)
     live.child.send(" ")
-    tests.check("a key leads to the question", live.wait("guess> ") and "c/a = " not in live.raw, live.raw)
+    tests.check("a key leads to the question", live.wait("guess>") and "c/a = " not in live.raw, live.raw)
     live.child.send("\r")
     tests.check("a key shows the answer", live.wait(r"c/a = 0\.793701") and "c(36 N)/a = " not in live.raw, live.raw)
     live.raw = ""
