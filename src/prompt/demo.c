@@ -216,8 +216,10 @@ static void tell_next(const lesson *l) {
     const script *s = l->s, *next = s + 1;
     if (!s->answer)
         return;
+    while (next->name && !next->answer)
+        next++;
     snprintf(text, sizeof text,
-             next->answer ? "Next: demo %s, %s" : "The last of the lessons: show demos lists all.",
+             next->name ? "Next: demo %s, %s" : "The last of the lessons: show demos lists all.",
              next->name, next->title);
     tell_remark(l, "");
     tell_remark(l, text);
