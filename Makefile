@@ -9,7 +9,7 @@ CC      ?= cc
 # Straight-line vectors pack pairs of doubles through memory: a tenth slower in double-double arithmetic.
 OPT     ?= -O2 -g -fno-tree-slp-vectorize
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion $(WERROR)
-CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE -DGSL_DISABLE_DEPRECATED $(OPT) $(WARN) -ffp-contract=off \
+CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE -D_DARWIN_C_SOURCE -DGSL_DISABLE_DEPRECATED $(OPT) $(WARN) -ffp-contract=off \
 	-fvisibility=hidden -MMD -MP \
 	-Iinclude -Isrc -DFRET_VERSION='"$(VERSION)"' $(CFLAGS)
 # READLINE=no: a prompt without editing and history
@@ -95,6 +95,13 @@ $(B)/figures/%.png $(B)/figures/%.gif: scripts/paper/%.txt $(B)/fret
 	@$(DRAW)
 scripts/paper/%.svg: scripts/paper/%.txt $(B)/fret
 	@$(DRAW)
+
+# A page of each lesson, to print.
+HANDOUTS := $(foreach n,$(notdir $(basename $(wildcard scripts/demos/*.txt))),$(B)/handouts/$(n).html)
+handouts: $(HANDOUTS)
+$(HANDOUTS): $(B)/handouts/%.html: scripts/demos/%.txt $(B)/fret
+	@mkdir -p $(@D)
+	@$(B)/fret -c 'demo $(lastword $(subst -, ,$*)) to $@'
 
 # What a terminal shows when these lines have been typed.
 $(STILLS): %.svg: %.keys scripts/still $(B)/fret
@@ -283,5 +290,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: published coverage coverage-short mutants fuzz fuzz-build all figures manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram fits faults latency bench format install clean FORCE
+.PHONY: published coverage coverage-short mutants fuzz fuzz-build all figures handouts manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram fits faults latency bench format install clean FORCE
 -include $(shell find $(B) -name chroots -prune -o -name '*.d' -print 2>/dev/null)

@@ -13,9 +13,18 @@
 #include "number/array.h"
 #include "statement/answer.h"
 #include "statement/progress.h"
+#include "statement/record.h"
 #include "statement/target.h"
 #include "statement/text.h"
 #include "text/typeset.h"
+
+enum { TIMEOUT = 30 }; /* seconds for gnuplot */
+
+/* Of pictures: 16:9 with texts for the last row; 8.5 cm with texts of 9 points. */
+static const struct {
+    int width, height;
+    double text;
+} papers[] = {[PAPER_USUAL] = {0, 0, 1}, [PAPER_SLIDE] = {1280, 720, 1.35}, [PAPER_COLUMN] = {640, 480, 1.3}};
 
 /* ---- where it goes ----------------------------------------------------------------------------- */
 
@@ -66,8 +75,24 @@ static char *caption_of(shell *sh, int columns) {
     return file_text_close(&wrapped) ? wrapped.text : NULL;
 }
 
-/* One of the two, the other NULL. */
-static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *movie, const char *file) {
+/* The figure, of a movie the last frame, on the page that is recorded. */
+static bool draw_on_page(shell *sh, const plot_figure *f, calc_error *error) {
+    file_text svg;
+    if (!file_text_open(&svg))
+        return calc_no_memory(error);
+    const plot_target to = {.out = svg.to, .terminal = PLOT_PAGE, .timeout = TIMEOUT, .stop = &shell_stop};
+    const bool ok = plot_draw(f, &to, NULL, error);
+    if (!file_text_close(&svg))
+        return calc_no_memory(error);
+    if (ok)
+        record_apart(sh, PAGE_FIGURE, svg.text);
+    free(svg.text);
+    return ok;
+}
+
+/* To a file, or to the terminal. */
+static bool draw_off_page(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *movie,
+                          const char *file) {
     file_report written;
     text_out text;
     if (!text_begin(&text, &sh->set, sh->out, movie ? TEXT_MOTION : TEXT_PICTURE))
@@ -81,7 +106,10 @@ static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *m
                       .moving = movie && on_terminal && sh->out == stdout && shell_escapes(),
                       .columns = sh->set.plot_width,
                       .rows = sh->set.plot_height,
-                      .timeout = 30, /* seconds */
+                      .width = papers[sh->set.plot_paper].width,
+                      .height = papers[sh->set.plot_paper].height,
+                      .text = papers[sh->set.plot_paper].text,
+                      .timeout = TIMEOUT,
                       .stop = &shell_stop};
     if (!file && !to.columns)
         terminal_size(sh, &to.columns, &to.rows);
@@ -100,6 +128,19 @@ static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *m
         return calc_no_memory(lx->error);
     if (ok && file)
         target_report(sh, file, &written);
+    return ok;
+}
+
+/* movie: of which the figure is the last frame, or NULL. */
+static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *movie, const char *file) {
+    const bool on_page = !file && record_on_page(sh);
+    if (on_page && !draw_on_page(sh, f, lx->error)) {
+        lx->error->refused |= record_alone(sh); /* no page without its figures */
+        return false;
+    }
+    const bool ok = (on_page && record_alone(sh)) || draw_off_page(sh, lx, f, movie, file);
+    if (on_page)
+        record_together(sh);
     return ok;
 }
 
@@ -293,7 +334,7 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
                                    file ? drawing : NULL, /* in the terminal frames would go behind it */
                                .context = m};
     progress_wipe();
-    ok = ok && draw(m->sh, lx, NULL, &moving, file);
+    ok = ok && draw(m->sh, lx, &m->frame[frames - 1], &moving, file);
     for (size_t i = 0; m->frame && i < frames; i++)
         plot_figure_free(&m->frame[i]);
     free(m->frame);

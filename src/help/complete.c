@@ -288,12 +288,13 @@ static const clause *last_clause(const place *p, const grammar *f) {
     return NULL;
 }
 
-/* Does a file name follow the tokens? */
+/* Does a file name follow the tokens? Where a word of a table may stand too, only what has begun as one. */
 static bool wants_file(const place *p) {
     const grammar *f = form_of(p);
     const clause *a = last_clause(p, f);
     if (!f || p->count == (f->shape ? 2 : 1))
-        return f && grammar_first(f, HOLE_FILE);
+        return f && grammar_first(f, HOLE_FILE) &&
+               (!f->clause->hole->row->words || strcspn(p->line + p->start, "./") < p->cursor - p->start);
     return a && a->hole[0].row->kind == HOLE_FILE;
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "language/expr.h"
+#include "statement/scripts.h"
 #include "text/characters.h"
 #include "text/lines.h"
 
@@ -152,6 +153,61 @@ static void paper(FILE *to) {
           "  Fig. 12    `k = -0.5, 1, 0.5` in its text means k = -0.5, 0, 0.5\n"
           "  Section 3  `exponentially` is a power law: dW ~ FA^3 at small FA\n",
           to);
+}
+
+/* ---- lessons ----------------------------------------------------------------------------------- */
+
+static const char lessons_text[] =
+    "A lesson is a text file: its title, then lines of words that begin with `#`, and\n"
+    "statements. A key leads from the words to the statements behind them, which are\n"
+    "shown with their answers; of `ask` the question alone is shown.\n\n"
+    "    ask \"TEXT\" = EXPR within 5 % hint \"TEXT\"    the answer is a value\n"
+    "    ask \"TEXT\" of \"A\", \"B\" = 2 hint \"TEXT\"    it is the second of these\n\n"
+    "A lesson begins without a scene. EXPR is evaluated where the question stands. A\n"
+    "statement that is meant to fail ends in `# refused`. A transcript with a title\n"
+    "above it is a lesson too: what follows its prompts counts, answers do not.\n\n"
+    "    demo ./FILE                a name with a `.` or a `/`. Mistakes are told line\n"
+    "                               by line, and a lesson that has some is not played\n"
+    "    demo ./FILE to FILE.html   a handout of it; in the sources `make handouts`\n"
+    "                               makes those of all lessons here\n";
+
+/* What is said of the paper, to the end of the step. */
+static void paper_line(FILE *to, const script *s) {
+    static const char word[] = "# The paper:";
+    char text[512] = "";
+    bool found = false;
+    for (const char *const *line = s->line; *line; line++) {
+        found = **line == '#' && (found || !strncmp(*line, word, sizeof word - 1));
+        if (found)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", *text ? " " : "", *line + 2);
+    }
+    fputs("    ", to);
+    help_wrapped(to, text, 4, 8);
+}
+
+static void teaching(FILE *to) {
+    enum { QUESTION = 200 };
+    char text[QUESTION];
+    fputs("The lessons in their order, ten minutes each or less: their questions and the\n"
+          "answers. `demo NAME` plays one, `demo NAME to FILE.html` is a handout of it, and\n"
+          "`help lessons` tells how to write your own.\n",
+          to);
+    for (const script *s = scripts; s->name; s++) {
+        const char *const *answer = s->answer;
+        if (!answer)
+            continue;
+        fprintf(to, "\n%-10s  ", s->name);
+        help_wrapped(to, s->title, 12, 12);
+        for (const char *const *line = s->line; *line && *answer; line++)
+            if (!strncmp(*line, "ask \"", 5)) {
+                snprintf(text, sizeof text, "%.*s", (int)strcspn(*line + 5, "\""), *line + 5);
+                fputs("    ", to);
+                help_wrapped(to, text, 4, 8);
+                fputs("        ", to);
+                help_wrapped(to, *answer++, 8, 12);
+            }
+        paper_line(to, s);
+    }
 }
 
 /* ---- the table --------------------------------------------------------------------------------- */
@@ -398,6 +454,29 @@ static const topic topics[] = {
                 "    W = 328.223 nJ\n"
                 "    fret> history to loop.csv\n"
                 "    wrote loop.csv (221 B)\n"},
+    {.name = "lessons",
+     .summary = "how to write one: its questions, its file, a handout of it",
+     .keywords = "teach exercise ask demo handout class student quiz",
+     .text = lessons_text,
+     .example = "    $ cat ball.txt\n"
+                "    A ball on a flat\n"
+                "    # 100 N press it. How wide is the contact?\n"
+                "    material steel; geometry sphere R=10 mm; press FN=100 N\n"
+                "    ask \"Its radius a?\" = a in mm within 20 % hint \"a^2 = R dz\"\n"
+                "    fret> demo ./ball.txt\n"
+                "    A ball on a flat\n"
+                "    \n"
+                "    # 100 N press it. How wide is the contact?\n"
+                "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
+                "    Its radius a?\n"
+                "    a = 0.186626 mm\n"},
+    {.name = "teaching",
+     .summary = "the lessons in their order, their questions and answers",
+     .keywords = "teacher class course exercise solution handout lesson",
+     .print = teaching,
+     .example = "    $ fret -c 'demo pressing' | grep 'the radius'\n"
+                "    How large is the radius a of the contact?\n"
+                "    How many times the radius a?\n"},
     {.name = "theory",
      .summary = "what is computed, in a few words",
      .keywords = "MDR Mindlin Cattaneo Hertz springs hysteresis loop dissipation partial slip memory diagram",

@@ -41,6 +41,13 @@ static const char head_html[] =
 
 static const char foot_html[] = "</body></html>\n";
 
+/* What is no file. */
+static const plot_kind sixel = {
+    "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3, PLOT_STRAIGHT};
+static const plot_kind in_page = {
+    "", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Helvetica,%.3g' enhanced background rgb 'white'", 1, 19,
+    3,  PLOT_SEEN};
+
 /* Copies what gnuplot drew; every error of reading or writing is one. */
 static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error *error) {
     char block[1 << 14];
@@ -49,7 +56,7 @@ static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error 
         return calc_errno(error, errno, "cannot read what gnuplot drew");
     bool html = !strcmp(kind->ending, ".html"), tex = !strcmp(kind->ending, ".tex"), any = false;
     /* the prologue of a file, or what sends the cursor home */
-    const char *begin = html ? "<svg" : !*kind->ending ? "\033P" : NULL;
+    const char *begin = html || kind == &in_page ? "<svg" : kind == &sixel ? "\033P" : NULL;
     if (tex)
         fputs(head_tex, to);
     if (html)
@@ -277,9 +284,6 @@ static bool play(const sheets *s, const scripted *w, calc_error *error) {
     return true;
 }
 
-static const plot_kind sixel = {
-    "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3, PLOT_STRAIGHT};
-
 /* What gnuplot drew to the terminal. */
 static bool show_drawn(const plot_run *r, const scripted *s, calc_error *error) {
     const size_t count = s->reel->count * s->reel->frame[0].count;
@@ -304,11 +308,10 @@ static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error 
     scripted s = {.reel = reel, .target = t, .pages = &pages};
     if (pages.braille)
         return play(NULL, &s, error);
-    if (t->terminal == PLOT_SIXEL &&
-        reel->count == 1) { /* pictures that follow each other would scroll away */
-        s.kind = &sixel;
+    if (reel->count == 1) /* pictures that follow each other would scroll away */
+        s.kind = t->terminal == PLOT_SIXEL ? &sixel : t->terminal == PLOT_PAGE ? &in_page : NULL;
+    if (s.kind)
         s.pages = NULL;
-    }
     if (!plot_run_open(&r, error))
         return false;
     const bool ok = have_drawn(&r, &s, error) && show_drawn(&r, &s, error);

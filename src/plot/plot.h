@@ -122,7 +122,8 @@ bool plot_band(plot_series *s, double x, double y, double y2);
 
 /* ---- where it goes ------------------------------------------------------------------------------ */
 
-typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL } plot_terminal;
+/* page: SVG, to stand within HTML. */
+typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL, PLOT_PAGE } plot_terminal;
 
 typedef struct plot_target {
     const char *caption;    /* lines below a picture, as typed; NULL: none */
@@ -133,6 +134,7 @@ typedef struct plot_target {
     bool moving;            /* `out` is a terminal whose cursor can go back up: frames in place */
     int columns, rows;      /* of the terminal; 0: 79 x 24 */
     int width, height;      /* of a picture in pixels; 0: 900 a panel (640 with several) x 675 */
+    double text;            /* texts and lines of a picture, times this; 0: 1 */
     double timeout;         /* seconds for gnuplot; 0: 60 */
     file_stop stop;         /* NULL: nothing stops it */
 } plot_target;

@@ -13,19 +13,17 @@ enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
 
 /* ---- kinds -------------------------------------------------------------------------------------- */
 
-/* A tenth of a pixel at the usual size. */
-#define SEEN (1.0 / 6000)
-
 /* Lengths: 900 pixels are 12 cm of a page. */
 static const plot_kind kinds[] = {
-    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3, SEEN},
+    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3, PLOT_SEEN},
     {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3,
-     SEEN},
+     PLOT_SEEN},
     {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / (double)WIDTH,
-     9.5, 2.2, SEEN},
-    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2, SEEN},
+     9.5, 2.2, PLOT_SEEN},
+    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2, PLOT_SEEN},
     {".html", PLOT_ENHANCED,
-     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3, SEEN},
+     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3,
+     PLOT_SEEN},
     {".gif", PLOT_ENHANCED, "gif size %.0f,%.0f font 'Sans,%.3g' enhanced animate delay %.0f loop 0", 1, 15,
      3, PLOT_STRAIGHT},
     {".gp", PLOT_ENHANCED, NULL, 1, 16, 3, 0}};
@@ -210,6 +208,7 @@ typedef struct scribe {
     FILE *to;
     const plot_kind *kind;
     double scale; /* of points against the usual size */
+    double text;  /* and against that of the picture */
     size_t frame, panel, panels;
     const char *caption;
     double foot; /* its part of the height */
@@ -469,8 +468,9 @@ static int tic_columns(const plot_axis *a, double step) {
 static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const plot_axis *y) {
     double level[LEVELS], part = 1.0 / (double)s->panels, from = (double)s->panel * part;
     const bool narrow = s->panels > 1 || s->kind->form == PLOT_TEX;
-    const double step = plot_step((y->hi - y->lo) / 10), column = narrow ? 0.016 : 0.0127, /* of the panel */
-        left = fmax(0.15, column * (5.5 + tic_columns(y, step)));
+    const double step = plot_step((y->hi - y->lo) / 10),
+                 column = s->text * (narrow ? 0.016 : 0.0127), /* of the panel */
+        left = fmax(0.15 * s->text, column * (5.5 + tic_columns(y, step)));
     size_t n = plot_levels(&p->map, level, LEVELS);
     plot_axis z = {.lo = n ? level[0] : 0, .hi = n ? level[n - 1] : 0};
     z.log = z.lo > 0 && z.hi / z.lo > 50;
@@ -482,7 +482,7 @@ static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const p
             "set colorbox\nset style textbox opaque noborder margins 0.5,0.5\nset contour base\n"
             "set cntrlabel onecolor\n"
             "set cntrparam levels discrete ",
-            from + left * part, from + right * part, s->foot + 0.15 * (1 - s->foot),
+            from + left * part, from + right * part, s->foot + 0.15 * s->text * (1 - s->foot),
             s->foot + 0.92 * (1 - s->foot));
     for (size_t i = 0; i < n; i++)
         fprintf(s->to, "%s%.9g", i ? "," : "", level[i]);
@@ -559,7 +559,8 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
            h = t->height ? t->height : HEIGHT;
     /* texts keep their part of a panel */
     double scale = fmin(w / (double)panels / (panels > 1 ? BESIDE : WIDTH), h / (double)HEIGHT);
-    scale = fmax(scale, 0.5);
+    const double text = t->text > 0 ? t->text : 1;
+    scale = fmax(scale, 0.5) * text;
     enum { FOOT = 20 }; /* pixels of a line */
     double foot = t->caption ? 0.5 : 0;
     for (const char *p = t->caption; p && *p; p++)
@@ -586,6 +587,7 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
             scribe s = {.to = to,
                         .kind = kind,
                         .scale = scale,
+                        .text = text,
                         .frame = n,
                         .panel = i,
                         .panels = f->count,

@@ -44,6 +44,8 @@ size_t plot_levels(const plot_map *m, double *level, size_t room);
 /* Points are left out only where a line is straight: on terminals whose lines end on whole pixels, a curve of
  * long ones has kinks. */
 #define PLOT_STRAIGHT 1e-6
+/* Else: a tenth of a pixel at the usual size. */
+#define PLOT_SEEN (1.0 / 6000)
 
 /* A kind of picture. */
 typedef struct plot_kind {

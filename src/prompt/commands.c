@@ -36,6 +36,7 @@ const hole_row holes[] = {
     {.name = "SECONDS", .kind = HOLE_SECONDS},
     {.name = "COLUMN", .kind = HOLE_COLUMN},
     {.name = "TEXT", .kind = HOLE_TEXT},
+    {.name = "CHOICES", .kind = HOLE_EXPR},
     {.name = "FILE", .kind = HOLE_FILE},
     {.name = "LOAD", .kind = HOLE_LOAD, .words = load_name},
     {.name = "MATERIAL", .kind = HOLE_CHOICE, .noun = "material", .words = preset_name},
@@ -655,9 +656,10 @@ const command commands[] = {
      .group = "the session",
      .keywords = "transcript log protocol test save",
      .takes = "FILE | off",
-     .summary = "keep what is typed and answered as a transcript",
+     .summary = "keep what is typed and answered as a transcript, or a page",
      .help = "A transcript begins with the version, the scene and the settings as they are.\n"
-             "`replay FILE`, or fret --replay FILE, runs it and compares the answers.\n\n"
+             "`replay FILE`, or fret --replay FILE, runs it and compares the answers. One that\n"
+             "ends in .html is a page to read and print, its figures in it.\n\n"
              "    fret> record session.txt\n"
              "    fret> friction 0.3; 2*mu\n"
              "    2*mu = 0.6\n"
@@ -701,17 +703,37 @@ const command commands[] = {
      .run = do_demo,
      .group = "the session",
      .keywords = "tour lesson teach figure paper",
-     .takes = "[LESSON]",
+     .takes = "[LESSON | FILE] [to FILE.html]",
      .summary = "play a lesson, or a tour of the program",
      .help = "A lesson asks, then shows each statement and its answer. At the prompt a key\n"
              "leads on, `b` back, `q` out; in a script it plays through. It begins without a\n"
              "scene; its own stays, to go on with, and `undo` brings back the one before.\n"
-             "`show demos` lists the lessons. Without a name: the tour.\n\n"
+             "`show demos` lists the lessons in their order. A name with a `.` or a `/` is a\n"
+             "file of your own (`help lessons`), none the tour. FILE.html is a handout: a page\n"
+             "with the figures, room for answers, and the answers at its end.\n\n"
              "    $ fret -c 'demo sticking' | head -n 4\n"
              "    Stick and slip: Cattaneo and Mindlin push the sphere sideways\n"
              "    \n"
              "    # 100 N press, friction 0.4: 40 N make the sphere slide. We push with 20 N.\n"
-             "    # Does all of the contact stick? Where will it slip first?\n"},
+             "    # Does all of the contact stick?\n"},
+    {.name = "ask",
+     .run = do_ask,
+     .group = "the session",
+     .keywords = "exercise question quiz guess answer hint teach lesson",
+     .takes = "TEXT [= EXPR within DEVIATION | of CHOICES = N:9] [hint TEXT]",
+     .summary = "a question to who learns, and its answer",
+     .help = "At the prompt, and in a lesson, guesses may be typed, and how far off each is is\n"
+             "told: `?` asks for the hint, Enter for the answer. `within 5 %` is a part of the\n"
+             "answer, `within 2 um` an amount. Without a terminal the answer is shown. `help\n"
+             "lessons` tells how a lesson is written.\n\n"
+             "    fret> ask \"c/a at half of gross slip?\" = (1-0.5)^(1/3) within 5 %\n"
+             "    c/a at half of gross slip?\n"
+             "    (1-0.5)^(1/3) = 0.793701\n"
+             "    fret> ask \"Where does slip begin?\" of \"in the middle\", \"at the rim\" = 2\n"
+             "    Where does slip begin?\n"
+             "        1  in the middle\n"
+             "        2  at the rim\n"
+             "    answer: 2, at the rim\n"},
     {.name = "help",
      .run = do_help,
      .group = "the session",

@@ -7,20 +7,23 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "prompt/lesson.h"
 #include "prompt/show.h"
 #include "statement/answer.h"
 #include "statement/command.h"
 #include "statement/progress.h"
+#include "statement/record.h"
 #include "statement/scripts.h"
+#include "statement/target.h"
 #include "text/file.h"
 
 const char *script_name(size_t i) {
     return scripts[i].name;
 }
 
-static const script *script_find(const char *name, size_t len) {
+static const script *script_find(const char *name) {
     const script *s = scripts;
-    while (s->name && (strlen(s->name) != len || memcmp(s->name, name, len)))
+    while (s->name && strcmp(s->name, name) != 0)
         s++;
     return s->name ? s : NULL;
 }
@@ -89,6 +92,11 @@ static bool is_comment(const char *line) {
     return *line == '#' || !*line;
 }
 
+/* It shows its question itself; the statement would show the answer. */
+static bool is_question(const char *line) {
+    return line && !strncmp(line, "ask ", 4);
+}
+
 /* A step is comments, then statements. Where the statements begin: */
 static size_t statements_of(const script *s, size_t i) {
     while (s->line[i] && is_comment(s->line[i]))
@@ -122,12 +130,14 @@ static bool rewind_to(lesson *l, size_t to) {
     if (!nowhere)
         return calc_errno(l->error, errno, "cannot write /dev/null");
     l->sh->out = l->sh->err = nowhere;
+    l->sh->waits = false;
     begin_lesson(l);
     for (size_t i = 0; i < to; i++)
         if (!is_comment(l->s->line[i]))
             run_in_lesson(l, l->s->line[i]);
     l->sh->out = out;
     l->sh->err = err;
+    l->sh->waits = l->keys;
     fclose(nowhere);
     return true;
 }
@@ -145,17 +155,24 @@ static bool ended(const lesson *l) {
 }
 
 /* A line of the lesson, as text or as an object of JSON; CSV has no place for it. */
-static void tell_line(const lesson *l, const char *prompt, const char *line) {
-    enum { LINE = 400 }; /* bytes: a line of a script is one of a terminal */
+static void tell_line(const lesson *l, page_part part, const char *line) {
+    enum { LINE = 420 }; /* bytes: a line of a script is one of a terminal */
     answer a;
-    char text[LINE];
-    snprintf(text, sizeof text, "%s%s", prompt, line);
+    char text[LINE], on_page[LINE + 1];
+    snprintf(text, sizeof text, "%s%s", part == PAGE_STATEMENT ? "fret> " : "", line);
+    snprintf(on_page, sizeof on_page, "%s\n", text + (part == PAGE_WORDS ? strspn(text, "# ") : 0));
+    record_apart(l->sh, part, part == PAGE_TITLE ? text : on_page);
     answer_begin(&a, &l->set, l->sh->out);
     answer_words(&a, "%s\n", text);
-    if (!*text)
-        return;
-    answer_message(&a, "text", text);
-    answer_done(&a);
+    if (*text) {
+        answer_message(&a, "text", text);
+        answer_done(&a);
+    }
+    record_together(l->sh);
+}
+
+static void tell_remark(const lesson *l, const char *line) {
+    tell_line(l, *line ? PAGE_WORDS : PAGE_GAP, line);
 }
 
 static void run_step(lesson *l, size_t i, size_t end) {
@@ -167,7 +184,8 @@ static void run_step(lesson *l, size_t i, size_t end) {
         begin_lesson(l);
     }
     for (; i < end && !ended(l); i++) {
-        tell_line(l, "fret> ", l->s->line[i]);
+        if (!is_question(l->s->line[i]))
+            tell_line(l, PAGE_STATEMENT, l->s->line[i]);
         run_in_lesson(l, l->s->line[i]);
     }
 }
@@ -177,9 +195,9 @@ static bool play_step(lesson *l, size_t *i) {
     const script *s = l->s;
     const size_t statements = statements_of(s, *i), end = end_of(s, *i);
     if (*i < statements)
-        tell_line(l, "", "");
+        tell_remark(l, "");
     for (size_t j = *i; j < statements; j++)
-        tell_line(l, "", s->line[j]);
+        tell_remark(l, s->line[j]);
     const wish w = l->keys && s->line[statements] ? ask_key(l->sh) : ON;
     if (w == ON) {
         run_step(l, statements, end);
@@ -191,13 +209,30 @@ static bool play_step(lesson *l, size_t *i) {
     return w != LEAVE && !ended(l);
 }
 
+/* What comes next, of lessons. */
+static void tell_next(const lesson *l) {
+    enum { NEXT = 200 };
+    char text[NEXT];
+    const script *s = l->s, *next = s + 1;
+    if (!s->answer)
+        return;
+    while (next->name && !next->answer)
+        next++;
+    snprintf(text, sizeof text,
+             next->name ? "Next: demo %s, %s" : "The last of the lessons: show demos lists all.",
+             next->name, next->title);
+    tell_remark(l, "");
+    tell_remark(l, text);
+}
+
 /* False: it could not go on, and the scene is as before. Without an error a statement has reported why. */
 static bool play_lesson(lesson *l) {
     shell *sh = l->sh;
-    const bool stopped = sh->stopped, refused = sh->refused, interactive = sh->interactive;
+    const bool stopped = sh->stopped, refused = sh->refused, interactive = sh->interactive, waits = sh->waits;
     const int depth = progress_apart();
     sh->stopped = sh->refused = sh->interactive = false; /* an error is one line */
-    tell_line(l, "", l->s->title);
+    sh->waits = l->keys;
+    tell_line(l, PAGE_TITLE, l->s->title);
     for (size_t i = 0; l->s->line[i] && play_step(l, &i);)
         ;
     const bool ok = !ended(l);
@@ -206,31 +241,57 @@ static bool play_lesson(lesson *l) {
     sh->stopped |= stopped;
     sh->refused |= refused;
     sh->interactive = interactive;
+    sh->waits = waits;
     progress_together(depth);
+    if (ok)
+        tell_next(l);
     if (l->before)
         undo_scene(&sh->calc, l->before);
-    if (!ok)
+    if (!ok || record_alone(sh))
         undo_since(&sh->calc, l->group);
     return ok;
 }
 
-bool do_demo(shell *sh, lexer *lx, const command *self) {
-    said all;
-    if (!said_read(sh, lx, command_form(self), &all))
+/* On a page alone, which leaves the scene as it was. */
+static bool write_lesson(lesson *l, FILE *to) {
+    shell *sh = l->sh;
+    const settings set = sh->set;
+    l->keys = false;
+    l->set.format = FORMAT_TEXT;
+    l->set.pages = l->set.color = l->set.color_out = false;
+    if (!record_page(sh, to, l->s->title, l->error))
         return false;
-    const bool tour = all.count == 0, text = sh->set.format == FORMAT_TEXT;
-    const span *name = &all.list[0].hole[0];
-    const script *s = tour ? script_find("tour", 4) : script_find(lx->text + name->at, name->len);
+    const bool played = play_lesson(l), whole = record_page_end(sh, l->error);
+    sh->set = set;
+    return played && whole;
+}
+
+/* NULL with the error, which is at the place. */
+static const script *built_in(const char *name, const span *at, calc_error *error) {
+    const script *s = script_find(name);
+    if (s)
+        return s;
+    const char *near = suggest(name, script_name);
+    calc_raise(error, at->at, at->len,
+               near ? "there is no demo '%s': did you mean %s?"
+                    : "there is no demo '%s': show demos lists them",
+               name, near);
+    return NULL;
+}
+
+/* The page is looked at before long work. */
+static bool open_page(const lexer *lx, const heard *to, target *t) {
+    char name[FILE_NAME];
+    if (!hole_file(lx, &to->hole[0], name))
+        return false;
+    if (!file_ends(name, ".html"))
+        return calc_fail(lx->error, to->hole[0].at, to->hole[0].len, "a lesson goes to a page: FILE.html");
+    return target_file(lx, &to->hole[0], t);
+}
+
+static bool play(shell *sh, lexer *lx, const script *s, bool tour, target *page) {
     const scene *now = &sh->calc.scene;
-    if (!s) {
-        char word[LEX_NAME];
-        snprintf(word, sizeof word, "%.*s", LEX_SHOWN(name->len), lx->text + name->at);
-        const char *near = suggest(word, script_name);
-        return calc_fail(lx->error, name->at, name->len,
-                         near ? "there is no demo '%s': did you mean %s?"
-                              : "there is no demo '%s': show demos lists them",
-                         word, near);
-    }
+    const bool text = sh->set.format == FORMAT_TEXT;
     lesson l = {.sh = sh,
                 .s = s,
                 .keys = sh->interactive && text && isatty(STDOUT_FILENO),
@@ -240,13 +301,36 @@ bool do_demo(shell *sh, lexer *lx, const command *self) {
                 .springs = now->springs,
                 .group = sh->calc.undo.group,
                 .error = lx->error};
+    if (page->to)
+        return write_lesson(&l, page->to) || (shell_stop && calc_interrupted(lx->error));
     if (!play_lesson(&l))
         return shell_stop ? calc_interrupted(lx->error) : false;
     if (text && l.before && shell_aside(sh, sh->out))
         fputs("The scene is the lesson's now: go on with it. `undo` brings back yours.\n", sh->out);
     if (tour) {
-        tell_line(&l, "", "");
-        tell_line(&l, "", "Lessons, such as `demo pressing`: `show demos` lists them.");
+        tell_remark(&l, "");
+        tell_remark(&l, "Lessons, such as `demo pressing`: `show demos` lists them.");
     }
     return true;
+}
+
+/* A name with a `.` or a `/` is that of a file. */
+bool do_demo(shell *sh, lexer *lx, const command *self) {
+    said all;
+    lesson_text own = {.title = NULL};
+    target page = {.to = NULL};
+    char name[FILE_NAME] = "tour";
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    const heard *named = said_of(&all, "", 0), *to = said_of(&all, "to", 0);
+    if (named && !hole_file(lx, &named->hole[0], name))
+        return false;
+    const bool file = strpbrk(name, "./") != NULL;
+    const script *s = file ? NULL : built_in(name, &all.list[0].hole[0], lx->error);
+    bool ok = file ? lesson_read(sh, name, &own, lx->error) || heard_place(lx->error, named) : s != NULL;
+    const script taught = {.title = own.title, .line = (const char *const *)own.line};
+    ok = ok && (!to || open_page(lx, to, &page)) && play(sh, lx, s ? s : &taught, !named, &page);
+    ok = target_close(sh, lx, &page, ok);
+    lesson_free(&own);
+    return ok;
 }

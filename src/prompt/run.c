@@ -229,8 +229,8 @@ static void show_place(const shell *sh, bool aside, const char *text, size_t len
     putc('\n', to);
 }
 
-static void report_error(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
-                         const calc_error *error) {
+void shell_report(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
+                  const calc_error *error) {
     fflush(sh->out);
     if (shell_unread()) /* the reader has gone, which is why it failed */
         return;
@@ -312,9 +312,11 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         if (!done)
             calc_word(&sh->calc, &error);
         if (!done && error.raised) { /* else a nested source has reported it */
-            report_error(sh, from, text, len, line, i + error.at, &error);
+            shell_report(sh, from, text, len, line, i + error.at, &error);
             sh->stopped |= error.stop;
             sh->refused |= error.refused;
+            if (error.stop || error.refused)
+                record_tell(sh, error.text);
         }
         if (!done) {
             ok = false;

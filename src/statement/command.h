@@ -49,11 +49,11 @@ command_run do_material, do_second, do_geometry, do_friction, do_rig, do_bulk;
 command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;
 /* view_commands.c, plot_commands.c, explain.c */
 command_run do_history, do_table, do_plot, do_animate, do_explain, do_accuracy;
-/* show.c, help.c, session_commands.c, demo.c, live_command.c */
+/* show.c, help.c, session_commands.c, demo.c, exercise.c, live_command.c */
 command_run do_show, do_set, do_help, do_apropos, do_cite;
 /* keep_commands.c */
 command_run do_save, do_record, do_replay;
-command_run do_source, do_quit, do_demo, do_live;
+command_run do_source, do_quit, do_demo, do_ask, do_live;
 
 /* The full-screen mode; script: a file to step through, or NULL. */
 bool shell_live(shell *sh, const char *script, calc_error *error);

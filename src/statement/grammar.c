@@ -159,11 +159,12 @@ static bool parse_word(parsing *g) {
         g->p += n + 1;
         return is_capital(*g->p) && parse_hole(g, word_length(g->p), before);
     }
-    if (memchr(g->p, '=', n))
+    const bool equals = !strncmp(g->p, "= ", 2);
+    if (!equals && memchr(g->p, '=', n))
         return parse_argument(g, n);
     if (is_capital(*g->p))
         return parse_hole(g, n, 0);
-    if (*g->p < 'a' || *g->p > 'z' || !(g->open = add_clause(g, g->p, n)))
+    if ((!equals && (*g->p < 'a' || *g->p > 'z')) || !(g->open = add_clause(g, g->p, n)))
         return false;
     g->p += n;
     return true;

@@ -4,12 +4,12 @@
  *
  *     [Fx+=20 N | dx+=0.5 um] [steps N:1000]    maximize:  EXPR over NAME = LO .. HI, ...
  *
- * A word in lower case begins a clause, capitals are a hole. NAME= is an argument, whose dimension and range
- * are those of the quantity; := where it may be live, += where it may be an increment, an example behind it.
- * [ ] may be left out, and stand in any order; with a * it may come again, as may a word with ... behind it;
- * | parts ways, of which one is gone; a comma and ... let the hole, or of several holes the clause from its
- * first on, come again. N:1000 is
- * the most that a number may be. A hole may stand for clauses that several rows have in common. */
+ * A word in lower case begins a clause, as does an = that stands apart behind no hole; capitals are a hole.
+ * NAME= is an argument, whose dimension and range are those of the quantity; := where it may be live, +=
+ * where it may be an increment, an example behind it. [ ] may be left out, and stand in any order; with a *
+ * it may come again, as may a word with ... behind it; | parts ways, of which one is gone; a comma and ...
+ * let the hole, or of several holes the clause from its first on, come again. N:1000 is the most that a
+ * number may be. A hole may stand for clauses that several rows have in common. */
 #ifndef STATEMENT_GRAMMAR_H
 #define STATEMENT_GRAMMAR_H
 

@@ -321,7 +321,7 @@ static const clause *clause_named(const lexer *lx, const grammar *f) {
     if (changes_scene(lx))
         return NULL;
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (!a->argument && *a->name && lex_is(lx, a->name))
+        if (!a->argument && *a->name && (lex_is(lx, a->name) || (lx->kind == T_ASSIGN && *a->name == '=')))
             return a;
     return NULL;
 }
@@ -520,7 +520,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         break;
     case HOLE_TEXT:
         if (lx->kind != T_STRING)
-            return lex_fail(lx, "expected %s \"TEXT\"", a->name);
+            return lex_fail(lx, "expected %s%s\"TEXT\"", a->name, *a->name ? " " : "");
         lex_next(lx);
         break;
     case HOLE_WORD: /* which need not be made of tokens */
@@ -643,8 +643,8 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     if (!read_head(lx, out) || !read_first(sh, lx, out))
         return false;
     f = out->by;
-    while (lx->kind == T_NAME) {
-        const token_kind how = lex_peek(lx);
+    while (lx->kind == T_NAME || clause_named(lx, f)) {
+        const token_kind how = lx->kind == T_NAME ? lex_peek(lx) : T_END;
         const clause *a;
         if ((how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) && !lacks_name(lx, f)) {
             if (!read_argument(sh, lx, out, how))

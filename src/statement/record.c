@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Transcripts as a session goes on: streams that write to two places. Writes the file that it is given. */
-#define _GNU_SOURCE /* fopencookie, which musl has too */
+/* Transcripts and pages as a session goes on: streams that write to two places. Writes the file that it is
+ * given. */
 #include "statement/record.h"
 
 #include <stdlib.h>
@@ -16,27 +16,45 @@
 /* There is one session that can record. */
 static struct recorder *recording;
 
-/* After an error nothing more is recorded. */
-static void check(struct recorder *r, bool ok, const calc_error *error) {
-    if (ok)
-        return;
+/* Past the recorder, a stream of which may be what calls this. */
+static void tell_below(struct recorder *r, const char *text) {
     shell *sh = r->sh;
     FILE *out = sh->out, *err = sh->err;
-    char text[CALC_ERROR_TEXT + 40];
-    snprintf(text, sizeof text, "%s; what follows is not recorded", error->text);
-    r->lost = sh->lost = true;
-    sh->out = r->out; /* this may be called by a stream of the recorder's, which must not write to itself */
-    sh->err = r->err;
+    sh->out = r->outer_out ? r->outer_out : r->out;
+    sh->err = r->outer_err ? r->outer_err : r->err;
     shell_error(sh, text);
     sh->out = out;
     sh->err = err;
 }
 
-static void write_held(struct recorder *r) {
+/* After an error nothing more is recorded. */
+static void check(struct recorder *r, bool ok, const calc_error *error) {
+    if (ok)
+        return;
+    shell *sh = r->sh;
+    char text[CALC_ERROR_TEXT + 40];
+    snprintf(text, sizeof text, "%s; what follows is not recorded", error->text);
+    r->lost = sh->lost = true;
+    tell_below(r, text);
+}
+
+static void add_to_log(struct recorder *r, const char *bytes, size_t n) {
     calc_error error;
     error_clear(&error);
-    if (!r->lost && r->held_count > 0)
-        check(r, file_log_add(&r->log, r->held, r->held_count, &error), &error);
+    if (!r->lost)
+        check(r, file_log_add(&r->log, bytes, n, &error), &error);
+}
+
+static ssize_t write_log(void *cookie, const char *bytes, size_t n) {
+    add_to_log(cookie, bytes, n);
+    return (ssize_t)n;
+}
+
+static void write_held(struct recorder *r) {
+    if (r->held_count > 0 && r->page.to)
+        handout_put(&r->page, PAGE_ANSWER, r->held, r->held_count);
+    else if (r->held_count > 0)
+        add_to_log(r, r->held, r->held_count);
     r->held_count = 0;
 }
 
@@ -55,7 +73,7 @@ static void put_text(struct recorder *r, const char *text) {
 
 /* Without colours. */
 static void keep_bytes(struct recorder *r, const char *bytes, size_t n) {
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n && !r->apart; i++) {
         if (r->escape)
             r->escape = bytes[i] != 'm';
         else if (bytes[i] == '\033')
@@ -67,6 +85,8 @@ static void keep_bytes(struct recorder *r, const char *bytes, size_t n) {
 
 static void write_both(struct recorder *r, FILE *to, const char *bytes, size_t n) {
     keep_bytes(r, bytes, n);
+    if (!to)
+        return;
     fwrite(bytes, 1, n, to);
     fflush(to);
 }
@@ -82,13 +102,40 @@ static ssize_t write_err(void *cookie, const char *bytes, size_t n) {
     return (ssize_t)n;
 }
 
-static void free_recorder(struct recorder *r) {
+static bool free_recorder(struct recorder *r) {
+    const bool ok = handout_end(&r->page);
+    if (r->to_log)
+        fclose(r->to_log);
     if (r->both_out)
         fclose(r->both_out);
     if (r->both_err)
         fclose(r->both_err);
     file_log_close(&r->log);
     free(r);
+    return ok;
+}
+
+static struct recorder *make_recorder(shell *sh, calc_error *error) {
+    struct recorder *r = calloc(1, sizeof *r);
+    if (r) {
+        *r = (struct recorder){.sh = sh, .log.fd = -1};
+        r->both_out = file_stream(r, write_out);
+        r->both_err = file_stream(r, write_err);
+        if (r->both_out && r->both_err) {
+            setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
+            setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
+            return r;
+        }
+        free_recorder(r);
+    }
+    calc_raise_memory(error);
+    return NULL;
+}
+
+static void take_over(shell *sh, struct recorder *r) {
+    sh->record = recording = r;
+    sh->out = r->both_out;
+    sh->err = r->both_err;
 }
 
 /* ---- what comes first -------------------------------------------------------------------------- */
@@ -96,7 +143,9 @@ static void free_recorder(struct recorder *r) {
 static void put_statements(struct recorder *r, const char *text) {
     while (*text) {
         const size_t n = strcspn(text, "\n");
-        if (*text != '#') {
+        if (*text != '#' && r->page.to) {
+            handout_put(&r->page, PAGE_STATEMENT, text, n + (text[n] == '\n'));
+        } else if (*text != '#') {
             put_text(r, "fret> ");
             put_bytes(r, text, n);
             put_text(r, RECORD_GIVEN "\n");
@@ -111,15 +160,14 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     bool over = false;
     if (sh->replaying)
         return true;
-    struct recorder *r = calloc(1, sizeof *r);
+    if (record_alone(sh))
+        return calc_fail(error, 0, 0, "what is played goes on a page already");
+    const bool html = file_ends(path, ".html");
+    struct recorder *r = make_recorder(sh, error);
     if (!r)
-        return calc_no_memory(error);
-    r->sh = sh;
-    r->log.fd = -1;
-    r->both_out = fopencookie(r, "w", (cookie_io_functions_t){.write = write_out});
-    r->both_err = fopencookie(r, "w", (cookie_io_functions_t){.write = write_err});
-    if (!r->both_out || !r->both_err) /* before the file is emptied */
-        calc_no_memory(error);
+        return false;
+    if (html && (!(r->to_log = file_stream(r, write_log)) || !handout_make(&r->page)))
+        calc_raise_memory(error); /* before the file is emptied */
     else
         file_log_open(&r->log, path, &shell_stop, &over, error);
     if (error->raised) {
@@ -129,21 +177,20 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     record_end(sh, true);
     r->out = sh->out;
     r->err = sh->err;
-    setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* line by line: what is recorded survives a crash */
-    setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
     if (over)
         shell_say(sh, "overwriting %s", path);
-    sh->record = recording = r;
-    sh->out = r->both_out;
-    sh->err = r->both_err;
-    put_text(r, "# fret " FRET_VERSION "\n");
+    take_over(sh, r);
+    if (html)
+        handout_begin(&r->page, r->to_log, "fret");
+    else
+        put_text(r, "# fret " FRET_VERSION "\n");
     put_statements(r, beginning);
     return true;
 }
 
 bool record_end(shell *sh, bool tells) {
     struct recorder *r = sh->record;
-    if (!r)
+    if (!r || record_alone(sh))
         return sh->replaying;
     fflush(sh->out);
     fflush(sh->err);
@@ -151,6 +198,8 @@ bool record_end(shell *sh, bool tells) {
     sh->err = r->err;
     sh->record = recording = NULL;
     write_held(r);
+    if (r->page.to && !handout_end(&r->page))
+        shell_error(sh, "out of memory: the page is without its answers");
     const file_report report = {.direct = !r->log.regular, .size = (unsigned long long)r->log.length};
     if (tells && !r->lost)
         target_report(sh, r->log.name, &report);
@@ -184,6 +233,12 @@ void record_line(shell *sh, const char *text, size_t len) {
         return;
     fflush(sh->out);
     len = until_record(text, len);
+    if (r->page.to && len > 0) {
+        const bool words = *text == '#';
+        handout_put(&r->page, words ? PAGE_WORDS : PAGE_STATEMENT, text + words, len - words);
+        handout_put(&r->page, words ? PAGE_WORDS : PAGE_STATEMENT, "\n", 1);
+        return;
+    }
     const char *prompt = "fret> ";
     for (size_t i = 0, n; i <= len && len > 0; i += n + 1, prompt = "....> ") {
         const char *end = memchr(text + i, '\n', len - i);
@@ -199,6 +254,83 @@ void record_aside(const char *text) {
         return;
     fflush(recording->both_out);
     keep_bytes(recording, text, strlen(text));
+}
+
+static void swap(FILE **a, FILE **b) {
+    FILE *kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+void record_swap(shell *sh, FILE **out, FILE **err) {
+    fflush(sh->out);
+    fflush(sh->err);
+    swap(sh->record ? &sh->record->out : &sh->out, out);
+    swap(sh->record ? &sh->record->err : &sh->err, err);
+}
+
+/* ---- pages ------------------------------------------------------------------------------------- */
+
+bool record_page(shell *sh, FILE *to, const char *title, calc_error *error) {
+    fflush(sh->out);
+    fflush(sh->err);
+    struct recorder *r = make_recorder(sh, error);
+    if (!r)
+        return false;
+    if (!handout_make(&r->page)) {
+        free_recorder(r);
+        return calc_no_memory(error);
+    }
+    handout_begin(&r->page, to, title);
+    r->outer = sh->record;
+    r->outer_out = sh->out;
+    r->outer_err = sh->err;
+    take_over(sh, r);
+    return true;
+}
+
+bool record_page_end(shell *sh, calc_error *error) {
+    struct recorder *r = sh->record;
+    fflush(sh->out);
+    fflush(sh->err);
+    write_held(r);
+    sh->out = r->outer_out;
+    sh->err = r->outer_err;
+    sh->record = recording = r->outer;
+    return free_recorder(r) || calc_no_memory(error);
+}
+
+void record_tell(shell *sh, const char *text) {
+    if (record_alone(sh))
+        tell_below(sh->record, text);
+}
+
+bool record_on_page(const shell *sh) {
+    return sh->record && sh->record->page.to;
+}
+
+bool record_alone(const shell *sh) {
+    return sh->record && sh->record->outer_out;
+}
+
+static void set_apart(shell *sh, bool apart) {
+    struct recorder *r = sh->record;
+    if (!record_on_page(sh))
+        return;
+    fflush(sh->out);
+    fflush(sh->err);
+    write_held(r);
+    r->apart = apart;
+}
+
+void record_apart(shell *sh, page_part part, const char *text) {
+    set_apart(sh, true);
+    if (record_on_page(sh))
+        handout_put(&sh->record->page, part, text, strlen(text));
+}
+
+void record_together(shell *sh) {
+    set_apart(sh, false);
 }
 
 /* ---- what is typed ----------------------------------------------------------------------------- */

@@ -10,6 +10,8 @@ typedef struct script {
     const char *name;
     const char *title;       /* one line */
     const char *const *line; /* statements and comments, ended by NULL */
+    const char *const
+        *answer; /* to its questions, in their order, likewise; NULL: it has none, and is no lesson */
 } script;
 
 extern const script scripts[]; /* ended by a row without a name */

@@ -8,6 +8,8 @@
 
 /* ---- those that are no int of the settings ----------------------------------------------------- */
 
+static const char *const papers[] = {
+    [PAPER_USUAL] = "auto", [PAPER_SLIDE] = "slide", [PAPER_COLUMN] = "column"};
 static const char *const terminals[] = {"auto", "dumb", "block", "sixel"};
 
 const char *terminal_name(size_t i) {
@@ -33,14 +35,22 @@ static bool set_plot(shell *sh, lexer *lx, const said *all) {
         sh->set.plot_caption = (int)h->choice;
         return true;
     }
+    for (int paper = PAPER_SLIDE; paper <= PAPER_COLUMN; paper++)
+        if (!strcmp(h->of->name, papers[paper])) {
+            sh->set.plot_paper = paper;
+            return true;
+        }
     if (h->of->holes) {
         snprintf(text, sizeof text, "%.*s", (int)(len < SIZE ? len : SIZE), lx->text + h->hole[0].at);
         if (sscanf(text, "%4dx%4d%n", &width, &height, &used) != 2 || (size_t)used != len ||
             width < LEAST_WIDTH || height < LEAST_HEIGHT)
-            return calc_fail(lx->error, h->hole[0].at, len,
-                             "expected a size such as 80x24 (at least %dx%d), auto, terminal or caption",
-                             LEAST_WIDTH, LEAST_HEIGHT);
+            return calc_fail(
+                lx->error, h->hole[0].at, len,
+                "expected a size such as 80x24 (at least %dx%d), auto, terminal, caption, slide or column",
+                LEAST_WIDTH, LEAST_HEIGHT);
     }
+    if (!h->of->holes)
+        sh->set.plot_paper = PAPER_USUAL;
     sh->set.plot_width = width;
     sh->set.plot_height = height;
     return true;
@@ -52,6 +62,8 @@ static void show_plot(const calc *c, const settings *set, FILE *to) {
         fprintf(to, "%dx%d", set->plot_width, set->plot_height);
     else
         fputs("auto", to);
+    if (set->plot_paper)
+        fprintf(to, "\nset plot %s", papers[set->plot_paper]);
     if (set->plot_terminal)
         fprintf(to, "\nset plot terminal %s", terminals[set->plot_terminal]);
     if (set->plot_caption)
@@ -101,7 +113,7 @@ static bool has_cores(const calc *c, const settings *set) {
 
 static bool has_plot(const calc *c, const settings *set) {
     (void)c;
-    return set->plot_width > 0 || set->plot_terminal || set->plot_caption;
+    return set->plot_width > 0 || set->plot_terminal || set->plot_caption || set->plot_paper;
 }
 
 const settings settings_initial = {.digits = 6};
@@ -160,9 +172,10 @@ static const setting rows[] = {
                        .apply = set_model,
                        .show = show_model},
     [SETTING_PLOT] = {.name = "plot",
-                      .takes = "SIZE | auto | terminal TERMINAL | caption SWITCH",
+                      .takes = "SIZE | auto | terminal TERMINAL | caption SWITCH | slide | column",
                       .summary = "size of plots in the terminal, such as 80x24, and how they are drawn "
-                                 "there: auto, dumb, block or sixel; caption on: the scene below figures",
+                                 "there: auto, dumb, block or sixel; caption on: the scene below figures; "
+                                 "pictures for a slide or the column of a paper",
                       .example = "    fret> set plot 64x18\n",
                       .apply = set_plot,
                       .show = show_plot,

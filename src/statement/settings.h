@@ -9,6 +9,8 @@ typedef enum output_format { FORMAT_TEXT, FORMAT_CSV, FORMAT_JSON } output_forma
 typedef enum pager_when { PAGER_AUTO, PAGER_OFF, PAGER_ON } pager_when;
 typedef enum report_when { REPORT_AUTO, REPORT_OFF, REPORT_ON } report_when;
 
+typedef enum plot_paper_size { PAPER_USUAL, PAPER_SLIDE, PAPER_COLUMN } plot_paper_size;
+
 typedef struct settings {
     int format;
     int digits;
@@ -18,7 +20,8 @@ typedef struct settings {
     int plot_terminal;     /* plot_terminal of plot.h */
     int pager;
     bool pages;                  /* there is a terminal to page on */
-    int plot_width, plot_height; /* 0: the terminal's, or the picture's default */
+    int plot_width, plot_height; /* 0: the terminal's */
+    int plot_paper;              /* plot_paper_size: of pictures */
     int plot_caption;            /* scene and load below figures */
 } settings;
 

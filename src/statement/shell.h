@@ -36,6 +36,7 @@ typedef struct shell {
     FILE *out, *err;
     run_share share; /* --part */
     bool interactive, quit;
+    bool waits;              /* a lesson that waits for who plays it: it asks */
     bool lost;               /* a recording could not be written */
     bool stopped, refused;   /* there was an error of that kind */
     bool replaying;          /* a transcript: see shell_aside */
@@ -108,6 +109,10 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
 /* Runs a logical line of several statements, reporting errors; false if one failed. `line` is the number
  * of its first physical line. */
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line);
+
+/* Tells an error at its place in a line, as shell_line does. */
+void shell_report(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
+                  const calc_error *error);
 
 /* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it.
  * Returns an exit status. */

@@ -10,6 +10,9 @@
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifndef MSG_NOSIGNAL /* of macOS: SIGPIPE is ignored anyway */
+#define MSG_NOSIGNAL 0
+#endif
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif

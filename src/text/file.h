@@ -56,6 +56,10 @@ bool file_out_open(file_out *out, const char *name, file_stop stop, calc_error *
  * the error when a byte was lost; true when given up. The report may be NULL. */
 bool file_out_close(file_out *out, bool keep, file_report *report, calc_error *error);
 
+/* A stream whose bytes go to the function, which answers how many it has taken; NULL: out of memory. */
+typedef ssize_t file_take(void *self, const char *bytes, size_t n);
+FILE *file_stream(void *self, file_take *take);
+
 /* A text written as a file is. open_memstream(3) will not do: it loses in silence what finds no memory. It
  * stays where it is while it is open. */
 typedef struct file_text {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Texts in memory, written as files are. */
+/* Streams whose bytes a function takes, and texts in memory, written as files are. */
 #define _GNU_SOURCE /* fopencookie, which musl has too */
 #include "text/file.h"
 
@@ -7,6 +7,38 @@
 #include <string.h>
 
 #include "number/array.h"
+
+#ifdef __APPLE__
+/* funopen writes ints, and lets go of what it is given. */
+typedef struct taker {
+    void *self;
+    file_take *take;
+} taker;
+
+static int write_taker(void *cookie, const char *bytes, int n) {
+    const taker *t = cookie;
+    return (int)t->take(t->self, bytes, (size_t)n);
+}
+
+static int close_taker(void *cookie) {
+    free(cookie);
+    return 0;
+}
+
+FILE *file_stream(void *self, file_take *take) {
+    taker *t = malloc(sizeof *t);
+    if (t)
+        *t = (taker){self, take};
+    FILE *to = t ? funopen(t, NULL, write_taker, NULL, close_taker) : NULL;
+    if (!to)
+        free(t);
+    return to;
+}
+#else
+FILE *file_stream(void *self, file_take *take) {
+    return fopencookie(self, "w", (cookie_io_functions_t){.write = take});
+}
+#endif
 
 static bool take_bytes(file_text *t, const char *bytes, size_t n) {
     char *grown = t->lost ? NULL : fret_array_for(t->text, &t->room, t->size + n + 1, 1);
@@ -28,7 +60,7 @@ bool file_text_open(file_text *t) {
     *t = (file_text){.to = NULL};
     t->text = fret_array_for(NULL, &t->room, ROOM, 1);
     if (t->text)
-        t->to = fopencookie(t, "w", (cookie_io_functions_t){.write = write_text});
+        t->to = file_stream(t, write_text);
     if (!t->to)
         free(t->text);
     return t->to != NULL;

@@ -48,7 +48,8 @@ STATEMENTS = (
              "show commands", "show demos", "help", "help press", "help units", "apropos contact", "apropos radius",
              "table x^2, y for y = 1 .. 5 steps 4 to out.csv", "table a(y) for y = 1 N .. 9 N steps 300",
              "table y, x for y = 1 .. 9 steps 600", "save ~/out.fret", "table x for y = 1 .. 2 steps 1 to /dev/stdout", "demo", "demo pressing", "1" + "+1" * 300, "explain kappa",
-             "0." + "0" * 120 + "1 + 1", "source script.fret", "explain mismatch", "set format json; explain mismatch", "exit")),
+             "0." + "0" * 120 + "1 + 1", "source script.fret", "explain mismatch", "set format json; explain mismatch",
+             "demo ./lesson.txt", "demo ./lesson.txt to out.html", "record log.html", "exit")),
     (LOADED, ("step Fx=5 N", "step Fx+=1 N FN=110 N", "step dx=0.1 um steps 20", "cycle dxA=0.1 um times 2",
               "cycle FA=20 N FNA=10 N phase=90 deg", "cycle FA:=0.5*mu*FN", "follow follow.csv", "FA = 10 N", "mu = 0.3",
               "FA := 0.4*mu*FN", "k = 0.2, x = 5", "undo", "reset", "history", "history to out.csv", "history to out.json", "export loop to out.json steps 3",
@@ -71,7 +72,7 @@ STATEMENTS = (
               "plot dW(force) for force = 1 N .. 20 N steps 5 to out.gp", "plot accuracy within 0.001",
               "animate loop along cycle FA:=FN/10 frames 3 to out.gif", "animate Fx/width against dx along program with width = 1 N, 2 N frames 2 to out.gif",
               "explain 2*long", "set digits 9; set plot 70x20; set pager off; record log.txt",
-              "save out.fret", "record log.txt", "show", "press FN=50 N", "geometry cone slope=0.1",
+              "save out.fret", "record log.txt", "show", 'ask "a?" = a in mm within 5 % hint "b"', 'ask "Where?" of "here", "there" = 2', "press FN=50 N", "geometry cone slope=0.1",
               "quit")),
     (NESTED + "; set format csv; history to both.csv; set format text; reset", ("follow both.csv",)),
     (NESTED + "; set report off; follow long.csv", ("W, a", "plot Fx along program to out.gp")),
@@ -127,7 +128,7 @@ FAMILIES = {"openat": "open", "pread64": "read", "writev": "write", "renameat": 
             "vfork": "fork", "wait4": "wait", "waitid": "wait", "mremap": "mmap", "execve": "exec",
             "dup2": "dup", "dup3": "dup", "pipe2": "pipe", "ppoll": "poll"}
 ALLOCATION, INTERRUPT = "allocation", "interrupt"
-LIVE = ("log.txt",)  # written as it goes on
+LIVE = ("log.txt", "log.html")  # written as it goes on
 LOST_OUTPUT = "error: cannot write to standard output"
 INTERRUPTED = 130  # the exit status
 LAST_WORD = "without a word to the terminal"
@@ -155,12 +156,13 @@ def prepare(where):
                  (0.1, 3.5), (0.3, 10.2), (0.6, 19.2), (0.3, 9.5), (0, 0), (-0.3, -9.5), (-0.6, -19.2))),
              "samples.csv": "v1 [m],sample\n1e-4,1\n,2\n2e-4,3\n",
              "lesson.fret": "# A lesson\nstep Fx=20 N\n",
+             "lesson.txt": "A lesson\n# How wide?\nmaterial steel; geometry sphere R=10 mm; press FN=100 N\nask \"a?\" = a within 5 %\nplot pressure\n",
              "replay.txt": "fret> x = 2\nfret> x + \\\n....> 1\nx + 1 = 3\nfret> set format csv\nfret> table y^2 for y = 1 .. 40 steps 39\ny,y^2\n" +
-             "".join("%d,%d\n" % (i, i * i) for i in range(1, 41)) + "fret> 2^C\nerror: unknown name 'C': did you mean c?\nfret> x = 3 \\\n....> + 1\nfret> x\nx\n4\n", "log.txt": ""}
+             "".join("%d,%d\n" % (i, i * i) for i in range(1, 41)) + "fret> 2^C\nerror: unknown name 'C': did you mean c?\nfret> x = 3 \\\n....> + 1\nfret> x\nx\n4\n", "log.txt": "", "log.html": ""}
     for name, text in texts.items():
         with open(os.path.join(where, name), "w", encoding="ascii") as f:
             f.write(text)
-    for ending in ("csv", "json", "dat", "gp", "svg", "gif", "fret", "h"):
+    for ending in ("csv", "json", "dat", "gp", "svg", "gif", "fret", "h", "html"):
         with open(os.path.join(where, "out." + ending), "w", encoding="ascii") as f:
             f.write("old\n")
 

@@ -100,15 +100,100 @@ def dialogue(tests):
 ASKS = re.escape("(any key: go on, b: back, q: leave)")
 
 
-def play(s, statement, key=" "):
-    """A lesson to its end; how often it has asked, and what it said."""
-    text, asked = "", 0
-    s.child.sendline(statement)
-    while s.child.expect([ASKS, r"2004hfret> $"]) == 0:
+def to_key(s, guesses=None):
+    """To the next key that a lesson waits for, or its end: whether it waits, and what it said. Questions are answered by guesses,
+    which are taken off, then not at all."""
+    text = ""
+    while True:
+        found = s.child.expect([ASKS, "guess> ", r"2004hfret> $"])
         text += s.child.before
+        if found != 1:
+            return found == 0, text
+        s.child.send((guesses.pop(0) if guesses else "") + "\r")
+
+
+def play(s, statement, key=" "):
+    """A lesson to its end; how often it has asked for a key, and what it said."""
+    asked = 0
+    s.child.sendline(statement)
+    waits, text = to_key(s)
+    while waits:
         s.child.send(key)
         asked += 1
-    return asked, clean(text + s.child.before)
+        waits, more = to_key(s)
+        text += more
+    return asked, clean(text)
+
+
+def guess(s, line):
+    """What is said of it."""
+    s.child.send(line + "\r")
+    s.child.expect(["guess> ", r"2004hfret> $"])
+    return clean(s.child.before).replace("\x1b[?", "").partition("\n")[2].strip()
+
+
+def exercises(tests):
+    """Guesses, right and wrong, the hint, and no guess; by hand, in a lesson, recorded and copied."""
+    s = Session(tests, "--quiet", "--color=never")
+    s.say(SCENE + "; press FN=100 N")
+    s.say("record guesses.txt")
+    question = 'ask "How wide?" = a in um within 5 % hint "as Hertz has it"'
+    begin, copied = "", PROMPT + question + "\n"
+    s.child.sendline(question)
+    s.child.expect("guess> ")
+    begin = clean(s.child.before)
+    tests.check("a question", begin.endswith("How wide?\nguess: a value, ? for a hint, or Enter for the answer\n"), begin)
+    copied += begin.partition("\n")[2]
+    for line, want in (("100 um", "guess: 46 % too small"), ("?", "guess: as Hertz has it"), ("3 N", "guess: a is a length, not a force (3 N)"),
+                       ("0.2", "guess: a needs a unit: it is a length, in m"), ("foo", "guess: unknown name 'foo'"), ("2 um +", "guess: expected a value"),
+                       ("1 um", "guess: too small, the answer is 187 times as much"), ("1 mm", "guess: too large, 5.36 times the answer"),
+                       ("-0.2 mm", "guess: of the wrong sign"), ("200 um", "guess: 7.2 % too large")):
+        said = guess(s, line)
+        tests.check("a guess of " + line, said.startswith(want), said)
+        copied += "guess> " + line + "\n" + said + "\n"
+    said = guess(s, "  0.19 mm ")
+    tests.check("a right guess", said == "guess: right\na = 186.626 um", said)
+    copied += "guess>   0.19 mm\n" + said + "\n"
+    s.child.sendline('ask "Where?" of "inside", "at the rim" = 2')
+    s.child.expect("guess> ")
+    begin = clean(s.child.before)
+    tests.check("a choice", begin.endswith("Where?\n    1  inside\n    2  at the rim\nguess: a number, or Enter for the answer\n"), begin)
+    for line, want in (("1", "guess: no"), ("?", "guess: there is no hint"), ("1.5", "guess: the number of a choice is wanted"),
+                       ("3", "guess: the number of a choice is wanted"), ("1 N", "guess: the guess is a number"),
+                       ("2", "guess: right\nanswer: 2, at the rim")):
+        said = guess(s, line)
+        tests.check("a choice of " + line, said.startswith(want), said)
+    s.say("record off")
+    for name, key in (("Enter", "\r"), ("Ctrl-D", "\x04"), ("Ctrl-C", "\x03")):
+        s.child.sendline('ask "One?" = 1 within 1 %')
+        s.child.expect("guess> ")
+        s.child.send(key)
+        said = s.prompt()
+        tests.check("no guess, by " + name, ("1 = 1" in said) == (key != "\x03") == ("interrupted" not in said), said)
+    for name, text in (("recorded", None), ("copied", PROMPT + SCENE + "; press FN=100 N\n" + copied)):
+        path = os.path.join(tests.dir, "guesses.txt")
+        if text:
+            with open(path, "w", encoding="utf-8") as f:
+                f.write(text)
+        with open(path, encoding="utf-8") as f:
+            tests.check("guesses %s" % name, ("guess: 46 % too small" in f.read()) == (text is not None))
+        done = tests.run("--replay", path)
+        tests.check("a question %s comes out again" % name, done.returncode == 0 and "0 failed" in done.stdout, tests.report(done))
+    text, waits = "", True
+    s.child.sendline("demo sticking")
+    guesses = ["1", "?", "2", "0.9", "0.46", "4", "2.4"]
+    while waits:
+        waits, more = to_key(s, guesses)
+        text += more
+        if waits:
+            s.child.send(" ")
+    text = clean(text)
+    tests.check("a lesson with its guesses", text.count("guess: right") == 3 and "guess: no\n" in text and "guess: friction bears mu p" in text and
+                "guess: 94 % too large" in text and "guess: 68 % too large" in text and "ask " not in text.partition("\n")[2] and
+                "Next: demo sliding, Gross slip" in text and text.rfind("dx(36 N)/dx(18 N) = 2.38675") > text.rfind("guess:"), text)
+    tests.check("the lesson's scene", s.say("Fx; undo; FN, Fx") == "Fx = 20 N\nFN = 100 N\nFx = 0 N", clean(s.child.before))
+    s.child.sendline("quit")
+    tests.check("guesses leave", s.end() == 0)
 
 
 def interrupts(tests):
@@ -577,4 +662,4 @@ def letters(tests):
 
 
 def run(tests):
-    tests.rooms(letters, plain, kept_lines, odd_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, strangers, narrow, figures, sizes, tables, moving)
+    tests.rooms(letters, plain, exercises, kept_lines, odd_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, strangers, narrow, figures, sizes, tables, moving)

@@ -27,13 +27,14 @@ STATEMENTS = (
     ("accuracy", "accuracy within 0.01", "accuracy row* accuracy"), ("show", "show", "text"), ("show", "show settings", "text"), ("set", "set", "text"),
     ("set", "set timing on; 1; set timing off", "value note note"), ("source", "source s.fret", "value"), ("save", "save o.fret", "note"),
     ("record", "record r.txt; record off", "note"), ("replay", "replay t.txt", "text"), ("live", "live", "error"), ("demo", "demo sticking", "text* any*"),
+    ("ask", 'ask "a?" = a within 5 % hint "Hertz"', "value ask"), ("ask", 'ask "Where?" of "here", "there" = 2', "ask"),
     ("help", "help a", "text"), ("apropos", "apropos stick", "text"), ("cite", "cite", "text"),
     ("table", "table dW(F) at rows.csv", "table row* compare"), (None, "a in mm, c/a", "value value"), (None, "Mu = 3", "note"), (None, "foo", "error"),
     (None, "press FN=1 MN; press FN=100 N", "press warning press"), ("quit", "quit", ""), ("exit", "exit", ""))
 MESSAGES = ("note", "warning", "error")
 FIELDS = {"explain": {"name", "title", "formula", "model", "numbers", "value", "error"}, "solve": {"method", "evaluations", "bracket"},
           "fit": {"rows", "rms", "deviation", "correlation"}, "uncertainty": {"of", "deviation", "shares", "Monte Carlo"},
-          "press": {"FN", "a", "dz"}, "measured": {"cycle", "line", "dW", "dxA", "FA", "secant", "unloading", "flank", "energy_ratio", "flanks"}, "step": {"Fx", "dx", "c"}, "cycle": {"dW", "Fx", "dx", "c"}}
+          "ask": {"question"}, "press": {"FN", "a", "dz"}, "measured": {"cycle", "line", "dW", "dxA", "FA", "secant", "unloading", "flank", "energy_ratio", "flanks"}, "step": {"Fx", "dx", "c"}, "cycle": {"dW", "Fx", "dx", "c"}}
 
 
 def one_name_each(pairs):

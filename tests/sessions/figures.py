@@ -55,6 +55,12 @@ def forms(tests):
     size = tests.run("-c", "set plot 80x24\n" + SCENE + "plot loop to b.png", cwd=where)
     head = read(os.path.join(where, "b.png"))[16:24] if size.returncode == 0 else b"\0" * 8
     tests.check("a picture's size is not the terminal's", struct.unpack(">II", head) == (900, 675), tests.report(size))
+    for paper, want in (("slide", (1280, 720)), ("column", (640, 480)), ("slide; set plot auto", (900, 675))):
+        size = tests.run("-c", "set plot %s\n" % paper + SCENE + "plot loop to b.png; plot map x*y for x = 1 .. 2 for y = 1 .. 2 to b.svg", cwd=where)
+        head = read(os.path.join(where, "b.png"))[16:24] if size.returncode == 0 else b"\0" * 8
+        tests.check("a picture for " + paper, struct.unpack(">II", head) == want, tests.report(size))
+        shown = tests.run("-c", "set plot %s; show settings" % paper).stdout
+        tests.check("the setting of " + paper, ("set plot %s\n" % paper in shown) == (";" not in paper), shown)
     tex(tests, where)
 
 

@@ -2,6 +2,7 @@
 """The program in scripts: files, options, output files, pictures, the demos."""
 import csv
 import glob
+import json
 import math
 import os
 import re
@@ -441,7 +442,109 @@ def demos(tests):
     figures_of_paper = glob.glob(os.path.join(harness.ROOT, "scripts", "paper", "*.txt"))
     tests.check("show demos", len(listed) == len(paths) + len(figures_of_paper), "\n".join(listed))
     jobs = [lambda p=path, row=row: lesson(tests, p, row) for path, row in zip(paths, listed)]
-    tests.each(jobs + [lambda: lessons_aside(tests)])
+    tests.each(jobs + [lambda: lessons_aside(tests), lambda: path_of_lessons(tests, listed), lambda: own_lessons(tests)])
+
+
+def path_of_lessons(tests, listed):
+    """Each leads to the next; the teacher's page has them all."""
+    names = [row.split()[0] for row in listed]
+    order = ["pressing", "sticking", "sliding", "loop", "memory", "energy", "grading", "shapes", "swinging", "damper"]
+    tests.check("the lessons' order", names[1:11] == order, str(names))
+    lessons_of = names[1:names.index("fig04")]
+    for name, after in zip(lessons_of, lessons_of[1:] + [None]):
+        said = tests.run("-c", "demo " + name).stdout.rstrip().splitlines()[-1]
+        tests.check("%s leads on" % name, said.startswith("Next: demo %s, " % after if after else "The last of the lessons"), said)
+    page = tests.run("-c", "help teaching").stdout
+    titles = re.findall(r"(?m)^(\w+)  +\S", page)
+    tests.check("the teacher's page", titles == lessons_of and page.count("\n    The paper: (") == len(titles) and
+                "    How large is c/a at 36 N?\n        c(36 N)/a = 0.464159\n" in page, page)
+
+
+MISTAKEN = """# A lesson with mistakes
+# which are told
+materal steel
+material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N
+ask "How wide?" = b within 5 %
+ask "How wide?" = a
+ask "Where?" of "here", "there" = 3
+step Fx=20 N # refused
+step Fx=99 N; Fx
+step Fx=99 N # refused
+# bell \a
+plot presure
+quit
+"""
+MISTAKES = ((3, "unknown command 'materal'"), (5, "b is no parameter"), (6, "expected within 5 %"), (7, "there are 2 choices"), (8, "this is not refused"),
+            (9, "Fx = 99 N exceeds mu*FN = 40 N"), (11, "a character that does not show"), (12, "there is no figure 'presure'"), (13, "a lesson does not end the session"))
+
+
+def own_lessons(tests):
+    """A stranger's file: played, or refused line by line; a page of it."""
+    ball = "A ball\n\n# How wide?\nmaterial steel; geometry sphere R=10 mm; friction 0.4\npress FN=100 N\nask \"a?\" = a within 5 % hint \"Hertz <&>\"\nplot pressure\nstep Fx=50 N # refused\n"
+    as_transcript = "A ball\n\n" + "".join("fret> %s\n%s" % (line, "a = 3 um\n" if line == "press FN=100 N" else "") for line in ball.split("\n")[2:-1])
+    said = []
+    for text in (ball, as_transcript, ball.replace("\n", "\r\n"), "\ufeff" + ball, ball.replace("press ", "press \\\n   ")):
+        with tests.file(text, ".txt") as path:
+            done = tests.run("-c", "mu = 0.1; demo %s; undo; mu" % path)
+            said.append(re.sub("press +", "press ", done.stdout))
+            tests.check("a lesson from a file", done.returncode == 0 and "a?\na = 186.626 um\n" in done.stdout and done.stdout.endswith("mu = 0.1\n") and
+                        "exceeds mu*FN" in done.stderr and said[-1] == said[0], tests.report(done))
+    with tests.file(MISTAKEN, ".txt") as path:
+        done = tests.run("-c", "mu = 0.1; demo %s" % path)
+        found = re.findall(r"(?m)^%s:(\d+):\d+: error: (.*)$" % re.escape(path), done.stderr)
+        tests.check("mistakes of a lesson, line by line", done.returncode == 1 and not done.stdout and len(found) == len(MISTAKES) and
+                    all(int(n) == line and told.startswith(words) for (n, told), (line, words) in zip(found, MISTAKES)) and
+                    "9 mistakes in %s: it is not played" % path in done.stderr, tests.report(done))
+        done = tests.run("--format=json", "-c", "demo " + path)
+        rows = [row for row in map(json.loads, done.stdout.splitlines()) if row.get("file") == path]
+        tests.check("mistakes in JSON", [row["line"] for row in rows] == [line for line, _ in MISTAKES], tests.report(done))
+    for name, text, want in (("empty", "", "holds no statement"), ("words alone", "A title\n# words\n", "holds no statement"), ("no title", "fret> 1 + 1\n", "begins with its title"),
+                             ("bytes", bytes(range(256)) * 40, "mistakes"), ("a long line", "T\n# %s\n1\n" % ("x" * 500), "at most 400 bytes"),
+                             ("many mistakes", "T\n" + "foo(\n" * 1000, "20 mistakes or more")):
+        with tests.file(text, ".txt") as path:
+            done = tests.run("-c", "demo " + path)
+            tests.check("a lesson of %s is refused" % name, done.returncode == 1 and want in done.stderr and not done.stdout, tests.report(done))
+    for name, want in (("./none.txt", "No such file"), (".", "Is a directory"), ("pressing.x", "No such file")):
+        done = tests.run("-c", "demo " + name)
+        tests.check("a lesson at " + name, done.returncode == 1 and want in done.stderr, tests.report(done))
+    circle = os.path.join(tests.dir, "circle.txt")
+    with open(circle, "w", encoding="ascii") as f:
+        f.write("A circle\ndemo %s\n" % circle)
+    done = tests.run("-c", "demo " + circle)
+    tests.check("a lesson that plays itself", done.returncode == 1 and "1 mistake in" in done.stderr, tests.report(done))
+    with tests.file(ball, ".txt") as path:
+        page = os.path.join(tests.dir, "ball.html")
+        done = tests.run("-c", "mu = 0.1; demo %s to %s; mu; demo %s to ball.pdf" % (path, page, path))
+        tests.check("a lesson to a page leaves the scene", done.stdout == "mu = 0.1\n" and "a lesson goes to a page: FILE.html" in done.stderr, tests.report(done))
+        text = handout(tests, "a lesson from a file", page, 1, 1)
+        tests.check("what a page shows", "# How" not in text and "fret> press FN=100 N" in text and "error: Fx = 50 N exceeds" in text and "+----" not in text and
+                    text.index("a?") < text.index("Answers") < text.index("a = 186.626 um"), text)
+    for path in sorted(glob.glob(os.path.join(harness.ROOT, "scripts", "demos", "*.txt"))):
+        name = re.sub(r"^\d+-", "", os.path.basename(path)[:-4])
+        page = os.path.join(tests.dir, name + ".html")
+        tests.run("-c", "demo %s to %s" % (name, page))
+        with open(path, encoding="utf-8") as f:
+            statements = [s for s, _ in harness.read_transcript(f.read())]
+        handout(tests, name, page, sum(s.startswith("ask ") for s in statements), sum(s.count("plot ") for s in statements if not s.startswith(("ask ", "#"))))
+    page = os.path.join(tests.dir, "session.html")
+    done = tests.run("-c", "material steel; geometry sphere R=10 mm\nrecord %s\n# How <wide>?\npress FN=100 N; a\nplot pressure\nfoo\nask \"b & c\" = a within 5 %%\nrecord off" % page, "--keep-going")
+    text = handout(tests, "a session", page, 1, 1)
+    tests.check("a session on a page", "How <wide>?" in text and "geometry sphere R=10 mm" in text and "a = 186.626 um" in text and "unknown name 'foo'" in text and
+                "+----" not in text and "+----" in done.stdout and "wrote " in done.stderr, text)
+
+
+def handout(tests, name, path, questions, figures):
+    """One file, well-formed, nothing fetched; its words."""
+    with open(path, encoding="utf-8") as f:
+        text = f.read()
+    root = xml.etree.ElementTree.fromstring(text)
+    xhtml = "{http://www.w3.org/1999/xhtml}"
+    asked = [e for e in root.iter(xhtml + "p") if e.get("class") == "question"]
+    fetched = re.findall(r"(?:src|href)\s*=\s*['\"](?!#)[^'\"]*|url\((?!['\"]?#)[^)]*|@import|<script|<link", text)
+    tests.check("a handout of " + name, root.tag == xhtml + "html" and len(asked) == questions == len(list(root.iter(xhtml + "li"))) and not fetched and
+                len(list(root.iter("{http://www.w3.org/2000/svg}svg"))) == figures, "%d questions, %d figures, %s" % (len(asked), text.count("<svg"), fetched))
+    body = root.find(xhtml + "body")
+    return "\n".join(t for e in body if e.tag != xhtml + "figure" for t in e.itertext())
 
 
 def lesson(tests, path, row):
@@ -450,6 +553,8 @@ def lesson(tests, path, row):
     name = re.sub(r"^\d+-", "", os.path.basename(path)[:-4])
     steps = harness.read_transcript(text)
     harness.replay(tests, os.path.relpath(path, harness.ROOT), steps)
+    questions = [step for step in steps if step[0].startswith("ask ")]
+    steps = [step for step in steps if step not in questions]
     tests.check("show demos on " + name, row.split(None, 1) == [name, text.splitlines()[0]], row)
     statements = [s for s, _ in steps if not s.startswith("#")]
     remarks = [s for s, _ in steps if s.startswith("#")]
@@ -457,6 +562,9 @@ def lesson(tests, path, row):
         tests.check("%s asks first, and names the paper" % name,
                     steps[0][0].startswith("#") and any("?" in s for s in remarks) and
                     any(s.startswith("# The paper: (") for s in remarks) and any(map(harness.draws, statements)), text)
+        tests.check("%s has questions" % name, len(questions) > 1 and all(" hint " in s for s, _ in questions), text)
+        minutes = sum(len(s.split()) for s in remarks) / 200 + 0.25 * len(statements) + len(questions)  # silent reading, a look, a guess
+        tests.check("%s takes ten minutes" % name, minutes < 10, "%.1f" % minutes)
     tests.check("%s fits 80 columns" % name, all(len(s) <= 78 for s in remarks), "\n".join(remarks))
     done = tests.run("-c", "demo " + name)
     shown = [line for line in done.stdout.splitlines() if line.startswith(harness.PROMPT)]
@@ -465,7 +573,7 @@ def lesson(tests, path, row):
     lines = (done.stdout + done.stderr).splitlines()
     tests.check("demo %s shows its remarks, and no statement without a prompt" % name, "(null)" not in lines and
                 [line for line in lines if line.startswith("#")] == remarks and not set(statements) & set(lines), tests.report(done))
-    missing = [line for s, out in steps if not harness.draws(s) for line in out
+    missing = [line for s, out in steps + questions if not harness.draws(s) for line in out
                if not any(harness.same_line(line, got) for got in lines)]
     tests.check("demo %s answers as its transcript" % name, not missing, "\n".join(missing))
 

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `ask`: a question to whoever learns, and its answer. Changes nothing. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands/expressions.h"
+#include "prompt/prompt.h"
+#include "statement/command.h"
+#include "statement/progress.h"
+#include "statement/record.h"
+
+enum { CHOICES = 9 };
+
+typedef struct exercise {
+    shell *sh;
+    char *text, *hint; /* hint: or NULL */
+    char *choice[CHOICES];
+    unsigned choices; /* 0: the answer is a value */
+    unsigned right;   /* the choice, from 1 */
+    column column;
+    value value;
+    long double within; /* how far off the value a guess may be */
+} exercise;
+
+/* ---- reading ----------------------------------------------------------------------------------- */
+
+static void exercise_free(exercise *x) {
+    free(x->text);
+    free(x->hint);
+    while (x->choices > 0)
+        free(x->choice[--x->choices]);
+    columns_free(&x->column, 1);
+}
+
+static char *unquoted(const lexer *lx, size_t at, size_t len) {
+    char *text = strndup(lx->text + at + 1, len - 2);
+    if (!text)
+        calc_raise_memory(lx->error);
+    return text;
+}
+
+static bool read_choices(exercise *x, const lexer *lx, const heard *of) {
+    lexer own = hole_lexer(lx, &of->hole[0]);
+    do {
+        if (x->choices)
+            lex_next(&own);
+        if (own.kind != T_STRING)
+            return lex_fail(&own, "expected a choice in quotation marks");
+        if (x->choices == CHOICES)
+            return lex_fail(&own, "more than %d choices", CHOICES);
+        if (!(x->choice[x->choices] = unquoted(&own, own.at, own.len)))
+            return false;
+        x->choices++;
+        lex_next(&own);
+    } while (own.kind == T_COMMA);
+    x->right = of->count;
+    if (!at_end(&own))
+        return false;
+    if (x->choices < 2)
+        return calc_fail(lx->error, of->hole[0].at, of->hole[0].len, "one choice is none");
+    return x->right <= x->choices ||
+           calc_fail(lx->error, of->hole[1].at, of->hole[1].len, "there are %u choices", x->choices);
+}
+
+/* `5 %` is a part of the value. */
+static bool read_within(exercise *x, const lexer *lx, const span *part) {
+    lexer own = hole_lexer(lx, part);
+    value v;
+    if (!expr_value(&x->sh->calc, &own, &v))
+        return false;
+    const bool percent = own.text[own.last - 1] == '%';
+    if (percent && x->value.v == 0)
+        return calc_fail(lx->error, part->at, part->len,
+                         "the answer is 0, which has no part: say how far off a guess may be");
+    if (percent)
+        v = (value){v.v * fabsl(x->value.v), x->value.d};
+    x->within = v.v;
+    return value_dim(&own, x->column.name, part->at, part->len, v, x->value.d) &&
+           (v.v > 0 || calc_fail(lx->error, part->at, part->len, "within must be positive")) && at_end(&own);
+}
+
+static bool read_value(exercise *x, const lexer *lx, said *all, const heard *equals) {
+    shell *sh = x->sh;
+    const heard *within = said_of(all, "within", 0);
+    lexer own = hole_lexer(lx, &equals->hole[0]);
+    if (!within)
+        return calc_fail(lx->error, lx->at, 0, "expected within 5 %%: how far off may a guess be?");
+    return read_one_expression(sh, &own, 0, &x->column) &&
+           expr_eval(&sh->calc, &sh->list[0], &x->value, lx->error) &&
+           column_fits(&sh->list[0], &x->column, x->value, lx->error) && read_within(x, lx, &within->hole[0]);
+}
+
+static bool read_exercise(exercise *x, lexer *lx, said *all) {
+    const heard *equals = said_of(all, "=", 0), *of = said_of(all, "of", 0), *hint = said_of(all, "hint", 0);
+    const span *text = &all->list[0].hole[0];
+    if (!(x->text = unquoted(lx, text->at, text->len)) ||
+        (hint && !(x->hint = unquoted(lx, hint->hole[0].at, hint->hole[0].len))))
+        return false;
+    if (of)
+        return read_choices(x, lx, of);
+    return equals ? read_value(x, lx, all, equals)
+                  : lex_fail(lx, "what is the answer? = EXPR within 5 %%, or of \"A\", \"B\" = 2");
+}
+
+/* ---- guesses ----------------------------------------------------------------------------------- */
+
+/* Beside the session: no transcript has them, and a copy of a terminal may. */
+#define SAYS "guess: "
+
+static void say(const char *text) {
+    char shown[CALC_ERROR_TEXT];
+    fputs(SAYS, stdout);
+    snprintf(shown, sizeof shown, "%s", text);
+    print_safe(stdout, shown, strlen(shown));
+    putc('\n', stdout);
+}
+
+/* How far off, in words. */
+static void say_off(const exercise *x, long double guess) {
+    enum { FAR = 2 };
+    const long double is = x->value.v, ratio = is != 0 ? guess / is : 0;
+    const char *way = fabsl(guess) > fabsl(is) ? "large" : "small";
+    char text[80];
+    if (is == 0)
+        snprintf(text, sizeof text, "too %s", guess > 0 ? "large" : "small");
+    else if (ratio < 0)
+        snprintf(text, sizeof text, "of the wrong sign");
+    else if (ratio > FAR)
+        snprintf(text, sizeof text, "too large, %.3Lg times the answer", ratio);
+    else if (ratio > 0 && 1 / ratio > FAR)
+        snprintf(text, sizeof text, "too small, the answer is %.3Lg times as much", 1 / ratio);
+    else
+        snprintf(text, sizeof text, "%.2Lg %% too %s", 100 * fabsl(ratio - 1), way);
+    say(text);
+}
+
+/* The expression must be one of the dimension of the answer; without one a word says why. */
+static bool read_guess(exercise *x, const char *line, long double *guess) {
+    calc_error *const error = error_quiet();
+    lexer lx;
+    value v;
+    error_clear(error);
+    lex_start(&lx, line, strlen(line), error);
+    const bool ok = !error->raised && expr_value(&x->sh->calc, &lx, &v) && !stray_unit(&lx) && at_end(&lx) &&
+                    value_dim(&lx, x->choices ? "the guess" : x->column.name, 0, strlen(line), v,
+                              x->choices ? DIM_NONE : x->value.d);
+    if (!ok) {
+        calc_word(&x->sh->calc, error);
+        say(error->text);
+    }
+    *guess = ok ? v.v : 0;
+    return ok;
+}
+
+static bool is_right(const exercise *x, long double guess) {
+    if (x->choices)
+        return guess == x->right;
+    return fabsl(guess - x->value.v) <= x->within * (1 + 1e-12L); /* the end of the range is in it */
+}
+
+/* False: it was the last. */
+static bool take_guess(exercise *x, const char *line) {
+    long double guess;
+    if (!*line)
+        return false;
+    if (!strcmp(line, "?")) {
+        say(x->hint ? x->hint : "there is no hint");
+        return true;
+    }
+    if (!read_guess(x, line, &guess))
+        return true;
+    if (is_right(x, guess)) {
+        say("right");
+        return false;
+    }
+    if (!x->choices)
+        say_off(x, guess);
+    else if (guess >= 1 && guess <= x->choices && guess == floorl(guess))
+        say("no");
+    else
+        say("the number of a choice is wanted");
+    return true;
+}
+
+/* Until a guess is right, or none is typed. */
+static void take_guesses(exercise *x) {
+    const int depth = progress_apart();
+    bool more = true;
+    fflush(x->sh->out);
+    printf(SAYS "%s%s, or Enter for the answer\n", x->choices ? "a number" : "a value",
+           x->hint ? ", ? for a hint" : "");
+    while (more && !shell_stop) {
+        char *line = prompt_line("guess> ");
+        more = line && !shell_stop && take_guess(x, line + strspn(line, " \t"));
+        free(line);
+    }
+    fflush(stdout);
+    progress_together(depth);
+}
+
+/* ---- answers ----------------------------------------------------------------------------------- */
+
+static void tell(exercise *x, page_part part, const char *before, const char *text) {
+    record_apart(x->sh, part, text);
+    answer a;
+    answer_begin(&a, &x->sh->set, x->sh->out);
+    answer_words(&a, "%s%s\n", before, text);
+    record_together(x->sh);
+}
+
+static void tell_question(exercise *x) {
+    char number[16];
+    tell(x, PAGE_QUESTION, "", x->text);
+    for (unsigned i = 0; i < x->choices; i++) {
+        snprintf(number, sizeof number, "    %u  ", i + 1);
+        tell(x, PAGE_CHOICE, number, x->choice[i]);
+    }
+    if (!x->choices)
+        record_apart(x->sh, PAGE_ROOM, "");
+    record_together(x->sh);
+}
+
+static bool write_answer(exercise *x, const settings *set, FILE *to) {
+    answer a;
+    if (!x->choices && !answer_values(set, to, &x->column, &x->value.v, 1))
+        return false;
+    answer_begin(&a, set, to);
+    if (x->choices)
+        answer_words(&a, "answer: %u, %s\n", x->right, x->choice[x->right - 1]);
+    answer_event(&a, "ask");
+    answer_string(&a, "question", x->text);
+    if (x->choices) {
+        answer_items(&a, "of");
+        for (unsigned i = 0; i < x->choices; i++)
+            answer_string(&a, NULL, x->choice[i]);
+        answer_up(&a);
+        answer_number(&a, "answer", x->right);
+    } else {
+        answer_number(&a, "within", (double)x->within);
+    }
+    if (x->hint)
+        answer_string(&a, "hint", x->hint);
+    answer_done(&a);
+    return true;
+}
+
+static bool tell_answer(exercise *x) {
+    file_text text;
+    if (!record_on_page(x->sh))
+        return write_answer(x, &x->sh->set, x->sh->out);
+    settings set = x->sh->set;
+    set.format = FORMAT_TEXT;
+    if (!file_text_open(&text))
+        return false;
+    bool ok = write_answer(x, &set, text.to);
+    ok = file_text_close(&text) && ok;
+    if (!ok)
+        return false;
+    text.text[strcspn(text.text, "\n")] = 0;
+    record_apart(x->sh, PAGE_SOLUTION, text.text);
+    ok = write_answer(x, &x->sh->set, x->sh->out);
+    record_together(x->sh);
+    free(text.text);
+    return ok;
+}
+
+bool do_ask(shell *sh, lexer *lx, const command *self) {
+    said all;
+    exercise x = {.sh = sh};
+    if (!said_read(sh, lx, command_form(self), &all))
+        return false;
+    bool ok = read_exercise(&x, lx, &all);
+    if (ok) {
+        tell_question(&x);
+        if ((sh->interactive || sh->waits) && !answer_is_data(&sh->set) && isatty(STDOUT_FILENO) &&
+            isatty(STDIN_FILENO))
+            take_guesses(&x);
+        ok = shell_stop ? calc_interrupted(lx->error) : tell_answer(&x) || calc_no_memory(lx->error);
+    }
+    exercise_free(&x);
+    said_drop(sh, &all);
+    return ok;
+}

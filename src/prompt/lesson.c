@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads lessons. What is wrong with one is said before it is played, as far as it can be told. */
+#include "prompt/lesson.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "number/array.h"
+#include "text/characters.h"
+#include "text/lines.h"
+
+enum {
+    LESSON_LINE = 400, /* bytes, which a terminal still shows */
+    MISTAKES = 20      /* that are told */
+};
+
+/* A statement that ends so is about its error. */
+#define REFUSED "# refused"
+
+typedef struct reading {
+    shell *sh, trial;
+    source from;
+    lesson_text *out;
+    bool transcript; /* lines without a prompt are answers */
+    size_t statements, mistakes;
+    calc_error *error;
+} reading;
+
+void lesson_free(lesson_text *t) {
+    for (size_t i = 0; i < t->count; i++)
+        free(t->line[i]);
+    free(t->line);
+    free(t->title);
+}
+
+/* A mistake in line `number`, which is text; its error has the place. */
+static bool tell_mistake(reading *r, const char *text, size_t number, calc_error *mistake) {
+    shell_report(r->sh, &r->from, text, strlen(text), number, mistake->at, mistake);
+    r->mistakes++;
+    return true;
+}
+
+/* What a terminal shows, and the whole of it. */
+static bool check_line(reading *r, const char *text, size_t len, size_t number) {
+    calc_error *const mistake = error_quiet();
+    error_clear(mistake);
+    if (len > LESSON_LINE)
+        calc_raise(mistake, LESSON_LINE, 1, "a line of a lesson has at most %d bytes", LESSON_LINE);
+    for (size_t i = 0, n; i < len && !mistake->raised; i += n) {
+        unsigned code;
+        n = character_at(text + i, len - i, &code);
+        if (!n || !character_shows(code))
+            calc_raise(mistake, i, 1, "a character that does not show");
+    }
+    return !mistake->raised || !tell_mistake(r, text, number, mistake);
+}
+
+/* Runs it; false: the lesson cannot be read on. */
+static bool check_statements(reading *r, const char *text, size_t number) {
+    calc_error *const mistake = error_quiet();
+    const size_t len = strlen(text), end = sizeof REFUSED - 1;
+    const bool meant = len >= end && !strcmp(text + len - end, REFUSED);
+    bool ok = true;
+    r->statements++;
+    for (size_t i = 0, next; i < len && text[i] != '#' && ok; i = next + (next < len && text[next] == ';')) {
+        next = shell_statement_end(text, i, len);
+        ok = shell_statement(&r->trial, text + i, next - i, mistake);
+        if (shell_stop || mistake->stop)
+            return shell_stop ? calc_interrupted(r->error) : calc_no_memory(r->error);
+        if (!ok && !meant) {
+            calc_word(&r->trial.calc, mistake);
+            if (!mistake->raised) /* it has been told where it was */
+                calc_raise(mistake, 0, 0, "what it runs fails");
+            mistake->at += i;
+            return tell_mistake(r, text, number, mistake);
+        }
+    }
+    error_clear(mistake);
+    if (r->trial.quit)
+        calc_raise(mistake, 0, len, "a lesson does not end the session");
+    else if (ok && meant)
+        calc_raise(mistake, 0, len, "this is not refused");
+    r->trial.quit = false;
+    return !mistake->raised || tell_mistake(r, text, number, mistake);
+}
+
+static bool add_line(reading *r, const char *text) {
+    lesson_text *t = r->out;
+    char **grown = fret_array_for(t->line, &t->room, t->count + 2, sizeof *grown);
+    if (!grown)
+        return calc_no_memory(r->error);
+    t->line = grown;
+    t->line[t->count] = strdup(text);
+    t->line[t->count + 1] = NULL;
+    return t->line[t->count++] || calc_no_memory(r->error);
+}
+
+static bool take_title(reading *r, const char *text, size_t number) {
+    calc_error *const mistake = error_quiet();
+    error_clear(mistake);
+    if (r->transcript) {
+        calc_raise(mistake, 0, 0, "a lesson begins with its title, in a line of its own");
+        tell_mistake(r, text, number, mistake);
+    }
+    const char *title = text + strspn(text, "# ");
+    r->out->title = strdup(r->transcript ? "" : title);
+    return r->out->title || calc_no_memory(r->error);
+}
+
+/* Marks and line ends become blanks. False: the lesson cannot be read on. */
+static bool take_line(reading *r, file_in *in) {
+    size_t len = in->length;
+    const bool prompt = begins_with_prompt(in->line, len);
+    const size_t before = prompt ? (size_t)(strip_prompt(in->line, &len) - in->line) : 0;
+    r->transcript = r->transcript || prompt;
+    if (r->transcript && !prompt && r->out->title)
+        return true;
+    if (file_in_rest(in, r->error) != FILE_GOT_LINE)
+        return false;
+    char *line = in->line + before;
+    len = in->length - before;
+    for (size_t i = 0; i < len; i++)
+        if (line[i] == '\t' || line[i] == '\r' || line[i] == '\n')
+            line[i] = ' ';
+    while (len > 0 && line[len - 1] == ' ')
+        len--;
+    line[len] = 0;
+    const size_t number = (size_t)in->number;
+    if (!check_line(r, line, len, number))
+        return true;
+    if (!*line && !r->out->count) /* around the title */
+        return true;
+    if (!r->out->title && (!take_title(r, line, number) || !r->transcript))
+        return r->out->title != NULL;
+    return (*line == '#' || !*line || check_statements(r, line, number)) && add_line(r, line);
+}
+
+static bool read_lines(reading *r, file_in *in) {
+    file_got got = FILE_GOT_END;
+    bool ok = true;
+    while (ok && r->mistakes < MISTAKES && (got = file_in_line(in, r->error)) == FILE_GOT_LINE)
+        ok = take_line(r, in);
+    if (shell_stop)
+        return calc_interrupted(r->error);
+    if (!ok || got == FILE_GOT_ERROR)
+        return false;
+    if (r->mistakes)
+        return calc_fail(r->error, 0, 0, "%zu mistake%s in %s: it is not played", r->mistakes,
+                         r->mistakes == 1         ? ""
+                         : r->mistakes < MISTAKES ? "s"
+                                                  : "s or more",
+                         in->name);
+    return r->statements || calc_fail(r->error, 0, 0,
+                                      "%s holds no statement: help lessons tells what a "
+                                      "lesson is",
+                                      in->name);
+}
+
+bool lesson_read(shell *sh, const char *path, lesson_text *out, calc_error *error) {
+    enum { NESTING = 4 };
+    static int nesting; /* a lesson may play others */
+    file_in in;
+    reading *r = calloc(1, sizeof *r);
+    FILE *nowhere = fopen("/dev/null", "w");
+    *out = (lesson_text){.title = NULL};
+    bool ok = r && nowhere;
+    if (!r)
+        calc_raise_memory(error);
+    else if (!nowhere)
+        calc_raise_errno(error, errno, "cannot write /dev/null");
+    else if (nesting == NESTING)
+        ok = calc_fail(error, 0, 0, "lessons are nested more than %d deep", NESTING);
+    ok = ok && file_in_open(&in, path, &shell_stop, error);
+    if (ok) {
+        *r = (reading){.sh = sh, .out = out, .from = {path, true}, .error = error};
+        shell_init(&r->trial, nowhere, nowhere);
+        r->trial.replaying = true; /* nothing is drawn, asked or recorded */
+        nesting++;
+        ok = read_lines(r, &in);
+        nesting--;
+        shell_free(&r->trial);
+        file_in_close(&in);
+    }
+    if (nowhere)
+        fclose(nowhere);
+    free(r);
+    return ok;
+}

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pages of HTML. Writes to the stream that it is given. */
+#include "statement/handout.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "text/characters.h"
+
+/* Lines of a part that is no piece follow each other in one element. */
+static const struct {
+    const char *begin, *end;
+    bool piece;
+} parts[] = {
+    [PAGE_GAP] = {"", "", true},
+    [PAGE_TITLE] = {"<h1>", "</h1>\n", true},
+    [PAGE_WORDS] = {"<p>", "</p>\n", false},
+    [PAGE_STATEMENT] = {"<pre class=\"statement\">", "</pre>\n", false},
+    [PAGE_ANSWER] = {"<pre>", "</pre>\n", false},
+    [PAGE_QUESTION] = {"<p class=\"question\">", "</p>\n", true},
+    [PAGE_CHOICE] = {"<p class=\"choice\">", "</p>\n", true},
+    [PAGE_ROOM] = {"<div class=\"room\">", "</div>\n", true},
+    [PAGE_SOLUTION] = {"<li>", "</li>\n", true},
+    [PAGE_FIGURE] = {"<figure>", "</figure>\n", true},
+};
+
+static const char head[] =
+    "<!DOCTYPE html>\n"
+    "<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
+    "<meta name=\"viewport\" content=\"width=device-width\"/>\n"
+    "<style>\n"
+    "body { max-width: 42em; margin: 2em auto; padding: 0 1em; font: 11pt/1.45 Georgia, serif; "
+    "color: #000; background: #fff; counter-reset: question; }\n"
+    "h1, h2 { font: bold 1.4em/1.25 Helvetica, Arial, sans-serif; }\n"
+    "h2 { font-size: 1.15em; }\n"
+    "pre { font: 0.8em/1.35 monospace; white-space: pre-wrap; margin: 0.3em 0 0.3em 1.5em; }\n"
+    ".statement { font-weight: bold; margin: 0.8em 0 0.3em; break-after: avoid; }\n"
+    ".question, .choice { margin-left: 1.5em; }\n"
+    ".question { font-weight: bold; counter-increment: question; break-after: avoid; }\n"
+    ".question::before { content: counter(question) \". \"; margin-left: -1.5em; display: inline-block; "
+    "width: 1.5em; }\n"
+    ".choice { margin-top: 0.2em; margin-bottom: 0.2em; }\n"
+    ".choice::before { content: \"\\2610\\00a0\"; }\n"
+    ".room { height: 3.2em; margin-left: 1.5em; border-bottom: 1px dotted #777; }\n"
+    "figure { margin: 1em 0; break-inside: avoid; }\n"
+    "figure svg { width: 100%; max-width: 36em; height: auto; display: block; margin: auto; }\n"
+    ".solutions { break-before: page; }\n"
+    "@media print { body { margin: 0 auto; font-size: 10pt; } }\n"
+    "@page { margin: 18mm; }\n"
+    "</style>\n"
+    "<title>";
+
+/* What XML takes no other way, and what does not show, is written as what it is. */
+static void put_text(FILE *to, const char *text, size_t len) {
+    char shown[CHARACTER_SHOWN];
+    for (size_t i = 0, n; i < len; i += n) {
+        n = 1;
+        if (text[i] == '&' || text[i] == '<' || text[i] == '>') {
+            fprintf(to, "&#%d;", text[i]);
+        } else if (text[i] == '\n') {
+            putc('\n', to);
+        } else {
+            n = character_shown(text + i, len - i, shown);
+            fputs(shown, to);
+        }
+    }
+}
+
+bool handout_make(handout *p) {
+    *p = (handout){.open = PAGE_GAP};
+    const bool ok = file_text_open(&p->solutions);
+    if (!ok)
+        p->solutions.text = NULL; /* freed */
+    return ok;
+}
+
+void handout_begin(handout *p, FILE *to, const char *title) {
+    p->to = to;
+    fputs(head, to);
+    put_text(to, title, strlen(title));
+    fputs("</title></head><body>\n", to);
+}
+
+static void close_part(handout *p, page_part next) {
+    fputs(parts[p->open].end, p->to);
+    if (p->open == PAGE_WORDS && p->last == '?' && next != PAGE_QUESTION) { /* one by the way */
+        fputs(parts[PAGE_ROOM].begin, p->to);
+        fputs(parts[PAGE_ROOM].end, p->to);
+    }
+    p->open = PAGE_GAP;
+}
+
+void handout_put(handout *p, page_part part, const char *text, size_t len) {
+    if (part == PAGE_SOLUTION) {
+        fputs(parts[part].begin, p->solutions.to);
+        put_text(p->solutions.to, text, len);
+        fputs(parts[part].end, p->solutions.to);
+        return;
+    }
+    size_t end = len;
+    while (end > 0 && (text[end - 1] == '\n' || text[end - 1] == ' '))
+        end--;
+    if (part == PAGE_ANSWER && p->open != PAGE_ANSWER && !end)
+        return;
+    if (part != p->open || parts[part].piece) {
+        close_part(p, part);
+        fputs(parts[part].begin, p->to);
+    }
+    if (part == PAGE_FIGURE)
+        fwrite(text, 1, len, p->to);
+    else
+        put_text(p->to, text, len);
+    p->open = part;
+    p->last = end ? text[end - 1] : p->last;
+    fflush(p->to);
+}
+
+bool handout_end(handout *p) {
+    FILE *to = p->to;
+    if (to)
+        handout_put(p, PAGE_GAP, "", 0);
+    p->to = NULL;
+    const bool ok = !p->solutions.to || file_text_close(&p->solutions);
+    if (to && ok && p->solutions.size)
+        fprintf(to, "<div class=\"solutions\"><h2>Answers</h2>\n<ol>\n%s</ol></div>\n", p->solutions.text);
+    if (ok)
+        free(p->solutions.text);
+    p->solutions.text = NULL;
+    if (to)
+        fputs("</body></html>\n", to);
+    if (to)
+        fflush(to);
+    return ok;
+}
