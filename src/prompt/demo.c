@@ -219,8 +219,8 @@ static void tell_next(const lesson *l) {
     while (next->name && !next->answer)
         next++;
     snprintf(text, sizeof text,
-             next->name ? "Next: demo %s, %s" : "The last of the lessons: show demos lists all.",
-             next->name, next->title);
+             next->name ? "Next: demo %s, %s" : "The last of the lessons: show demos lists all.", next->name,
+             next->title);
     tell_remark(l, "");
     tell_remark(l, text);
 }
