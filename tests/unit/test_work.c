@@ -273,15 +273,15 @@ static void closed_cycle(int i, bool gross) {
     }
     fret_real once = 0, more = 0;
     fret_slips_repeat(s, first, 3);
-    CHECK_OK(fret_work_at(work, 0.97L * now.a, &once));
+    CHECK_OK(fret_work_at(work, (now.c + now.a) / 2, &once));
     fret_work_free(work);
     CHECK_OK(fret_work_make(n, mu, s, first, SIZE_MAX, &work));
-    CHECK_OK(fret_work_at(work, 0.97L * now.a, &more));
+    CHECK_OK(fret_work_at(work, (now.c + now.a) / 2, &more));
     CHECK_REL(more, 4 * once, 1e-15L);
     fret_work_free(work);
     CHECK_OK(fret_work_make(n, mu, s, first, first, &work));
-    CHECK_OK(fret_work_at(work, 0.97L * now.a, &more));
-    CHECK(once > 0 && more == 0);
+    CHECK_OK(fret_work_at(work, (now.c + now.a) / 2, &more));
+    CHECK((once > 0 || now.c == now.a) && more == 0); /* all of a flat punch sticks */
     fret_field_free(field);
     fret_work_free(work);
     fret_slips_free(s);
