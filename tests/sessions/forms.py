@@ -63,7 +63,6 @@ REFUSED = {
     "loop thousands.csv": "thousands.csv:3: Fx = 1.500 may be 1.5 or 1500, since line 3 has a decimal comma: write it without its point, or with a comma\n",
     "loop decimal-commas-commas.csv": "decimal-commas-commas.csv:3: more than 2 fields, one for each name of the header\n",
     "loop prose.txt": "prose.txt holds no rows of numbers\n",
-    "loop picture.png": "picture.png:3: this is no text, or UTF-16 without its mark: save it as UTF-8\n",
     "loop profile.csv": 'profile.csv has no column Fx: its columns are r [mm], f, by line 1, "r [mm],f [um]"; say which it is: using Fx=COLUMN\n',
     "loop pull-is-negative.csv": 'pull-is-negative.csv has no column dx: its columns are FN, Fx, by line 1, "FN [N],Fx [N]"; say which it is: using dx=COLUMN\n',
     "loop profile.csv using dx=r, Fx=f N": 'the file has another unit for it: "f [um]"\n',
@@ -131,6 +130,12 @@ def forms(tests):
 
 
 def words(tests):
+    path = os.path.join(tests.dir, "picture.png")
+    with open(path, "wb") as f:
+        f.write(bytes.fromhex("89504e470d0a1a0a0000000d4948445200000010"))
+    done = tests.run("-c", "loop " + path)
+    tests.check("refused: a picture", done.returncode == 1 and "picture.png:3: this is no text, or UTF-16 without its mark: save it as UTF-8\n" in
+                done.stderr, tests.report(done))
     for statement, message in REFUSED.items():
         done = tests.run("-c", statement, cwd=HERE)
         tests.check("refused: " + statement, "error: " in done.stderr and message.replace("\t", " ") in done.stderr.replace("\t", " ")
