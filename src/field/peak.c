@@ -4,6 +4,7 @@
 
 #include "field/field.h"
 #include "law/check.h"
+#include "number/least.h"
 #include "number/real.h"
 #include "number/root.h"
 
@@ -57,20 +58,9 @@ static void try_cells(peak *k) {
     }
 }
 
-/* By the golden section: p is flat there, so that half of the digits of the place tell all of it. */
-static void climb(peak *k) {
-    static const fret_real GOLDEN = 0.38196601125010515L, ENOUGH = 1e-9L;
-    while (k->inner - k->outer > ENOUGH * k->best && !k->st.code) {
-        const bool inwards = k->inner - k->best > k->best - k->outer;
-        const fret_real e = k->best + GOLDEN * ((inwards ? k->inner : k->outer) - k->best),
-                        p = pressure_at(k, e);
-        const bool better = p > k->p;
-        *(inwards == better ? &k->outer : &k->inner) = better ? k->best : e;
-        if (better) {
-            k->best = e;
-            k->p = p;
-        }
-    }
+static fret_real less_pressure(fret_real e, fret_real *slope, void *context) {
+    (void)slope;
+    return 0 - pressure_at(context, e);
 }
 
 fret_status fret_field_peak(const fret_field *f, fret_real *r, fret_real *p) {
@@ -79,7 +69,8 @@ fret_status fret_field_peak(const fret_field *f, fret_real *r, fret_real *p) {
     k.st = fret_field_pressure(f, start, p); /* a tip, or a sharp edge, where it may have a cusp */
     try_all(&k);
     try_cells(&k);
-    climb(&k);
+    k.best = fret_least(less_pressure, &k, k.outer, k.inner, k.best, 1e-9L);
+    k.p = pressure_at(&k, k.best);
     const bool cusp = *p > k.p;
     *p = cusp ? *p : k.p;
     if (r)

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "number/least.h"
+
 typedef struct place {
     double r, f;
 } place;
@@ -62,9 +64,22 @@ static asymmetry about(const place *p, size_t n, double x, bool tilted) {
     return a;
 }
 
+typedef struct sought {
+    const place *p;
+    size_t n;
+    bool tilted;
+} sought;
+
+static fret_real left_about(fret_real x, fret_real *slope, void *context) {
+    const sought *s = context;
+    (void)slope;
+    return about(s->p, s->n, (double)x, s->tilted).left;
+}
+
 /* The place of the least asymmetry, within a tenth of both ends. */
 static asymmetry least(const place *p, size_t n, bool tilted, double *at) {
-    enum { PLACES = 160, STEPS = 60 };
+    enum { PLACES = 160 };
+    sought s = {p, n, tilted};
     const double first = 0.9 * p[0].r + 0.1 * p[n - 1].r, step = 0.8 * (p[n - 1].r - p[0].r) / PLACES;
     asymmetry best = {INFINITY, INFINITY, 0, 0};
     for (size_t i = 0; i <= PLACES; i++) {
@@ -74,15 +89,7 @@ static asymmetry least(const place *p, size_t n, bool tilted, double *at) {
             *at = first + (double)i * step;
         }
     }
-    double lo = *at - step, hi = *at + step;
-    for (int i = 0; i < STEPS; i++) {
-        const double a = lo + 0.382 * (hi - lo), b = lo + 0.618 * (hi - lo);
-        if (about(p, n, a, tilted).left < about(p, n, b, tilted).left)
-            hi = b;
-        else
-            lo = a;
-    }
-    *at = (lo + hi) / 2;
+    *at = (double)fret_least(left_about, &s, *at - step, *at + step, *at, 1e-12L);
     return about(p, n, *at, tilted);
 }
 

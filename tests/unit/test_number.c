@@ -2,6 +2,7 @@
 /* The integrator, the root, sums and polynomials, against values in closed form. */
 #include "number/chebyshev.h"
 #include "number/integral.h"
+#include "number/least.h"
 #include "number/polynomial.h"
 #include "number/real.h"
 #include "number/root.h"
@@ -164,6 +165,36 @@ static void roots(void) {
     CHECK(c.asked <= 8);
 }
 
+/* ---- the least --------------------------------------------------------------------------------- */
+
+typedef struct valley {
+    fret_real at, power;
+    int asked;
+} valley;
+
+static fret_real valley_at(fret_real x, fret_real *slope, void *context) {
+    valley *v = context;
+    (void)slope;
+    v->asked++;
+    return powl(fabsl(x - v->at), v->power) - 1;
+}
+
+static void valleys(void) {
+    static const fret_real powers[] = {1, 2, 4, 0.5L}, places[] = {0.3L, 1e-9L, 0.999L, 0.5L};
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            valley v = {places[j], powers[i], 0};
+            const fret_real x = fret_least(valley_at, &v, 0, 1, 0.4L, 1e-12L);
+            /* f is known to 1e-19 of 1 */
+            CHECK_ABS(x, v.at, 1, 1e-12L + 2 * powl(LDBL_EPSILON, 1 / powers[i]));
+            CHECK(v.asked < 70);
+        }
+    valley end = {2, 2, 0}; /* it falls to an end */
+    CHECK_ABS(fret_least(valley_at, &end, 0, 1, 0.5L, 1e-6L), 1, 1, 1e-6L);
+    valley close = {1, 2, 0}; /* to neighbouring numbers */
+    CHECK_ABS(fret_least(valley_at, &close, 0.5L, 1.5L, 0.75L, 0), 1, 1, 1e-9L);
+}
+
 /* ---- sums and polynomials ---------------------------------------------------------------------- */
 
 static void sums(void) {
@@ -199,6 +230,7 @@ int main(int argc, char **argv) {
     CASE(integrals());
     CASE(noise());
     CASE(roots());
+    CASE(valleys());
     CASE(sums());
     CASE(polynomials());
     return unit_finish();
