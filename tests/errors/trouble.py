@@ -278,7 +278,7 @@ def interrupts(tests):
                "cycle": SCENE + "set model springs 1000000; cycle dxA=0.1 um FNA=30 N phase=20 deg times 1000000; dW\n",
                "step": SCENE + "cycle FA=20 N times 1000000 steps 1000000\nhistory to /dev/null\n",
                "script": SCENE + "cycle dxA=0.1 um FNA=30 N times 2\n" * 20000,
-               "sweep": SCENE + "cycle FA=20 N FNA=30 N times 20\ntable W for k = 0 .. 0 steps 1000000 to /dev/null\n",
+               "sweep": SCENE + "cycle FA=20 N FNA=30 N times 20\ntable W for k = 0 .. 0.5 steps 1000000 to /dev/null\n",
                "uncertainty": SCENE + "uncertainty dWd(1 um) with mu +- 0.01, FN +- 1 N samples 10000000\n",
                "maximize": SCENE + "cycle dxA=0.1 um FNA=30 N times 20\nmaximize W over mu = 0.5 .. 1, E0 = 1 GPa .. 300 GPa\n",
                "fit": SCENE + "fit mu, E0, nu along %s\n" % loop, "accuracy": SCENE + "accuracy within 60\n",
