@@ -80,21 +80,26 @@ enum { TITLE = 520 };
  * there is nothing to tell. */
 static const char *title_of(const panel_job *job, size_t curve, size_t i, const char *part,
                             char title[TITLE]) {
-    char number[160];
+    char number[160], name[TITLE / 2];
     const column *c = &job->columns[i];
     const bool several = main_count(job) > 1, own = is_main(job, i) && (several || job->s->curves);
     if (!own && !part)
         return NULL;
     if (job->s->curves)
         value_text(job, curve, number, sizeof number);
+    if (job->against > 1)
+        snprintf(name, sizeof name, PLOT_EXPR "%.110s" PLOT_END " against " PLOT_EXPR "%.110s" PLOT_END,
+                 c->name, job->columns[job->count + job->over[i]].name);
+    else
+        snprintf(name, sizeof name, PLOT_EXPR "%.220s" PLOT_END, c->name);
     if (!own)
         *title = 0;
     else if (several && job->s->curves)
-        snprintf(title, TITLE, PLOT_EXPR "%.200s, %s = %s" PLOT_END, c->name, job->s->with.text, number);
+        snprintf(title, TITLE, "%s, " PLOT_EXPR "%s = %s" PLOT_END, name, job->s->with.text, number);
     else if (job->s->curves)
         snprintf(title, TITLE, PLOT_EXPR "%s = %s" PLOT_END, job->s->with.text, number);
     else
-        snprintf(title, TITLE, PLOT_EXPR "%.300s" PLOT_END, c->name);
+        snprintf(title, TITLE, "%s", name);
     const size_t n = strlen(title);
     if (part)
         snprintf(title + n, TITLE - n, "%s%s", n ? ", " : "", part);
@@ -259,12 +264,15 @@ static void note_logarithms(shell *sh, const plot_panel *p) {
         shell_note(sh, "a logarithmic axis has no place for what is not above 0");
 }
 
-/* An axis by the expressions that share it, as far as there is room for them. */
+/* An axis by the expressions that share it, each once, as far as there is room for them. */
 static void shared_name(const panel_job *job, size_t first, size_t end, char *name, size_t size) {
     *name = 0;
     for (size_t i = first; i < end; i++) {
         const size_t n = strlen(name);
-        if (i < job->count && !is_main(job, i))
+        size_t before = first;
+        while (before < i && strcmp(job->columns[before].name, job->columns[i].name))
+            before++;
+        if (before < i || (i < job->count && !is_main(job, i)))
             continue;
         if (n + strlen(job->columns[i].name) + 3 > size) {
             *name = 0;

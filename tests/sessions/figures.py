@@ -118,6 +118,9 @@ def points(tests):
     if tests.check("curves against expressions of their own", own.returncode == 0, tests.report(own)):
         tests.check("each over its own", points_of(where + "/d.gp") == curves, str(points_of(where + "/d.gp")))
         os.remove(where + "/d.gp")
+    own = tests.run("-c", "set plot 60x12\n" + SCENE + "plot Fx against dx, Fx against Fx/kt along program")
+    tests.check("each is told by its own", own.stdout.splitlines()[0].split() == ["Fx", "[N]"] and "against Fx/kt" in own.stdout and
+                "Fx against " in own.stdout, tests.report(own))
     (loop,) = points_of(where + "/c.gp")
     dx, Fx = (float(value) for value in re.findall(r'"value":([^,]*),', done.stdout))
     tests.check("a loop begins and ends", len(loop) > 200 and loop[0] == (0, 0) and abs(loop[-1][0] / 1e6 - dx) < 1e-7 * dx
