@@ -25,15 +25,10 @@ static void answered(shell *sh, long double v, dim d) {
 /* A name that is to be found needs a value to start from. */
 static bool read_names(shell *sh, lexer *lx, fit_question *q) {
     for (;;) {
-        size_t unused;
         if (q->count == FIT_NAMES)
             return lex_fail(lx, "more than %d names", FIT_NAMES);
-        if (lx->kind == T_NAME && lx->len < LEX_NAME && !quantity_find(lx->text + lx->at, lx->len) &&
-            !name_taken(lx->text + lx->at, lx->len) &&
-            !names_find(&sh->calc.names, lx->text + lx->at, lx->len, &unused))
-            return lex_fail(lx, "'%.*s' is no input and has no value to start from", LEX_WORD(lx));
         const size_t at = lx->at;
-        if (!knob_read(&sh->calc, lx, &q->name[q->count++]))
+        if (!knob_known(&sh->calc, lx, &q->name[q->count++]))
             return false;
         if (ask_repeats(q->name, q->count))
             return calc_fail(lx->error, at, lx->last - at, "%s is given twice", q->name[q->count - 1].text);
@@ -383,16 +378,12 @@ static bool read_deviation(shell *sh, const lexer *of, const span *part, const k
 static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_question *q) {
     const heard *h, *samples = said_of(all, "samples", 0), *seed = said_of(all, "seed", 0);
     for (size_t i = 0; (h = said_of(all, "with", i)); i++) {
-        size_t unused;
         knob *k = &q->name[q->count];
         const span *name = &h->hole[0];
         lexer own = hole_lexer(lx, name);
         if (q->count == UNCERTAIN_NAMES)
             return lex_fail(&own, "more than %d inputs", UNCERTAIN_NAMES);
-        if (!quantity_find(own.text + own.at, own.len) &&
-            !names_find(&sh->calc.names, own.text + own.at, own.len, &unused))
-            return lex_fail(&own, "'%.*s' is no input and has no value", LEX_WORD(&own));
-        if (!knob_read(&sh->calc, &own, k))
+        if (!knob_known(&sh->calc, &own, k))
             return false;
         if (ask_repeats(q->name, q->count + 1))
             return calc_fail(lx->error, name->at, name->len, "%s is given twice", k->text);

@@ -129,12 +129,8 @@ bool range_read_along(shell *sh, const lexer *lx, const span *part, range *out) 
     return ok;
 }
 
-static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
-    lexer name = hole_lexer(lx, &h->hole[0]), own = hole_lexer(lx, &h->hole[1]);
-    if (!knob_read(&sh->calc, &name, &s->with))
-        return false;
-    if (!s->along && !strcmp(s->with.text, s->var.text))
-        return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
+bool range_read_values(shell *sh, const lexer *lx, const span *values, sweep *s) {
+    lexer own = hole_lexer(lx, values);
     bounds b = {.known = false};
     do {
         if (s->curves == SWEEP_VALUES)
@@ -152,6 +148,15 @@ static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
         s->curves++;
     } while (own.kind == T_COMMA);
     return at_end(&own);
+}
+
+static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
+    lexer name = hole_lexer(lx, &h->hole[0]);
+    if (!knob_read(&sh->calc, &name, &s->with))
+        return false;
+    if (!s->along && !strcmp(s->with.text, s->var.text))
+        return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
+    return range_read_values(sh, lx, &h->hole[1], s);
 }
 
 bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t count, range *out) {

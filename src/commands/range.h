@@ -50,6 +50,9 @@ typedef struct found {
     const char *units[COLUMNS];
 } found;
 
+/* The values of s->with: the curves of a sweep. */
+bool range_read_values(shell *sh, const lexer *lx, const span *values, sweep *s);
+
 /* A sweep of the expressions in sh->list, which have these columns. */
 sweep_job range_job(shell *sh, const column *columns, size_t count, found *f, sweep_row *row, void *context,
                     calc_error *error);

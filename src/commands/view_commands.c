@@ -341,3 +341,27 @@ bool do_table(shell *sh, lexer *lx, const command *self) {
     said_drop(sh, &all);
     return ok;
 }
+
+/* ---- two scenes --------------------------------------------------------------------------------- */
+
+bool do_compare(shell *sh, lexer *lx, const command *self) {
+    said s;
+    sweep two = {.along = true};
+    bool ok = said_read(sh, lx, command_form(self), &s);
+    const heard *by = ok ? said_of(&s, "", 0) : NULL;
+    if (by) {
+        lexer name = hole_lexer(lx, &by->hole[0]);
+        ok = knob_known(&sh->calc, &name, &two.with) && range_read_values(sh, lx, &by->hole[1], &two) &&
+             (two.curves == COMPARED ||
+              calc_fail(lx->error, by->hole[1].at, by->hole[1].len, "compare shows two values"));
+    }
+    if (ok) {
+        sh->compared = (side_by_side){.on = by != NULL, .by = two.with};
+        for (size_t i = 0; i < two.curves; i++)
+            sh->compared.with[i] = two.value[i];
+    }
+    if (ok && by)
+        shell_note(sh, "live shows both; compare off ends it");
+    said_drop(sh, &s);
+    return ok;
+}

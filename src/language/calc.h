@@ -63,6 +63,14 @@ typedef struct knob_value {
     long double v;
 } knob_value;
 
+/* A scene shown twice, with two values of a name. */
+enum { COMPARED = 2 };
+typedef struct side_by_side {
+    bool on;
+    knob by;
+    long double with[COMPARED];
+} side_by_side;
+
 /* `NAME = EXPR, ...`, `NAME := EXPR` and `NAME(X, ...) := EXPR`. Is the cursor on an assignment? */
 bool assign_at(const lexer *lx);
 bool calc_assign(calc *c, lexer *lx);

@@ -132,6 +132,15 @@ bool knob_read(calc *c, lexer *lx, knob *out) {
            (!out->is_input || calc_takes(c, out->in, lx->error) || calc_place(lx->error, at, len));
 }
 
+bool knob_known(calc *c, lexer *lx, knob *out) {
+    const char *name = lx->text + lx->at;
+    size_t unused;
+    if (lx->kind == T_NAME && lx->len < LEX_NAME && !quantity_find(name, lx->len) &&
+        !name_taken(name, lx->len) && !names_find(&c->names, name, lx->len, &unused))
+        return lex_fail(lx, "'%.*s' is no input and has no value", LEX_WORD(lx));
+    return knob_read(c, lx, out);
+}
+
 bool knob_name(calc *c, lexer *lx, knob *out) {
     *out = (knob){.is_input = false};
     if (lx->kind != T_NAME)

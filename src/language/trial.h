@@ -33,6 +33,9 @@ bool knob_read(calc *c, lexer *lx, knob *out);
 /* The same, whatever the scene takes now. */
 bool knob_name(calc *c, lexer *lx, knob *out);
 
+/* The same of an input, or of a name that has a value. */
+bool knob_known(calc *c, lexer *lx, knob *out);
+
 /* EXPR at NAME = EXPR, ...: a trial with these changes, to be closed, and what is meant in it; of another
  * expression NULL and itself. */
 bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_error *error);

@@ -215,53 +215,6 @@ static void ask_line(live *l, const char *prompt, const char *text,
     l->changed = true;
 }
 
-/* `compare NAME = v1, v2`, and `compare off`. */
-static void compare(live *l, const char *text) {
-    calc *c = l->host->calc;
-    calc_error error;
-    lexer lx;
-    value v[SIDES];
-    knob by;
-    live_play_end(l);
-    error_clear(&error);
-    lex_start(&lx, text, strlen(text), &error);
-    if (lex_is(&lx, "off") || lx.kind == T_END) {
-        l->comparing = false;
-        l->side[0].title[0] = 0;
-        live_update(l);
-        return;
-    }
-    const size_t names = c->names.count;
-    bool ok = knob_read(c, &lx, &by) &&
-              (c->names.count == names || lex_fail(&lx, "unknown name '%s': compare an input", by.text)) &&
-              (lx.kind == T_ASSIGN || lex_fail(&lx, "compare NAME = v1, v2, or compare off"));
-    for (size_t i = 0; i < SIDES && ok; i++) {
-        lex_next(&lx);
-        const size_t at = lx.at;
-        lx.list = i + 1 < SIDES;
-        ok = expr_value(c, &lx, &v[i]) && value_dim(&lx, by.text, at, lx.last - at, v[i], by.d) &&
-             (lx.kind == (i + 1 < SIDES ? T_COMMA : T_END) ||
-              lex_fail(&lx, "compare NAME = v1, v2: two values"));
-    }
-    names_drop(&c->names, names);
-    if (!ok) {
-        calc_word(c, &error);
-        live_tell(l, true, "error: %.400s", error.text);
-        return;
-    }
-    l->compared = by;
-    for (size_t i = 0; i < SIDES; i++) {
-        char text_of[40];
-        live_amount((double)v[i].v, v[i].d, text_of, sizeof text_of);
-        l->compared_with[i] = v[i].v;
-        snprintf(l->side[i].title, sizeof l->side[i].title, "%s = %s", l->compared.text, text_of);
-        way_end(&l->side[i].way);
-    }
-    l->comparing = true;
-    live_tell(l, false, "the same hand moves both; :compare off ends it");
-    live_update(l);
-}
-
 static void keep_line(live *l, const char *line) {
     char *copy = strdup(line);
     if (!copy)
@@ -275,18 +228,10 @@ static void keep_line(live *l, const char *line) {
 }
 
 static void statement_entered(live *l, const char *line) {
-    static const char word[] = "compare";
-    line += strspn(line, " \t");
-    if (!*line)
+    if (!line[strspn(line, " \t")])
         return;
     keep_line(l, line);
-    if (!strncmp(line, word, sizeof word - 1) &&
-        !strchr("abcdefghijklmnopqrstuvwxyz_", line[sizeof word - 1]))
-        compare(l, line + sizeof word - 1);
-    else if (!strcmp(line, "compare"))
-        compare(l, "");
-    else
-        live_say(l, "%s", line);
+    live_say(l, "%s", line);
 }
 
 static void statement(live *l) {
@@ -304,11 +249,11 @@ static void save(live *l) {
 
 /* Both scenes, to the last digit. */
 static void comparison_text(const live *l, char *text, size_t size) {
-    size_t n = (size_t)snprintf(text, size, " with %s =", l->compared.text);
-    for (size_t i = 0; i < SIDES; i++) {
+    size_t n = (size_t)snprintf(text, size, " with %s =", l->compared.by.text);
+    for (size_t i = 0; i < COMPARED; i++) {
         char in[32];
-        const long double scale = unit_choose(l->compared.d, l->compared_with[i], 17, in, sizeof in);
-        n += (size_t)snprintf(text + n, size - n, "%s %.17Lg %s", i ? "," : "", l->compared_with[i] / scale,
+        const long double scale = unit_choose(l->compared.by.d, l->compared.with[i], 17, in, sizeof in);
+        n += (size_t)snprintf(text + n, size - n, "%s %.17Lg %s", i ? "," : "", l->compared.with[i] / scale,
                               in);
     }
 }
@@ -316,7 +261,7 @@ static void comparison_text(const live *l, char *text, size_t size) {
 static void picture_entered(live *l, const char *line) {
     const bool pushed = l->host->calc->scene.end.steps > 1;
     char with[LIVE_TEXT] = "";
-    if (l->comparing)
+    if (l->compared.on)
         comparison_text(l, with, sizeof with);
     if (pushed ? live_say(l, "plot springs%s | loop%s | traction%s to \"%s\"", with, with, with, line)
                : live_say(l, "plot springs%s | pressure%s to \"%s\"", with, with, line))

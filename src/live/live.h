@@ -13,6 +13,7 @@ typedef struct live_host {
     calc *calc;
     const int *digits; /* of printed values */
     const bool *quit;  /* the user wants to leave the program */
+    const side_by_side *compared;
     volatile sig_atomic_t *stop;
     /* Runs a line of statements. What it says, errors too, goes into answer (to be freed, or NULL); false: an
      * error. */

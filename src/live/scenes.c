@@ -85,21 +85,17 @@ static bool take_side(live *l, side *s, bool along, calc_error *error) {
 static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *error) {
     trial *t = trial_open(l->host->calc, error);
     const bool ok =
-        t && trial_set(t, &l->compared, l->compared_with[i], error) && take_side(l, s, along, error);
+        t && trial_set(t, &l->compared.by, l->compared.with[i], error) && take_side(l, s, along, error);
     if (t)
         trial_close(t);
     return ok;
-}
-
-size_t live_sides(const live *l) {
-    return l->comparing ? SIDES : 1;
 }
 
 static void refresh_side(live *l, size_t i) {
     side *s = &l->side[i];
     calc_error error;
     error_clear(&error);
-    if (!(l->comparing ? take_compared(l, s, i, l->follow, &error) : take_side(l, s, l->follow, &error)))
+    if (!(l->compared.on ? take_compared(l, s, i, l->follow, &error) : take_side(l, s, l->follow, &error)))
         trouble(l, s, &error);
     s->stale = false;
     l->changed = true;
@@ -107,8 +103,24 @@ static void refresh_side(live *l, size_t i) {
         l->FA = live_nice(s->now.slip / 2);
 }
 
+/* What `compare` has said. */
+static void follow_compared(live *l) {
+    const side_by_side *to = l->host->compared;
+    if (to->on == l->compared.on && (!to->on || !memcmp(to, &l->compared, sizeof *to)))
+        return;
+    l->compared = *to;
+    for (size_t i = 0; i < COMPARED; i++) {
+        side *s = &l->side[i];
+        char to_text[40];
+        live_amount((double)to->with[i], to->by.d, to_text, sizeof to_text);
+        snprintf(s->title, sizeof s->title, to->on ? "%s = %s" : "", to->by.text, to_text);
+        way_end(&s->way);
+    }
+}
+
 void live_update(live *l) {
-    for (size_t i = 0; i < SIDES; i++)
+    follow_compared(l);
+    for (size_t i = 0; i < COMPARED; i++)
         l->side[i].stale = true;
     l->changed = true;
 }

@@ -84,7 +84,7 @@ static char *play_script(live *l) {
 }
 
 static void free_live(live *l) {
-    for (size_t i = 0; i < SIDES; i++)
+    for (size_t i = 0; i < COMPARED; i++)
         way_end(&l->side[i].way);
     for (size_t i = 0; i < l->kept_count; i++)
         free(l->kept[i]);

@@ -24,6 +24,10 @@ void live_amount(double v, dim d, char *text, size_t size) {
     calc_amount(d, v, 3, text, size);
 }
 
+size_t live_sides(const live *l) {
+    return l->compared.on ? COMPARED : 1;
+}
+
 const shot *side_shown(const live *l, const side *s) {
     const load_way *w = &s->way;
     if (!l->playing)

@@ -7,11 +7,11 @@
 #include "live/live.h"
 #include "live/way.h"
 
-enum { LIVE_TEXT = 256, LIVE_LINE = 512, SIDES = 2, KEPT_LINES = 50 };
+enum { LIVE_TEXT = 256, LIVE_LINE = 512, KEPT_LINES = 50 };
 
 /* One scene on the screen: the user's, or the user's with an input changed. */
 typedef struct side {
-    char title[LIVE_TEXT];   /* of a comparison, else empty */
+    char title[LIVE_TEXT];   /* of two scenes, else empty */
     char trouble[LIVE_TEXT]; /* why there is nothing to show; empty: there is */
     bool stale;              /* what is shown is of an earlier scene */
     shot now, before;        /* before: of what is to be played */
@@ -41,11 +41,8 @@ typedef struct live {
     double said_FA, said_FNA, said_phase;
     size_t said_changes; /* that undo knows of, then */
     unsigned periods;
-    /* two scenes */
-    bool comparing;
-    knob compared;
-    long double compared_with[SIDES];
-    side side[SIDES];
+    side_by_side compared; /* what the sides show */
+    side side[COMPARED];
     /* what is told */
     char status[LIVE_LINE];
     bool bad;
@@ -78,6 +75,8 @@ void live_amount(double v, dim d, char *text, size_t size);
 __attribute__((format(printf, 3, 4)))
 #endif
 void live_tell(live *l, bool bad, const char *format, ...);
+/* How many scenes are shown. */
+size_t live_sides(const live *l);
 /* The state that is shown: on the way of a cycle, or the present one. */
 const shot *side_shown(const live *l, const side *s);
 
@@ -94,8 +93,6 @@ void live_update(live *l);
 void live_refresh(live *l);
 /* The first that is of an earlier scene; false: none is. */
 bool live_refresh_next(live *l);
-/* How many are shown. */
-size_t live_sides(const live *l);
 /* Nothing set yet: a scene to begin with. */
 void live_begin(live *l);
 void live_play(live *l);

@@ -47,7 +47,7 @@ static double roomy(double v) {
 
 static scales scales_of(const live *l) {
     scales most = {0, 0, 0, 0, 0};
-    for (size_t i = 0; i < (l->comparing ? SIDES : 1); i++) {
+    for (size_t i = 0; i < live_sides(l); i++) {
         const side *s = &l->side[i];
         if (*s->trouble)
             continue;
@@ -476,7 +476,7 @@ void live_draw(live *l) {
         draw_page(l, all);
     } else {
         const scales sc = scales_of(l);
-        const int sides = l->comparing ? SIDES : 1;
+        const int sides = (int)live_sides(l);
         for (int i = 0; i < sides; i++)
             draw_side(l, &l->side[i], &sc,
                       (rect){all.top, COLS * i / sides, all.rows, COLS / sides - (sides > 1 ? 1 : 0)});

@@ -682,6 +682,18 @@ const command commands[] = {
              "        1/3 = 0.333\n"
              "    fret> replay check.txt\n"
              "    check.txt: 2 passed, 0 failed\n"},
+    {.name = "compare",
+     .run = do_compare,
+     .group = "the session",
+     .keywords = "side by side two scenes live",
+     .takes = "INPUT = VALUES | off",
+     .summary = "two scenes on the screen of live, moved by the same hand",
+     .help = "The scene with one value of INPUT, and with the other. `live` shows them side by\n"
+             "side; what is done there is done to both, which is the scene then; `compare` changes nothing "
+             "in it.\n\n"
+             "    fret> compare k = -0.5, 0.5\n"
+             "    note: live shows both; compare off ends it\n"
+             "    fret> compare off\n"},
     {.name = "live",
      .run = do_live,
      .group = "the session",

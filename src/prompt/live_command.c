@@ -71,6 +71,7 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
                             .calc = &sh->calc,
                             .digits = &sh->set.digits,
                             .quit = &sh->quit,
+                            .compared = &sh->compared,
                             .stop = &shell_stop,
                             .run = run_for_live,
                             .complete = complete_line};

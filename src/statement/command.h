@@ -48,7 +48,7 @@ typedef bool command_run(shell *sh, lexer *lx, const command *self);
 command_run do_material, do_second, do_geometry, do_friction, do_rig, do_bulk;
 command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;
 /* view_commands.c, plot_commands.c, explain.c */
-command_run do_history, do_table, do_plot, do_animate, do_explain, do_accuracy;
+command_run do_history, do_table, do_plot, do_animate, do_explain, do_accuracy, do_compare;
 /* show.c, help.c, session_commands.c, demo.c, exercise.c, live_command.c */
 command_run do_show, do_set, do_help, do_apropos, do_cite;
 /* keep_commands.c */

@@ -108,7 +108,7 @@ static bool parse_hole(parsing *g, size_t n, char before) {
         g->open = NULL;
         return parse_clauses(g, row);
     }
-    clause *a = g->open ? g->open : add_clause(g, "", 0);
+    clause *a = g->open ? g->open : add_clause(g, g->p, 0);
     if (!a || a->holes == CLAUSE_HOLES)
         return false;
     g->open = a;

@@ -50,6 +50,7 @@ typedef struct shell {
     fret_press widest;
     /* The scene as statements, handed down by who can write it: see show.h. */
     bool (*write_scene)(calc *c, const settings *set, FILE *to, bool whole);
+    side_by_side compared;  /* by live */
     int nesting;            /* of `source` and `replay` */
     expr list[EXPRESSIONS]; /* of a print, table or plot statement, reused */
 } shell;

@@ -294,7 +294,7 @@ def comparing(tests):
     live.says("compare k = 1 mm, 2")
     tests.check("a wrong comparison", live.wait("error: "), live.screen.text())
     live.says("compare nix = 1, 2")
-    tests.check("an unknown name to compare", live.wait("unknown name 'nix'"), live.screen.text())
+    tests.check("an unknown name to compare", live.wait("'nix' is no input"), live.screen.text())
     live.says("compare off")
     tests.check("one again", live.wait(lambda s: "mu = 0.5:" not in s.text() and "-- contact" in s.text()),
                 live.screen.text())
@@ -577,11 +577,11 @@ SAID = [("c", r"^c0 = 200 um"), (":undo\r", "^undo"), ("k", r"^k = 0\.05, c0 = 2
         (":press dz=1 um\r", "press dz=1 um"), ("r", r"press dz=9\.99\d*e-07 m|press dz=1e-06"), ("f", "displacements"), ("f", "forces"),
         (":reset\r", "^reset"), ("l", "nothing is pressed: r presses again"), ("i", "nothing is pressed"),
         ("r", "^press FN=100 N"),
-        (":compare\r", "^press FN=100 N"), (":compare k 1\r", "error: compare NAME = v1, v2, or compare off"),
-        (":compare 3\r", "error: expected a name"), (":compare k = 0.1\r", "error: compare NAME = v1, v2: two values"),
-        (":compare k = 0.1, 0.2, 0.3\r", "error: compare NAME = v1, v2: two values"),
-        (":compare k = nix, 0.2\r", "error: unknown name 'nix'"), (":comparex\r", "error: unknown name 'comparex'"),
-        (":  \r", "error: unknown name 'comparex'"), ("\x1bOP", "error: unknown name 'comparex'"), ("x", "error"),
+        (":compare\r", "error: expected a name; usage: compare INPUT = VALUES"), (":compare k 1\r", "error: expected = after k"),
+        (":compare 3\r", "error: expected a name"), (":compare k = 0.1\r", "error: compare shows two values"),
+        (":compare k = 0.1, 0.2, 0.3\r", "error: compare shows two values"),
+        (":compare k = nix, 0.2\r", "error: unknown name 'nix'"), (":comparex\r", "error: unknown command 'comparex'"),
+        (":  \r", "error: unknown command 'comparex'"), ("\x1bOP", "error: unknown command 'comparex'"), ("x", "error"),
         (":table x for x = 1 .. 2 steps 100000000 to /dev/null\r", None), ("s\x15/nonexistent/x\r", "error: cannot write"),
         ("s\x15" + "x" * 600 + "\r", "the line is too long")]
 

@@ -26,7 +26,7 @@ STATEMENTS = (
     ("explain", "explain a/c conditioning", "explain*"), ("explain", "explain mismatch", "explain"),
     ("accuracy", "accuracy within 0.01", "accuracy row* accuracy"), ("show", "show", "text"), ("show", "show settings", "text"), ("set", "set", "text"),
     ("set", "set timing on; 1; set timing off", "value note note"), ("source", "source s.fret", "value"), ("save", "save o.fret", "note"),
-    ("record", "record r.txt; record off", "note"), ("replay", "replay t.txt", "text"), ("live", "live", "error"), ("demo", "demo sticking", "text* any*"),
+    ("record", "record r.txt; record off", "note"), ("replay", "replay t.txt", "text"), ("live", "live", "error"), ("compare", "compare k = 0, 0.5; compare off", "note"), ("demo", "demo sticking", "text* any*"),
     ("ask", 'ask "a?" = a within 5 % hint "Hertz"', "value ask"), ("ask", 'ask "Where?" of "here", "there" = 2', "ask"),
     ("help", "help a", "text"), ("apropos", "apropos stick", "text"), ("cite", "cite", "text"),
     ("table", "table dW(F) at rows.csv", "table row* compare"), (None, "a in mm, c/a", "value value"), (None, "Mu = 3", "note"), (None, "foo", "error"),

@@ -275,7 +275,7 @@ def equations(tests):
             ("; k = 0.2, c0 = 1 mm; fit k, E0, c0 for depth = dz(force) to " + name, "the data cannot tell E0 and c0 apart"),
             ("; fit mu for depth = dz(force) to " + name, "the data do not determine mu"),
             ("; fit E0 for dz = dz(60 N) to " + name, "no column of"),
-            ("; fit zeta for depth = dz(force) to " + name, "'zeta' is no input and has no value to start from"),
+            ("; fit zeta for depth = dz(force) to " + name, "'zeta' is no input and has no value"),
             ("; fit E0 for depth = force to " + name, "the left side is a length, the right side is a force")):
         done = tests.run("-c", setup + script)
         tests.check("fit says: " + want, done.returncode == 1 and want in done.stderr, tests.report(done))
