@@ -113,7 +113,9 @@ static void follow_compared(live *l) {
         side *s = &l->side[i];
         char to_text[40];
         live_amount((double)to->with[i], to->by.d, to_text, sizeof to_text);
-        snprintf(s->title, sizeof s->title, to->on ? "%s = %s" : "", to->by.text, to_text);
+        s->title[0] = 0;
+        if (to->on)
+            snprintf(s->title, sizeof s->title, "%s = %s", to->by.text, to_text);
         way_end(&s->way);
     }
 }
