@@ -688,8 +688,8 @@ const command commands[] = {
      .keywords = "side by side two scenes live",
      .takes = "INPUT = VALUES | off",
      .summary = "two scenes on the screen of live, moved by the same hand",
-     .help = "`live` shows the scene with one value of INPUT and beside it with the other. What\n"
-             "is done there is done to both. The scene keeps its own value.\n\n"
+     .help = "`live` shows the scene with one value of INPUT, and beside it with the other.\n"
+             "What is done there is done to both. The scene keeps its own value.\n\n"
              "    fret> compare k = -0.5, 0.5\n"
              "    note: live shows both; compare off ends it\n"
              "    fret> compare off\n"},
