@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "help/explain_page.h"
-#include "help/topics.h"
+#include "help/texts.h"
 #include "language/trial.h"
 #include "number/array.h"
 #include "statement/command.h"

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "help/texts.h"
 #include "language/expr.h"
 #include "statement/scripts.h"
 #include "text/characters.h"
@@ -157,20 +158,6 @@ static void paper(FILE *to) {
 
 /* ---- lessons ----------------------------------------------------------------------------------- */
 
-static const char lessons_text[] =
-    "A lesson is a text file: its title, then lines of words that begin with `#`, and\n"
-    "statements. A key leads from the words to the statements behind them, which are\n"
-    "shown with their answers; of `ask` the question alone is shown.\n\n"
-    "    ask \"TEXT\" = EXPR within 5 % hint \"TEXT\"    the answer is a value\n"
-    "    ask \"TEXT\" of \"A\", \"B\" = 2 hint \"TEXT\"    it is the second of these\n\n"
-    "A lesson begins without a scene. EXPR is evaluated where the question stands. A\n"
-    "statement that is meant to fail ends in `# refused`. A transcript with a title\n"
-    "above it is a lesson too: what follows its prompts counts, answers do not.\n\n"
-    "    demo ./FILE                a name with a `.` or a `/`. Mistakes are told line\n"
-    "                               by line, and a lesson that has some is not played\n"
-    "    demo ./FILE to FILE.html   a handout of it; in the sources `make handouts`\n"
-    "                               makes those of all lessons here\n";
-
 /* What is said of the paper, to the end of the step. */
 static void paper_line(FILE *to, const script *s) {
     static const char word[] = "# The paper:";
@@ -211,163 +198,6 @@ static void teaching(FILE *to) {
 }
 
 /* ---- the table --------------------------------------------------------------------------------- */
-
-static const char expressions_text[] =
-    "+ - * / ^ ( ) bind as usual; -2^2 is -4. Every value has a dimension, and a\n"
-    "mismatch is an error that names both.\n\n"
-    "    NAME = EXPR, ...       sets inputs or names of your own, now\n"
-    "    NAME := EXPR           a live definition: evaluated wherever NAME is used\n"
-    "    NAME(X, ...) := EXPR   a function of your own\n"
-    "    EXPR in UNIT           the value in that unit\n"
-    "    EXPR at NAME = EXPR    the value in the scene with that input changed;\n"
-    "                           along a load, at the same instant of it\n"
-    "    (integral EXPR for x = LO .. HI)   over a free name or an input; ends where EXPR\n"
-    "                           is infinite do no harm if the integral is finite\n"
-    "    (maximum EXPR along cycle), (minimum EXPR along program), (maximum EXPR for\n"
-    "        x = LO .. HI)      the largest, the smallest, also between points\n"
-    "    ans                    the last value printed\n\n"
-    "`;` parts the statements of a line. `#` begins a comment, but not within a word\n"
-    "such as a#b.csv. A line goes on after `\\`.\n\n";
-
-static const char scripts_text[] =
-    "    fret FILE ...          runs scripts; so do fret -f FILE and a pipe\n"
-    "    fret -c 'STATEMENTS'   runs these\n"
-    "    source FILE            runs a script from the prompt or from a script\n"
-    "    fret --replay FILE     runs what follows each `fret> ` of a transcript and\n"
-    "                           compares the answers: a transcript is a test\n"
-    "    fret --part I/N ...    a share of the rows of its table, as CSV or JSON: by N\n"
-    "                           machines, and put together by cat\n\n"
-    "A script stops at its first error, told as FILE:LINE:COLUMN, with exit status 1;\n"
-    "--keep-going goes on. A wrong option exits with 2, an interrupt with 130.\n\n"
-    "At a terminal the statements of $XDG_CONFIG_HOME/fret/fretrc, else of\n"
-    "~/.config/fret/fretrc, run before the first prompt, such as `set digits 8`;\n"
-    "--no-rc leaves them out.\n\n"
-    "    save FILE              the scene as a script that makes it again\n"
-    "    save history FILE      the lines typed in this session\n"
-    "    record FILE            from here on a transcript, until record off\n"
-    "    replay FILE            runs a transcript beside the session\n\n"
-    "A copy of a terminal is a transcript, too. What depends on who types, on the\n"
-    "terminal or on the clock (reports, pictures, times) may be there or not.\n";
-
-static const char files_text[] =
-    "Read, by `follow`, `fit`, `loop`, `table at`, `plot over` and `geometry file`\n"
-    "alike: tables as people, spreadsheets, instruments and programs write them. The\n"
-    "rows are lines with numbers in the same columns, the header is the last line of\n"
-    "names above them: a preamble of any length, a footer, labels between the rows\n"
-    "and `#` comments do not matter. Units stand behind the names, `dx [um]`,\n"
-    "`dx (um)`, `dx/um`, `dx in um`, `dx_um`, or all in a line below them.\n"
-    "Semicolons, tabs, commas or blanks part the columns; where it is no comma, a\n"
-    "comma within a number is a decimal one. `1.500` in a file with `950,5` is\n"
-    "refused: it may be 1.5 or 1500. UTF-8, UTF-16, Windows-1252 and, where the\n"
-    "system knows it, Shift-JIS are told by their bytes.\n\n"
-    "Columns are found by name; one that has another name by its dimension, where it\n"
-    "is the only one; else `using` tells: `using dx=Weg, Fx=\"Load On Sample\"`, or by\n"
-    "number, with a unit where the file has none: `using dx=1 um, Fx=2 N`. Rows\n"
-    "without a value (empty, NaN, No Data, #DIV/0!) in a column that is used are\n"
-    "left out. A note tells what was understood. A normal force that is negative\n"
-    "throughout is compression; an Fx that falls where dx grows is turned, but not\n"
-    "by `follow`.\n\n"
-    "`geometry file GAP.csv` wants r and f, of two other lengths the first is r;\n"
-    "`height` says that f = -z. `follow LOAD.csv` wants FN and Fx, or dz and dx; dx\n"
-    "and Fx: then dx drives at constant FN, and how far Fx is from the computed one\n"
-    "is told (rms).\n\n"
-    "A measured profile is noisy, and a contact on its bumps is no disc. `geometry\n"
-    "file GAP.csv smooth` takes the cubic spline nearest to the rows (least squares)\n"
-    "that begins with f = 0 and f' = 0: `smooth 8` of 8 pieces, `smooth 0.1 um` of\n"
-    "as few as come within that misfit (rms), `smooth` alone of as many as predict\n"
-    "left out rows best (generalised cross-validation). The misfit is told, and the\n"
-    "height at r = 0 that is taken off. Rows may then be in any order and on both\n"
-    "sides: the apex is found where one side mirrors the other, a tilt is taken off,\n"
-    "both are told. Where noise would make it fall it is the nearest convex profile;\n"
-    "one that falls by more than noise is refused.\n\n"
-    "Written: `history to FILE`, `table ... to FILE`. FILE.csv is in SI or the units\n"
-    "asked for, FILE.json has an object a line in SI, the first with the units of\n"
-    "the columns, FILE.txt and FILE.dat are as shown, with blank lines between\n"
-    "curves. `plot ... to FILE`: the ending tells the kind of picture. A file is\n"
-    "written whole or not at all; that one was there before is said. ~ is the home\n"
-    "directory; a name with blanks goes into quotation marks.\n\n"
-    "`plot ... over FILE.csv` lays points on top: columns with the names of the\n"
-    "axes, else the only one of the dimension without the name of another quantity.\n"
-    "`animate ... to FILE.gif` writes a moving picture.\n\n"
-    "What is typed at the prompt is kept in $XDG_STATE_HOME/fret/history, else in\n"
-    "~/.local/state/fret/history, for you alone to read.\n";
-
-static const char theory_text[] =
-    "Two bodies, pressed together with F_N and pushed sideways with F_x, touch in a\n"
-    "disc of radius a. Its rim slips, its middle r < c sticks: partial slip. At\n"
-    "F_x = mu F_N all of it slips: gross slip. A cycle of F_x dissipates dW, the area\n"
-    "of the hysteresis loop.\n\n"
-    "The modulus grows or falls with depth, E(z) = E0 (z/c0)^k. The method of\n"
-    "dimensionality reduction (MDR) replaces the bodies by independent springs of\n"
-    "stiffness c_N(x) and c_T(x) under the profile g(x), exactly within the theory\n"
-    "of Cattaneo and Mindlin. In the depth y = g(x), k and the shape vanish from the\n"
-    "rule of stick and slip: the memory diagram follows any history of F_N and F_x\n"
-    "without discretisation. `help paper` lists the equations, `explain NAME` puts\n"
-    "numbers in.\n";
-
-const char coupling_text[] =
-    "The theory neglects what couples normal and tangential contact. That is exact\n"
-    "for equal bodies, for nu = 1/(2+k), and without friction. Else a warning, where\n"
-    "something tangential is asked, tells the mismatch: how far a pressure displaces\n"
-    "the two surfaces sideways against each other, as a part of how far it presses\n"
-    "them in; 0: not at all; for k = 0 it is Dundurs' second constant. What it costs,\n"
-    "for steel on aluminium (0.117, k = 0): a coupled solution gave 1.39, 1.05, 1.03,\n"
-    "1.02 and 1.01 times the dW of here in the first five cycles: the first is badly\n"
-    "off, then the contact shakes down. While it is pressed, k = 0: where friction\n"
-    "holds all of it, kn at a radius is artanh(beta)/beta times that of here, with\n"
-    "beta the mismatch (Spence 1968), and between the two where some slips. For other\n"
-    "k the size is not known.\n";
-
-static const char cracking_text[] =
-    "Cracks begin where the surface is pulled and where it slips. Indicators of both\n"
-    "are definitions over the last cycle, along the line y = 0 of the surface:\n\n"
-    "    Sxx(x) := (maximum sxx(x, 0 m, 0 m) along cycle)     the largest tension\n"
-    "    Ruiz1(x) := (maximum qx(abs(x))*slip(abs(x)) along cycle)\n"
-    "    Ruiz2(x) := Sxx(x)*Ruiz1(x)\n"
-    "    SWT(x) := Sxx(x)*(Sxx(x) - (minimum sxx(x, 0 m, 0 m) along cycle))/(2*E0)\n\n"
-    "Ruiz' parameters (Ruiz, Boddington, Chen, Exp. Mech. 24, 1984) are friction's\n"
-    "traction times slip, and that times tension; they rank places and scenes of one\n"
-    "material, and are no strength. Smith, Watson and Topper's (J. Mater. 5, 1970) is\n"
-    "the largest stress times the amplitude of strain, here of sxx/E0 alone, that of\n"
-    "a bar: other planes, and how stress falls off below, it does not know.\n"
-    "`maximize Sxx(x) over x = -1.5*a .. 1.5*a` tells the place.\n\n"
-    "Stress inside: with the line loads q_z = qz1D(t), q_x = qx1D(t) on the imaginary\n"
-    "axis, zeta = z + i t, rho^2 = x^2+y^2+zeta^2, V = 1/rho, L = ln(rho+zeta),\n"
-    "chi = zeta L - rho, and subscripts for derivatives,\n\n"
-    "    P_xx = 2nu V_zeta - (1-2nu) L_xx - z V_xx, P_yy alike\n"
-    "    P_zz = V_zeta - z V_zeta,zeta, P_xy = -(1-2nu) L_xy - z V_xy\n"
-    "    P_xz = -z V_x,zeta, P_yz = -z V_y,zeta\n"
-    "    Q_xx = 2(1+nu) V_x + 2nu chi_xxx - z L_xxx\n"
-    "    Q_yy = 2nu V_x + 2nu chi_xyy - z L_xyy, Q_zz = -z V_x,zeta\n"
-    "    Q_xy = V_y + 2nu chi_xxy - z L_xxy\n"
-    "    Q_xz = V_zeta - z V_xx, Q_yz = -z V_xy\n\n"
-    "of Boussinesq's and Cerruti's point loads, to 1e-12 of p0, and 1e-6 after FN has\n"
-    "swung. x is along Fx, z > 0 in the first body, z < 0 in the second; tension is\n"
-    "positive. All for k = 0 and as long as it is elastic: after `yield = 500 MPa` a\n"
-    "note tells where mises exceeds it. slip(r) is the mean over the angle.\n";
-
-static const char limits_text[] =
-    "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
-    "0.4 % of dW in a comparison with boundary elements.\n\n"
-    "    -1 < k < 1, -1 < nu <= 1/2; both bodies share k and c0\n"
-    "    bodies are half-spaces: a warning where a > 0.3 R (of R1 and R2 the smaller one) or\n"
-    "        a slope exceeds 20 deg\n"
-    "    the contact is a disc: g(x) must not fall\n"
-    "    quasi-static, no adhesion, one coefficient of friction\n"
-    "    slip and friction's work at a radius are means over the angle, along F_x\n\n"
-    "`accuracy` tells the numerical error of every model in your scene, `explain`\n"
-    "that of an answer, and `explain EXPR conditioning` what the last digit of each\n"
-    "input does to it.\n";
-
-static const char prompt_text[] =
-    "    Tab            completes: commands, arguments, units, names, files\n"
-    "    Up, Ctrl-R     earlier lines, of earlier sessions too\n"
-    "    Ctrl-C         drops the line, or stops what runs; the scene stays\n"
-    "    Ctrl-D         leaves\n"
-    "    ?WORD          the same as help WORD\n"
-    "    !COMMAND       runs a command of the system's shell\n\n"
-    "Pasted lines run one after the other, their prompts are taken off. Keys are\n"
-    "those of readline; in ~/.inputrc `$if fret` begins what is for this program.\n";
 
 static void limits(FILE *to) {
     fputs(coupling_text, to);
@@ -498,6 +328,34 @@ static const topic topics[] = {
      .example = "    fret> material E0=210 GPa nu=0.3; geometry sphere R=10 mm\n"
                 "    fret> kappa\n"
                 "    kappa = 2\n"},
+    {.name = "damper",
+     .summary = "asked backwards: the friction damper of a turbine blade",
+     .keywords = "blade optimum preload design damping uncertainty vibration",
+     .text = damper_text,
+     .example = "    fret> material E0=114 GPa nu=0.34 k=0.2 c0=0.1 mm\n"
+                "    fret> geometry sphere R=20 mm; friction 0.35; press FN=200 N\n"
+                "    fret> dxmax, dWd(1 um), loss_factor(1 um)\n"
+                "    dxmax = 3.05041 um\n"
+                "    dWd(1 um) = 5.1833 uJ\n"
+                "    loss_factor(1 um) = 0.0500898\n"
+                "    fret> maximize dWd(1 um) over FN = 1 N .. 400 N\n"
+                "    FN = 23.4964 N\n"
+                "    dWd(1 um) = 12.6519 uJ\n"
+                "    fret> FN = 25 N\n"
+                "    fret> dWd(1 um), Kp(1 um), loss_factor(1 um)\n"
+                "    dWd(1 um) = 12.6102 uJ\n"
+                "    Kp(1 um) = 8.90877 MN/m\n"
+                "    loss_factor(1 um) = 0.45056\n"
+                "    fret> uncertainty dWd(1 um) with mu +- 0.05, E0 +- 10 %, FN +- 10 %\n"
+                "    dWd(1 um) = 12.6102 uJ +- 1.98 uJ\n"
+                "        from mu 49.7 %, E0 49.8 %, FN 0.487 %\n"
+                "        Monte Carlo = 12.0474 uJ +- 1.96 uJ\n"
+                "    fret> solve mu for dWd(1 um) = 12 uJ from 0.05 to 0.3\n"
+                "    mu = 0.177743\n"
+                "    fret> export jenkins 6 to damper.h\n"
+                "    wrote damper.h (824 B)\n"
+                "    error of dW = 40.039 nJ\n"
+                "    relative = 0.00596088\n"},
     {.name = "cracking",
      .summary = "tension and slip over a cycle: where cracks may begin",
      .keywords = "crack fatigue fretting Ruiz SWT Smith Watson Topper tension yield stress tensor",
@@ -510,6 +368,27 @@ static const topic topics[] = {
                 "    fret> Ruiz(x) := (maximum qx(abs(x))*slip(abs(x)) along cycle)\n"
                 "    fret> Ruiz(0.9*a)\n"
                 "    Ruiz(0.9*a) = 14.9162 N/m\n"},
+    {.name = "parts",
+     .summary = "one study in shares, over many cores or machines",
+     .keywords = "parallel cluster SLURM --part share array job uncertainty samples",
+     .text = parts_text,
+     .example = "    $ fret --format=csv --part 2/3 -c 'table x^2 for x = 1 .. 3 steps 2'\n"
+                "    2,4\n"},
+    {.name = "programs",
+     .summary = "from C, C++, Python, other programs, dynamics codes",
+     .keywords = "library libfret embed numpy JSON CSV harmonic balance Jenkins export oscillator",
+     .text = programs_text,
+     .example =
+         "    $ fret --format=json -c 'material steel; geometry sphere R=10 mm; press FN=100 N; a'\n"
+         "    {\"event\":\"press\",\"FN\":100,\"a\":0.00018662555784086242,\"dz\":3.4829098839413082e-06}\n"
+         "    {\"name\":\"a\",\"value\":0.00018662555784086242,\"unit\":\"m\"}\n"},
+    {.name = "exactness",
+     .summary = "how exact the numbers are, and how that is known",
+     .keywords = "accuracy error digits ulp precision verification published boundary elements speed",
+     .text = exactness_text,
+     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+                "    fret> set digits 15; a\n"
+                "    a = 186.625557840862 um\n"},
     {.name = "limits",
      .summary = "what the theory leaves out",
      .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",

@@ -24,9 +24,6 @@ void help_units(FILE *to);
 /* How to cite the paper and the program, as text and as BibTeX. */
 void help_cite(FILE *to);
 
-/* What is left out where the bodies are dissimilar, and what that costs. */
-extern const char coupling_text[];
-
 /* Help on a model: a text by its number in models[]. */
 const char *model_text(size_t id);
 

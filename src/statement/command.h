@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one table of commands: dispatch, arguments, usage, help, apropos, completion, man page and README's
- * list derive from it. */
+/* The one table of commands: dispatch, arguments, usage, help, apropos, completion and man page derive from
+ * it. */
 #ifndef STATEMENT_COMMAND_H
 #define STATEMENT_COMMAND_H
 

@@ -133,11 +133,11 @@ exec "$FRET" "$@"
 
 
 def by_others(tests):
-    """As README has it: under GNU parallel, and as a SLURM array."""
+    """Under GNU parallel as README has it, and as a SLURM array as help has it."""
     with open(os.path.join(harness.ROOT, "README.md"), encoding="utf-8") as f:
         readme = f.read()
     parallel = re.search(r"^    (seq 8 \| parallel .*)$", readme, re.M).group(1)
-    array = re.search(r"^    #!/bin/sh\n    #SBATCH --array=1-64\n    (fret .*)\n\n    (cat .*)$", readme, re.M)
+    array = re.search(r"^    #!/bin/sh\n    #SBATCH --array=1-64\n((?:    .*\n)+)\n.*\n\n    (cat .*)$", tests.run("-c", "help parts").stdout, re.M)
     bin = os.path.join(tests.dir, "bin")
     os.mkdir(bin)
     with open(os.path.join(bin, "fret"), "w", encoding="ascii") as f:

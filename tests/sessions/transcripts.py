@@ -73,7 +73,3 @@ def readme(tests):
                 done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd=tests.dir,
                                       env={**tests.env, "PATH": path}, timeout=60)
                 tests.same("%s: %s" % (name, command), want, done.stdout + done.stderr)
-    with open(os.path.join(harness.ROOT, "README.md"), encoding="utf-8") as f:
-        listed = set(re.findall(r"`(\w+)`", f.read().partition("## Commands")[2].partition("\n## ")[0]))
-    for command in command_names(tests):
-        tests.check("README.md names " + command, command in listed or command == "exit", str(sorted(listed)))
