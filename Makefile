@@ -272,7 +272,7 @@ uninstall:
 		$(SHARE)/bash-completion/completions/fret $(addprefix $(DESTDIR)$(PREFIX)/,$(HEADERS))
 	if [ -d $(DESTDIR)$(PREFIX)/include/fret ]; then rmdir $(DESTDIR)$(PREFIX)/include/fret; fi
 
-# Both commands of the head, and every compiler, in clean systems of the Debians that README names. For root, with
+# Both commands of the head, and every compiler, in clean systems of Debian. For root, with
 # debootstrap: an hour.
 CHROOTS ?= $(B)/chroots
 chroots:

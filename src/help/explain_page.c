@@ -267,7 +267,7 @@ void explain_error(const page *p, double good, const char *of) {
     say_error(p, round_up(good), of);
 }
 
-/* What the value is good to, as README says under `How exact`. */
+/* What the value is good to, as `help exactness` says. */
 static void put_error(const page *p, const quantity *q, bool call, model_id model, double sine) {
     const scene *s = p->sh->calc.now;
     const bool power = !s->in.geometry || s->in.geometry->power, local = is_local(q, call);

@@ -99,7 +99,7 @@ def describe(want, got):
 
 
 def alike(form, want, got):
-    """Of differences (Fx) as much of what they are differences of; of local fields, near an edge, what README promises."""
+    """Of differences (Fx) as much of what they are differences of; of local fields, near an edge, what `help exactness` promises."""
     if want == got or form == "text" or NUMBER.sub("#", want) != NUMBER.sub("#", got):
         return want == got
     for w, g in zip(want.splitlines(), got.splitlines()):
