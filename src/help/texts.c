@@ -39,15 +39,14 @@ const char scripts_text[] =
     "A copy of a terminal is a transcript, too. What depends on who types, on the\n"
     "terminal or on the clock (reports, pictures, times) may be there or not.\n";
 
-const char prompt_text[] =
-    "    Tab            completes: commands, arguments, units, names, files\n"
-    "    Up, Ctrl-R     earlier lines, of earlier sessions too\n"
-    "    Ctrl-C         drops the line, or stops what runs; the scene stays\n"
-    "    Ctrl-D         leaves\n"
-    "    ?WORD          the same as help WORD\n"
-    "    !COMMAND       runs a command of the system's shell\n\n"
-    "Pasted lines run one after the other, their prompts are taken off. Keys are\n"
-    "those of readline; in ~/.inputrc `$if fret` begins what is for this program.\n";
+const char prompt_text[] = "    Tab            completes: commands, arguments, units, names, files\n"
+                           "    Up, Ctrl-R     earlier lines, of earlier sessions too\n"
+                           "    Ctrl-C         drops the line, or stops what runs; the scene stays\n"
+                           "    Ctrl-D         leaves\n"
+                           "    ?WORD          the same as help WORD\n"
+                           "    !COMMAND       runs a command of the system's shell\n\n"
+                           "Pasted lines run one after the other, their prompts are taken off. Keys are\n"
+                           "those of readline; in ~/.inputrc `$if fret` begins what is for this program.\n";
 
 const char files_text[] =
     "Read, by `follow`, `fit`, `loop`, `table at`, `plot over` and `geometry file`\n"
@@ -214,37 +213,35 @@ const char cracking_text[] =
     "positive. All for k = 0 and as long as it is elastic: after `yield = 500 MPa` a\n"
     "note tells where mises exceeds it. slip(r) is the mean over the angle.\n";
 
-const char damper_text[] =
-    "A coated pad of titanium lies under the platform of a turbine blade that\n"
-    "vibrates with 1 um. How much does it damp, which preload would be best, how\n"
-    "sure is that, and what does the dynamics code get? Below, most of the pad\n"
-    "sticks at 200 N; at 25 N it slides and damps more than twice as much, and a\n"
-    "little more or less preload hardly matters, while mu and the modulus of the\n"
-    "coating do. Where first order misleads, as close to an optimum, a Monte Carlo\n"
-    "stands beside it. damper.h is a C table of springs in line with sliders whose\n"
-    "energy per cycle errs by no more than stated, at any amplitude. Questions leave\n"
-    "the scene as it is.\n";
+const char damper_text[] = "A coated pad of titanium lies under the platform of a turbine blade that\n"
+                           "vibrates with 1 um. How much does it damp, which preload would be best, how\n"
+                           "sure is that, and what does the dynamics code get? Below, most of the pad\n"
+                           "sticks at 200 N; at 25 N it slides and damps more than twice as much, and a\n"
+                           "little more or less preload hardly matters, while mu and the modulus of the\n"
+                           "coating do. Where first order misleads, as close to an optimum, a Monte Carlo\n"
+                           "stands beside it. damper.h is a C table of springs in line with sliders whose\n"
+                           "energy per cycle errs by no more than stated, at any amplitude. Questions leave\n"
+                           "the scene as it is.\n";
 
-const char parts_text[] =
-    "A study over many machines: `fret --part I/N` does share I = 1 .. N of the rows\n"
-    "of the `table` of a script, of one name or two, or of the samples of its\n"
-    "`uncertainty`, as CSV or JSON. What a script says before the rows is in the\n"
-    "first share, what it says after them in the last: `cat` of all shares is what\n"
-    "the whole run writes, whatever N, to the last digit. Under GNU parallel, eight\n"
-    "shares on as many cores, one that fails run again:\n\n"
-    "    seq 8 | parallel -k --retries 3 \\\n"
-    "        fret --format=csv --part {}/8 study.fret > rows.csv\n\n"
-    "and as a SLURM array, one that has failed run again by `sbatch --array=17\n"
-    "study.sh`:\n\n"
-    "    #!/bin/sh\n"
-    "    #SBATCH --array=1-64\n"
-    "    I=$SLURM_ARRAY_TASK_ID\n"
-    "    fret --format=csv --part $I/64 study.fret > rows.$I\n\n"
-    "whose shares are put together by\n\n"
-    "    cat $(ls -v rows.*) > rows.csv\n\n"
-    "Samples are drawn in shares by the same question that sums them up:\n"
-    "`uncertainty dWd(1 um) with mu +- 5 % samples 1000000` in study.fret, and then,\n"
-    "without --part, the same with `from rows.csv` behind it.\n";
+const char parts_text[] = "A study over many machines: `fret --part I/N` does share I = 1 .. N of the rows\n"
+                          "of the `table` of a script, of one name or two, or of the samples of its\n"
+                          "`uncertainty`, as CSV or JSON. What a script says before the rows is in the\n"
+                          "first share, what it says after them in the last: `cat` of all shares is what\n"
+                          "the whole run writes, whatever N, to the last digit. Under GNU parallel, eight\n"
+                          "shares on as many cores, one that fails run again:\n\n"
+                          "    seq 8 | parallel -k --retries 3 \\\n"
+                          "        fret --format=csv --part {}/8 study.fret > rows.csv\n\n"
+                          "and as a SLURM array, one that has failed run again by `sbatch --array=17\n"
+                          "study.sh`:\n\n"
+                          "    #!/bin/sh\n"
+                          "    #SBATCH --array=1-64\n"
+                          "    I=$SLURM_ARRAY_TASK_ID\n"
+                          "    fret --format=csv --part $I/64 study.fret > rows.$I\n\n"
+                          "whose shares are put together by\n\n"
+                          "    cat $(ls -v rows.*) > rows.csv\n\n"
+                          "Samples are drawn in shares by the same question that sums them up:\n"
+                          "`uncertainty dWd(1 um) with mu +- 5 % samples 1000000` in study.fret, and then,\n"
+                          "without --part, the same with `from rows.csv` behind it.\n";
 
 const char programs_text[] =
     "From C and C++: libfret is the mechanics alone, without text or units, for use\n"

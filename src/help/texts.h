@@ -3,6 +3,8 @@
 #ifndef HELP_TEXTS_H
 #define HELP_TEXTS_H
 
-extern const char expressions_text[], scripts_text[], prompt_text[], files_text[], lessons_text[], theory_text[], coupling_text[], limits_text[], exactness_text[], cracking_text[], damper_text[], parts_text[], programs_text[];
+extern const char expressions_text[], scripts_text[], prompt_text[], files_text[], lessons_text[],
+    theory_text[], coupling_text[], limits_text[], exactness_text[], cracking_text[], damper_text[],
+    parts_text[], programs_text[];
 
 #endif

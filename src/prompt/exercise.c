@@ -192,7 +192,7 @@ static void take_guesses(exercise *x) {
     printf(SAYS "%s%s, or Enter for the answer\n", x->choices ? "a number" : "a value",
            x->hint ? ", ? for a hint" : "");
     while (more && !shell_stop) {
-        char *line = prompt_line("guess> ");
+        char *line = prompt_line("guess> ", false);
         more = line && !shell_stop && take_guess(x, line + strspn(line, " \t"));
         free(line);
     }

@@ -23,45 +23,15 @@ static void read_startup(shell *sh) {
 
 /* ---- lines ------------------------------------------------------------------------------------- */
 
-/* Takes prompts off the lines of a paste; where some begin with one the others are answers, and left out,
- * unless they continue a line. */
-static void take_paste(shell *sh, char *text, bool continued) {
-    size_t dropped = 0, n;
-    bool transcript = false;
-    for (char *line = text; *line; line += n + (line[n] == '\n')) {
-        n = strcspn(line, "\n");
-        transcript = transcript || (begins_with_prompt(line, n) && strchr(text, '\n'));
-    }
-    char *to = text, *next = text;
-    for (bool more = true; more;) {
-        const char *line = next;
-        size_t left = n = strcspn(line, "\n");
-        more = line[n] && line[n + 1];
-        next += n + 1;
-        const char *typed = strip_prompt(line, &left);
-        if (typed == line && transcript && !continued) {
-            dropped += left > 0;
-            continue;
-        }
-        continued = shell_mark(typed, left) < left;
-        memmove(to, typed, left);
-        to += left;
-        *to++ = '\n';
-    }
-    to[-1] = 0;
-    if (dropped > 0)
-        shell_say(sh, PASTED "%zu line%s without a prompt taken for answers", dropped,
-                  dropped == 1 ? "" : "s");
-}
-
 static char *ask(void *self, bool continued) {
-    char *text = prompt_line(continued ? "....> " : "fret> ");
+    char *text = prompt_line(continued ? "....> " : "fret> ", continued);
+    (void)self;
     if (text && shell_stop) {
         free(text);
         text = NULL;
     }
     if (text)
-        take_paste(self, text, continued);
+        paste_lines(text, continued);
     return text;
 }
 
@@ -131,7 +101,7 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
         else if (got == FILE_GOT_ERROR)
             shell_error(sh, error.text);
         if (got != FILE_GOT_LINE || shell_stop) /* Ctrl-C drops the line, and what was pasted behind it */
-            file_in_drop(&in);
+            prompt_drop();
     }
     file_in_close(&in);
     fflush(sh->out);

@@ -8,8 +8,11 @@
 /* Once, before the first line; sh is what completion looks at, and what tells why no history is kept. */
 void prompt_begin(shell *sh);
 /* What has been typed, without its end, to be freed; NULL at the end of input and after Ctrl-C (shell_stop).
- * A paste may hold several lines. The terminal is at the beginning of a line then. */
-char *prompt_line(const char *text);
+ * The lines of a paste come one by one, each at a prompt of its own; the last waits for Enter. continued: it
+ * goes on with the line before. The terminal is at the beginning of a line then. */
+char *prompt_line(const char *text, bool continued);
+/* The lines of a paste that are still to come go. */
+void prompt_drop(void);
 /* Remembers a line for the user to recall, unless it is very long; one that holds line ends as one line. */
 void prompt_keep(const char *line);
 

@@ -8,7 +8,8 @@ void prompt_begin(shell *sh) {
     (void)sh;
 }
 
-char *prompt_line(const char *text) {
+char *prompt_line(const char *text, bool continued) {
+    (void)continued;
     char *line = NULL;
     size_t room = 0;
     fputs(text, stdout);
@@ -27,4 +28,7 @@ char *prompt_line(const char *text) {
 
 void prompt_keep(const char *line) {
     (void)line;
+}
+
+void prompt_drop(void) {
 }

@@ -16,6 +16,7 @@
 
 #include "help/complete.h"
 #include "prompt/prompt.h"
+#include "text/lines.h"
 
 /* readline's callbacks carry no context */
 static shell *completing;
@@ -81,12 +82,46 @@ static int nothing_more(void) {
     return pasting ? end[ending++ % (sizeof end - 1)] : EOF;
 }
 
+/* Lines of a paste that are still to come, each at a prompt of its own, so that the screen holds a session as
+ * if it had been typed; the last is left to be edited. */
+static char *pasted;
+static size_t pasted_at, left_out; /* answers of a pasted session */
+static bool goes_on;               /* the line being typed, with the one before */
+
+static int next_pasted(void) {
+    if (!pasted)
+        return 0;
+    char *line = pasted + pasted_at;
+    const size_t n = strcspn(line, "\n");
+    const bool more = line[n];
+    line[n] = 0;
+    pasted_at += n + 1;
+    rl_insert_text(line);
+    rl_redisplay();
+    if (more)
+        rl_stuff_char('\r'); /* as if Enter were pressed */
+    else
+        prompt_drop();
+    return 0;
+}
+
+void prompt_drop(void) {
+    free(pasted);
+    pasted = NULL;
+    pasted_at = 0;
+}
+
 static int paste(int count, int key) {
     pasting = true;
     ending = 0;
     const int status = rl_bracketed_paste_begin(count, key);
     pasting = false;
-    return status;
+    if (shell_stop || !strchr(rl_line_buffer, '\n') || !(pasted = strdup(rl_line_buffer)))
+        return status;
+    left_out = paste_lines(pasted, goes_on);
+    rl_replace_line("", 1);
+    rl_point = 0;
+    return next_pasted();
 }
 
 /* readline's own getc restarts after a signal: Ctrl-C would not be seen before the next key. Signals are let
@@ -272,6 +307,7 @@ void prompt_begin(shell *sh) {
     rl_readline_name = "fret"; /* `$if fret` in inputrc */
     rl_getc_function = read_key;
     rl_startup_hook = take_utf8;
+    rl_pre_input_hook = next_pasted;
     rl_bind_keyseq_in_map("\\e[200~", paste, emacs_standard_keymap);
     rl_bind_keyseq_in_map("\\e[200~", paste, vi_insertion_keymap);
     rl_attempted_completion_function = matches;
@@ -286,11 +322,17 @@ void prompt_begin(shell *sh) {
     open_history(sh);
 }
 
-char *prompt_line(const char *text) {
+char *prompt_line(const char *text, bool continued) {
     struct termios modes;
+    if (left_out > 0 && !continued) {
+        shell_say(completing, PASTED "%zu line%s without a prompt taken for answers", left_out,
+                  left_out == 1 ? "" : "s");
+        left_out = 0;
+    }
     tcgetattr(STDIN_FILENO, &modes);
     const int guard = file_guard_terminal(STDIN_FILENO, &modes, shell_escapes() ? "\033[?2004l\r" : "");
     told_stop = false;
+    goes_on = continued;
     take_stops();
     at_work = true;
     char *line = readline(text);

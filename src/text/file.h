@@ -151,8 +151,6 @@ file_got file_in_line(file_in *in, calc_error *error);
 file_got file_in_rest(file_in *in, calc_error *error);
 /* Both: a logical line. */
 file_got file_in_logical(file_in *in, calc_error *error);
-/* Lines that have been typed or pasted are dropped, as far as they have not been read. */
-void file_in_drop(file_in *in);
 
 void file_in_close(file_in *in);
 

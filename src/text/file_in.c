@@ -318,7 +318,3 @@ file_got file_in_logical(file_in *in, calc_error *error) {
     const file_got got = file_in_line(in, error);
     return got == FILE_GOT_LINE ? file_in_rest(in, error) : got;
 }
-
-void file_in_drop(file_in *in) {
-    in->at = in->have;
-}

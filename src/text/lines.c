@@ -83,3 +83,30 @@ size_t shell_mark(const char *line, size_t len) {
         end = shell_statement_end(line, end + 1, n);
     return end == n ? n - 1 : len; /* else it is within a comment */
 }
+
+size_t paste_lines(char *text, bool continued) {
+    size_t dropped = 0, n;
+    bool transcript = false;
+    for (char *line = text; *line; line += n + (line[n] == '\n')) {
+        n = strcspn(line, "\n");
+        transcript = transcript || (begins_with_prompt(line, n) && strchr(text, '\n'));
+    }
+    char *to = text, *next = text;
+    for (bool more = true; more;) {
+        const char *line = next;
+        size_t left = n = strcspn(line, "\n");
+        more = line[n] && line[n + 1];
+        next += n + 1;
+        const char *typed = strip_prompt(line, &left);
+        if (typed == line && transcript && !continued) {
+            dropped += left > 0;
+            continue;
+        }
+        continued = shell_mark(typed, left) < left;
+        memmove(to, typed, left);
+        to += left;
+        *to++ = '\n';
+    }
+    to[-1] = 0;
+    return dropped;
+}

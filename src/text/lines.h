@@ -12,6 +12,10 @@
 const char *strip_prompt(const char *line, size_t *len);
 bool begins_with_prompt(const char *line, size_t len);
 
+/* Takes prompts off the lines of a paste; where some begin with one the others are answers, and left out,
+ * unless they continue a line, the first one that before it. Returns how many are left out. */
+size_t paste_lines(char *text, bool continued);
+
 /* Where the mark is that lets the line go on, or its length where there is none. */
 size_t shell_mark(const char *line, size_t len);
 /* End of the statement that begins at i: a `;`, a comment or the end of the line. */

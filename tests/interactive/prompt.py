@@ -292,6 +292,36 @@ def dropped_tall(tests):
     s.end()
 
 
+def copied(tests):
+    """Pastes of several lines stand as if they had been typed: a copy of the terminal replays. Ctrl-C drops what is still to come."""
+    s = Session(tests, dimensions=(40, 100))
+    screen = Screen(40, 100)
+    screen.feed(PROMPT)
+    s.child.logfile_read = shown = io.StringIO()
+    for pasted, last in (("material steel; geometry sphere R=10 mm\n# a comment\n\npress FN=100 N\nfoo\na in mm", "a = 0.186626 mm"),
+                         ("fret> friction \\\n....> 0.4\nfret> dW(20 N)\ndW(20 N) = 1 J\nfret> mu\n", "mu = 0.4")):
+        s.child.send("\x1b[200~" + pasted + "\x1b[201~\r")
+        s.child.expect_exact(last)
+        s.prompt()
+    s.child.send("x = 1; x\x1b[D\x1b[D\x1b[200~y = 2\ny; \x1b[201~")
+    s.child.expect_exact("fret> y;  x")
+    s.child.send("\r")
+    s.child.expect_exact("x = 1")
+    s.prompt()
+    screen.feed(shown.getvalue())
+    with tests.file(screen.text(), ".txt") as copy:
+        done = tests.run("--replay", copy)
+    tests.check("a copy with pastes replays", done.stdout.endswith(": 12 passed, 0 failed\n"), tests.report(done) + screen.text())
+    s.child.send("\x1b[200~z = 1\ntable sin(x) for x = 0 .. 1 steps 99999999 to /dev/null\nz = 2\n\x1b[201~")
+    s.child.expect_exact("table sin(x)")
+    s.child.expect_exact("Ctrl-C stops it")
+    s.child.sendintr()
+    s.prompt()
+    tests.check("an interrupt drops the rest of a paste", s.say("z") == "z = 1", clean(s.child.before))
+    s.child.sendeof()
+    s.end()
+
+
 def starting(tests):
     s = Session(tests, "--quiet")
     tests.check("--quiet", s.banner.strip() == "", s.banner)
@@ -662,4 +692,4 @@ def letters(tests):
 
 
 def run(tests):
-    tests.rooms(letters, plain, exercises, kept_lines, odd_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, starting, own, strangers, narrow, figures, sizes, tables, moving)
+    tests.rooms(letters, plain, exercises, kept_lines, odd_lines, stopped, paging, dialogue, interrupts, dropped, dropped_tall, copied, starting, own, strangers, narrow, figures, sizes, tables, moving)
