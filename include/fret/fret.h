@@ -10,6 +10,7 @@
  *   fret/contact.h      any history of both directions: steps, swinging loads, state
  *   fret/field.h        pressure, traction, surface displacement and slip at a radius
  *   fret/work.h         the work of friction at a radius
+ *   fret/wear.h         the gap that cycles of fretting leave
  *   fret/arrays.h       closed forms for many loads at once
  *   fret/springs.h      springs of a cut foundation, to check by
  *   fret/status.h       what went wrong
@@ -50,6 +51,7 @@
 #include "fret/normal.h"
 #include "fret/springs.h"
 #include "fret/status.h"
+#include "fret/wear.h"
 #include "fret/work.h"
 
 /* Of the headers: what is named in them stays until the first number grows. */
