@@ -26,7 +26,7 @@ LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline)
 # what is left out with GSL=no, and without
 BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit branches uncertainty smooth nonnegative)) \
 	src/commands/study_commands.c src/commands/data_commands.c,src/commands/study_none.c)
-CORE  := $(wildcard src/number/*.c src/law/*.c src/history/*.c src/field/*.c src/arrays/*.c)
+CORE  := $(wildcard src/number/*.c src/law/*.c src/history/*.c src/field/*.c src/wear/*.c src/arrays/*.c)
 ABOVE := text scene language study plot statement commands help prompt
 PROG  := $(filter-out src/prompt/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \
 	$(wildcard $(ABOVE:%=src/%/*.c))) \
@@ -121,7 +121,7 @@ $(B)/tests/%: $(B)/tests/unit/%.o $(call OBJ,$(CORE)) $(OUTER)
 $(B)/tests/test_grammar $(B)/tests/test_reader: LIBS_GSL := $(LIBS)
 $(B)/tests/test_grammar $(B)/tests/test_reader: $(call OBJ,$(filter-out src/prompt/main.c,$(PROG))) $(B)/scripts.o
 # their allocations, and some calls, pass through the test
-$(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_calc: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
+$(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_calc $(B)/tests/test_wear: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 $(B)/tests/test_threads: WRAP += -pthread
 $(B)/tests/test_gnuplot: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc waitpid)
 $(B)/tests/test_moments: WRAP = $(addprefix -Wl$(COMMA)--wrap=,expl logl fret_pow fret_table_distance fret_gap_profile)

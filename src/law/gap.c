@@ -381,6 +381,10 @@ bool fret_gap_closed(const fret_gap *gap) {
     return shape_of(gap)->closed;
 }
 
+fret_gap fret_gap_of_table(const struct fret_table *table) {
+    return (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
+}
+
 bool fret_gap_sampled(const fret_gap *gap) {
     return shape_of(gap)->sampled;
 }

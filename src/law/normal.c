@@ -38,28 +38,51 @@ static void make_power(fret_normal *n) {
     n->wide.ln_force = dd_add(dd_add(force, r0), n->wide.ln_depth);
 }
 
+/* The rest of a contact that has its foundation. */
+static fret_status give_shape(fret_normal *n, const fret_gap *gap, const fret_normal *like, fret_stop stop) {
+    const double k = (double)n->foundation.k;
+    fret_status st = fret_gap_check(gap);
+    n->users = 1;
+    n->gap = *gap;
+    n->end = INFINITY;
+    if (st.code)
+        return st;
+    n->stiff = fret_normal_stiffness(n, 1);
+    if (fret_gap_closed(gap)) {
+        make_power(n);
+        return st;
+    }
+    fret_gap_rule(gap, k, &n->rule);
+    n->cells = like ? fret_cells_share(like->cells, gap, k) : NULL;
+    if (!n->cells)
+        st = fret_cells_make(gap, k, stop, &n->cells);
+    n->end = st.code ? 0 : n->cells->end;
+    return st;
+}
+
 fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, const fret_normal *like,
                              fret_stop stop, fret_normal **out) {
     fret_normal *n = calloc(1, sizeof *n);
     if (!n)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    n->users = 1;
-    n->gap = *gap;
-    n->end = INFINITY;
     fret_status st = fret_foundation_make_wide(material, &n->foundation, &n->wide_foundation);
     if (!st.code)
-        st = fret_gap_check(gap);
-    if (!st.code)
-        n->stiff = fret_normal_stiffness(n, 1);
-    if (!st.code && fret_gap_closed(gap)) {
-        make_power(n);
-    } else if (!st.code) {
-        fret_gap_rule(gap, material->k, &n->rule);
-        n->cells = like ? fret_cells_share(like->cells, gap, material->k) : NULL;
-        if (!n->cells)
-            st = fret_cells_make(gap, material->k, stop, &n->cells);
-        n->end = st.code ? 0 : n->cells->end;
-    }
+        st = give_shape(n, gap, like, stop);
+    if (st.code)
+        free(n);
+    else
+        *out = n;
+    return st;
+}
+
+fret_status fret_normal_reshape(const fret_normal *from, const fret_gap *gap, fret_normal **out) {
+    fret_normal *n = calloc(1, sizeof *n);
+    if (!n)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    n->foundation = from->foundation;
+    n->wide_foundation = from->wide_foundation;
+    n->stop = from->stop;
+    const fret_status st = give_shape(n, gap, NULL, from->stop);
     if (st.code)
         free(n);
     else

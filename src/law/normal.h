@@ -50,6 +50,10 @@ static inline fret_status fret_unless_stopped(const fret_normal *n, fret_status 
     return fret_stopped(n) ? (fret_status){FRET_INTERRUPTED, NULL, 0, 0} : st;
 }
 
+/* A contact of the same bodies with another gap; what stops `from` stops it too. Errors as of
+ * fret_normal_make. */
+fret_status fret_normal_reshape(const fret_normal *from, const fret_gap *gap, fret_normal **out);
+
 /* mu and F_N must be positive: FRET_NOT_POSITIVE, FRET_NOT_FINITE. */
 fret_status fret_contact_check(const fret_pressed *contact);
 

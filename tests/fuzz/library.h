@@ -26,6 +26,7 @@ typedef struct world {
     fret_field *field;
     fret_slips *slips;
     fret_work *work;
+    fret_wear *wear;
     fret_sine sine;
     fret_state state;
     fret_real sink[16]; /* where results go */
@@ -55,6 +56,8 @@ static void drop_contacts(world *w) {
     fret_contact_free(w->other_contact);
     fret_slips_free(w->slips);
     fret_work_free(w->work);
+    fret_wear_free(w->wear);
+    w->wear = NULL;
     w->slips = NULL;
     w->work = NULL;
     w->field = NULL;
@@ -264,6 +267,71 @@ CALL(fret_work_free) {
     (void)x;
     fret_work_free(w->work);
     w->work = NULL;
+}
+static bool have_wear(world *w) {
+    return have_normal(w) && (w->wear || known_code(fret_wear_make(w->normal, &w->wear)));
+}
+static fret_wear_held held_of(const double *x) {
+    return (fret_wear_held){x[0] > 0, x[1] > 0, x[2], x[3], x[4], x[5]};
+}
+CALL(fret_wear_make) {
+    (void)x;
+    (void)have_wear(w);
+}
+CALL(fret_wear_copy) {
+    fret_wear *copy;
+    (void)x;
+    if (have_wear(w) && known_code(fret_wear_copy(w->wear, &copy))) {
+        fret_wear_free(w->wear);
+        w->wear = copy;
+    }
+}
+CALL(fret_wear_run) {
+    const fret_wear_held held = held_of(x);
+    if (have_wear(w))
+        (void)known_code(fret_wear_run(w->wear, &held, x[6], 0.1, NULL, NULL));
+}
+CALL(fret_wear_limit) {
+    const fret_wear_held held = held_of(x);
+    fret_wear *limit;
+    if (have_normal(w) && known_code(fret_wear_limit(w->normal, &held, &limit))) {
+        fret_wear_free(w->wear);
+        w->wear = limit;
+    }
+}
+CALL(fret_wear_law) {
+    if (have_wear(w))
+        (void)known_code(fret_press_by_force(fret_wear_law(w->wear), x[0], &w->press));
+    w->pressed.normal = NULL;
+}
+CALL(fret_wear_depth) {
+    if (have_wear(w))
+        (void)known_code(fret_wear_depth(w->wear, x[0], w->sink));
+}
+CALL(fret_wear_ring) {
+    (void)x;
+    if (have_wear(w))
+        fret_wear_ring(w->wear, w->sink, w->sink + 1);
+}
+CALL(fret_wear_volume) {
+    (void)x;
+    if (have_wear(w))
+        w->sink[0] = fret_wear_volume(w->wear);
+}
+CALL(fret_wear_cycles) {
+    (void)x;
+    if (have_wear(w))
+        w->sink[0] = fret_wear_cycles(w->wear);
+}
+CALL(fret_wear_work) {
+    (void)x;
+    if (have_wear(w))
+        w->sink[0] = fret_wear_work(w->wear);
+}
+CALL(fret_wear_free) {
+    (void)x;
+    fret_wear_free(w->wear);
+    w->wear = NULL;
 }
 CALL(fret_field_error) {
     (void)x;
@@ -674,6 +742,17 @@ static const struct row {
     ROW(fret_work_make),
     ROW(fret_work_at),
     ROW(fret_work_free),
+    ROW(fret_wear_make),
+    ROW(fret_wear_copy),
+    ROW(fret_wear_run),
+    ROW(fret_wear_limit),
+    ROW(fret_wear_law),
+    ROW(fret_wear_depth),
+    ROW(fret_wear_ring),
+    ROW(fret_wear_volume),
+    ROW(fret_wear_cycles),
+    ROW(fret_wear_work),
+    ROW(fret_wear_free),
     ROW(fret_field_error),
     ROW(fret_kappa),
     ROW(fret_gap_check),

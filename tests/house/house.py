@@ -17,6 +17,7 @@ BELOW = {
     "law": {"number", "fret"},
     "history": {"law", "number", "fret"},
     "field": {"history", "law", "number", "fret"},
+    "wear": {"field", "history", "law", "number", "fret"},
     "arrays": {"number", "fret"},
     "text": {"number", "fret"},
     "scene": {"text", "number", "fret"},
@@ -30,7 +31,7 @@ BELOW = {
     "prompt": {"live/live.h", "help", "commands", "statement", "study", "plot", "language", "scene", "text", "number", "fret"},
 }
 INTRODUCED = tuple(sorted(set(BELOW) - {"fret"}))
-LIBRARY = ("number", "law", "history", "field", "arrays", "fret")
+LIBRARY = ("number", "law", "history", "field", "wear", "arrays", "fret")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"([^"]+)"|<(fret/[^>]+)>)', re.M)
 SHAPE = re.compile(r"\bFRET_GAP_(?!TERMS\b)[A-Z_]+\b")

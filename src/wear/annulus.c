@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How fast the nodes of a worn ring wear: pressure and slip of the springs, by matrices that are made once.
+ * Allocates an annulus. */
+#include "wear/annulus.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "law/check.h"
+#include "law/normal.h"
+#include "number/real.h"
+
+/* Four sums at once. */
+static double dot(const double *a, const double *b, size_t n) {
+    double s[4] = {0, 0, 0, 0};
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (size_t j = 0; j < 4; j++)
+            s[j] += a[i + j] * b[i + j];
+    for (; i < n; i++)
+        s[0] += a[i] * b[i];
+    return s[0] + s[1] + (s[2] + s[3]);
+}
+
+static size_t row_g(size_t i) {
+    return i * (i - 1) / 2;
+}
+static size_t row_p(const fret_annulus *a, size_t i) {
+    return i * (a->count - 1) - i * (i + 1) / 2 + i;
+}
+
+/* (b^m - a^m)/m of distances. */
+static fret_real between(fret_real m, fret_real a, fret_real b) {
+    return (powl(b, m) - (a > 0 ? powl(a, m) : 0)) / m;
+}
+
+/* ---- making ------------------------------------------------------------------------------------ */
+
+static void make_weights(fret_annulus *a, fret_real m, fret_real stiff) {
+    const fret_real *x = a->x;
+    for (size_t j = 0; j + 1 < a->count; j++) {
+        const fret_real t = x[j] * x[j], end = x[j + 1] * x[j + 1], d = (x[j + 1] - x[j]) * (x[j + 1] + x[j]),
+                        whole = between(m, t, end), outer = (between(m + 1, t, end) - t * whole) / d;
+        a->weight[j] += (double)(stiff * (whole - outer));
+        a->weight[j + 1] += (double)(stiff * outer);
+        for (size_t i = 0; i <= j; i++) {
+            const fret_real near = (x[j] - x[i]) * (x[j] + x[i]);
+            a->to_p[row_p(a, i) + j - i] = (double)(between(m, near, near + d) / d);
+        }
+        for (size_t i = j + 1; i < a->count; i++) {
+            const fret_real near = (x[i] - x[j + 1]) * (x[i] + x[j + 1]);
+            a->to_g[row_g(i) + j] = (double)(between(m, near, near + d) / d);
+        }
+    }
+}
+
+fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *held, fret_real depth,
+                              const fret_real *x, size_t count, fret_annulus *out) {
+    const fret_foundation *f = fret_normal_foundation(normal);
+    const fret_point inner = fret_law_at_radius(normal, x[0]);
+    const fret_real m = (f->k + 1) / 2, stiff = f->cN0 * powl(f->c0, -f->k);
+    const size_t half = count * (count - 1) / 2;
+    double **const part[] = {&out->t, &out->g0,   &out->x1k, &out->weight, &out->g,
+                             &out->w, &out->slip, &out->p,   &out->change};
+    enum { PARTS = sizeof part / sizeof *part };
+    *out = (fret_annulus){.count = count, .x = x, .m = (double)m, .of_slope = (double)(stiff / FRET_PI)};
+    double *data = calloc(PARTS * count + 2 * half, sizeof *data);
+    if (!data)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    for (size_t i = 0; i < PARTS; i++)
+        *part[i] = data + i * count;
+    out->to_g = data + PARTS * count;
+    out->to_p = out->to_g + half;
+    for (size_t i = 0; i < count; i++) {
+        out->t[i] = (double)(x[i] * x[i]);
+        out->g0[i] = (double)(fret_normal_profile(normal, x[i]) - inner.y);
+        out->x1k[i] = (double)powl(x[i], 1 - f->k);
+    }
+    make_weights(out, m, stiff);
+    out->inner = (double)fret_normal_stiffness(normal, x[0]);
+    out->within = (double)inner.F;
+    out->by_depth = held->by_depth;
+    out->by_displacement = held->by_displacement;
+    out->press = (double)(held->by_depth ? depth - inner.y : held->press - inner.F);
+    out->mu = held->mu;
+    out->eta = (double)f->eta;
+    out->amplitude = held->amplitude / (held->mu * (held->by_displacement ? out->eta : 1));
+    out->alpha = held->alpha;
+    return fret_ok();
+}
+
+void fret_annulus_free(fret_annulus *a) {
+    free(a->t); /* the first part of all */
+}
+
+/* ---- the rate ---------------------------------------------------------------------------------- */
+
+/* g of depths, from that of the unworn gap. A place that is worn as deep everywhere within has that depth
+ * more. */
+static void worn_profile(fret_annulus *a, const double *h, double *g) {
+    for (size_t j = 0; j + 1 < a->count; j++)
+        a->change[j] = h[j + 1] - h[j];
+    g[0] = h[0];
+    for (size_t i = 1; i < a->count; i++)
+        g[i] = h[0] + a->x1k[i] * dot(a->to_g + row_g(i), a->change, i);
+}
+
+static void pressures(const fret_annulus *a, const double *change, size_t last, double *p) {
+    for (size_t i = 0; i < a->count; i++)
+        p[i] = i < last ? a->of_slope * dot(a->to_p + row_p(a, i), change + i, last - i) : 0;
+}
+
+/* Springs that have been touched press, or pull until they do not; others press where they are reached. */
+static double pressed(const fret_annulus *a, size_t i, double depth) {
+    return i <= a->touched || a->g[i] < depth ? depth - a->g[i] : 0;
+}
+
+/* The depth of the load: convex, Newton's steps end after finitely many. */
+static void find_depth(fret_annulus *a) {
+    if (a->by_depth)
+        a->depth = a->press;
+    for (int i = 0; i < 100; i++) {
+        double load = a->inner * a->depth, K = a->inner;
+        for (size_t j = 0; j < a->count; j++)
+            if (j <= a->touched || a->g[j] < a->depth) {
+                load += a->weight[j] * (a->depth - a->g[j]);
+                K += a->weight[j];
+            }
+        a->force = a->within + load;
+        const double step = (a->press - load) / K;
+        if (a->by_depth || !(fabs(step) > 1e-15 * fabs(a->depth)))
+            return;
+        a->depth += step;
+    }
+}
+
+/* By how much of its depth the contact has slipped at the turning point, delta_A/(mu eta): of a force from
+ * F_A = mu sum of weights times min(w, that), concave. */
+static fret_status find_slipped(const fret_annulus *a, double *slipped) {
+    const double total = a->force, most = a->depth - a->g[0];
+    *slipped = a->by_displacement ? a->amplitude : 0;
+    if (!a->by_displacement && a->amplitude > total * (1 + 1e-12))
+        return fret_fail(FRET_GROSS_SLIP, "FA", a->amplitude * a->mu, a->mu * total);
+    for (int i = 0; i < 100 && !a->by_displacement; i++) {
+        double load = a->inner * *slipped, K = a->inner;
+        for (size_t j = 0; j < a->count; j++) {
+            load += a->weight[j] * fmin(a->w[j], *slipped);
+            K += a->w[j] > *slipped ? a->weight[j] : 0;
+        }
+        const double step = (a->amplitude - load) / K;
+        if (!(step > 1e-15 * most))
+            break;
+        *slipped += step;
+    }
+    if (a->inner > 0 || !a->by_displacement) /* what is within sticks */
+        *slipped = fmin(*slipped, most);
+    return fret_ok();
+}
+
+/* The gap f of a profile g, the inverse of worn_profile. */
+static void gap_of(fret_annulus *a, const double *g, double *f) {
+    f[0] = g[0];
+    for (size_t i = 1; i < a->count; i++) {
+        const double *row = a->to_g + row_g(i);
+        a->change[i - 1] = ((g[i] - g[0]) / a->x1k[i] - dot(row, a->change, i - 1)) / row[i - 1];
+        f[i] = f[i - 1] + a->change[i - 1];
+    }
+}
+
+fret_status fret_annulus_rate(fret_annulus *a, const double *h, double *rate) {
+    double slipped, work = 0;
+    size_t last = a->touched;
+    worn_profile(a, h, a->g);
+    for (size_t i = 0; i < a->count; i++)
+        a->g[i] += a->g0[i];
+    find_depth(a);
+    for (size_t i = 0; i < a->count; i++) {
+        a->w[i] = pressed(a, i, a->depth);
+        last = a->w[i] > 0 && i > last ? i : last;
+    }
+    const fret_status st = find_slipped(a, &slipped);
+    if (st.code)
+        return st;
+    for (size_t j = 0; j + 1 < a->count; j++)
+        a->change[j] = a->w[j] - a->w[j + 1];
+    pressures(a, a->change, last + 1 < a->count ? last + 1 : last, a->p);
+    for (size_t i = 0; i < a->count; i++)
+        a->g[i] = a->mu * a->eta * fmax(slipped - a->w[i], 0);
+    gap_of(a, a->g, a->slip); /* of the springs' slip, as they tell f of g */
+    for (size_t i = 0; i < a->count; i++) {
+        rate[i] = 4 * a->mu * a->alpha * a->p[i] * a->slip[i];
+        work += a->weight[i] * a->w[i] * fmax(slipped - a->w[i], 0);
+    }
+    rate[a->count] = 4 * a->mu * a->mu * a->eta * work;
+    return fret_ok();
+}
+
+void fret_annulus_touch(fret_annulus *a) {
+    for (size_t i = a->touched; i < a->count; i++)
+        if (a->w[i] > 0)
+            a->touched = i;
+}
+
+double fret_annulus_norm(const fret_annulus *a, const double *h) {
+    double sum = 0;
+    for (size_t i = 0; i + 1 < a->count; i++)
+        sum += h[i + 1] * h[i + 1] * (a->t[i + 1] - a->t[i]);
+    return sqrt(sum);
+}
+
+void fret_annulus_fit(fret_annulus *a, const double *h, int passes, double *fit) {
+    enum { SOFT = 32 };
+    const bool tip = !(a->inner > 0);
+    double soft = h[0], most = h[0] + a->g0[0];
+    worn_profile(a, h, a->g);
+    for (size_t i = 1; i < a->count; i++) {
+        const double part = i < SOFT && !tip ? (double)i / SOFT : 1;
+        soft += (0.2 + 0.8 * part * part) * (a->g[i] - soft);
+        most = fmax(most, a->g0[i] + soft);
+        a->g[i] = tip ? most : most - a->g0[i];
+    }
+    for (; passes > 0; passes--) {
+        double before = a->g[0];
+        for (size_t i = 1; i + 1 < a->count; i++) {
+            const double now = a->g[i];
+            a->g[i] = (before + 2 * now + a->g[i + 1]) / 4;
+            before = now;
+        }
+    }
+    for (size_t i = 1; i < a->count && tip; i++)
+        a->g[i] -= a->g0[i];
+    gap_of(a, a->g, fit);
+}
+
+double fret_annulus_stiffness(fret_annulus *a, double *v) {
+    double found = 0;
+    for (int n = 0; n < 60; n++) {
+        const double size = sqrt(dot(v, v, a->count)), before = found;
+        for (size_t i = 0; i < a->count; i++)
+            v[i] = size > 0 ? v[i] / size : i % 2 ? -1 : 1;
+        worn_profile(a, v, a->g);
+        for (size_t j = 0; j + 1 < a->count; j++)
+            a->change[j] = a->g[j + 1] - a->g[j];
+        pressures(a, a->change, a->count - 1, a->p);
+        for (size_t i = 0; i < a->count; i++)
+            v[i] = 4 * a->mu * a->alpha * a->slip[i] * a->p[i];
+        found = sqrt(dot(v, v, a->count));
+        if (size > 0 && fabs(found - before) < 0.01 * found)
+            break;
+    }
+    return 1.2 * found;
+}

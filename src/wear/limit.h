@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The limit of wear. Not installed. */
+#ifndef FRET_WEAR_LIMIT_H
+#define FRET_WEAR_LIMIT_H
+
+#include "field/field.h"
+#include "fret/wear.h"
+
+/* The depth y, radius c and load F of what sticks in the end, and delta_z; h = 0 from b on. */
+typedef struct fret_wear_end {
+    const fret_normal *normal; /* borrowed */
+    fret_real y, c, F, depth, b;
+    fret_field *field; /* of a contact that is y deep */
+} fret_wear_end;
+
+/* depth: delta_z where that is held. Errors as of fret_wear_limit; FRET_GROSS_SLIP: there is no limit. */
+fret_status fret_wear_end_make(const fret_normal *normal, const fret_wear_held *held, fret_real depth,
+                               fret_wear_end *out);
+void fret_wear_end_free(fret_wear_end *end);
+
+/* The depth worn at r [m], and the volume. */
+fret_status fret_wear_end_depth(const fret_wear_end *end, fret_real r, fret_real *h);
+fret_status fret_wear_end_volume(const fret_wear_end *end, fret_real *volume);
+
+/* The first radius beyond `from` where f, which may end, is as large; infinite: nowhere. */
+fret_real fret_wear_radius_of(const fret_normal *normal, fret_real from, fret_real f);
+
+#endif

@@ -1,0 +1,426 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wear: what cycles leave of a gap, against the work of friction, fields and the closed form of the limit. */
+#include "fret/contact.h"
+#include "fret/cycle.h"
+#include "fret/field.h"
+#include "fret/wear.h"
+
+#include "failing.h"
+#include "unit.h"
+
+static const fret_gap shapes[] = {
+    {.kind = FRET_GAP_POWER, .terms = 1, .power = {{2, 50, 1}}},
+    {.kind = FRET_GAP_POWER, .terms = 1, .power = {{1, 0.02, 1}}},
+    {.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 0.01},
+    {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 5e-5, 1e-3}, {4, 1e-5, 5e-4}}},
+    {.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.02},
+    {.kind = FRET_GAP_TABLE}, /* of the sphere */
+};
+enum { SPHERE, CONE, ROUNDED, SUM, FLAT_CONE, TABLE, SHAPES };
+static struct fret_table *sampled;
+
+static const double depth = 3.5e-6, alpha = 1e-14, mu = 0.4;
+
+static fret_normal *normal_of(int shape, double k) {
+    const fret_material material = {{{210e9, 0.3, false}, {210e9, 0.3, false}}, k, 1e-3};
+    fret_gap gap = shapes[shape];
+    if (shape == TABLE)
+        gap.table = sampled;
+    return unit_keep_normal(&material, &gap);
+}
+
+/* `part`: the root of the depth that sticks at first, by delta_z; or < 0: of delta_x,max. */
+static fret_wear_held hold(const fret_normal *n, bool by_depth, bool by_displacement, double part) {
+    fret_pressed contact = {.normal = n, .mu = mu};
+    fret_press inner;
+    fret_wear_held held = {by_depth, by_displacement, depth, 0, mu, alpha};
+    CHECK_OK(fret_press_by_depth(n, depth, &contact.press));
+    CHECK_OK(fret_press_by_depth(n, part * part * depth, &inner));
+    held.press = by_depth ? depth : (double)contact.press.F;
+    if (part < 0)
+        held.amplitude = -part * (double)fret_gross_slip(&contact);
+    else if (by_displacement)
+        held.amplitude = mu * (double)(fret_normal_foundation(n)->eta * (contact.press.dz - inner.dz));
+    else
+        held.amplitude = mu * (double)(contact.press.F - inner.F);
+    return held;
+}
+
+static fret_wear *make(const fret_normal *n) {
+    fret_wear *w = NULL;
+    CHECK_OK(fret_wear_make(n, &w));
+    return w;
+}
+
+static fret_wear *run(const fret_normal *n, const fret_wear_held *held, double cycles, double tolerance) {
+    fret_wear *w = make(n);
+    CHECK_OK(fret_wear_run(w, held, cycles, tolerance, NULL, NULL));
+    return w;
+}
+
+static fret_pressed press_worn(const fret_wear *w, const fret_wear_held *held) {
+    fret_pressed c = {.normal = fret_wear_law(w), .mu = mu};
+    CHECK_OK(held->by_depth ? fret_press_by_depth(c.normal, held->press, &c.press)
+                            : fret_press_by_force(c.normal, held->press, &c.press));
+    return c;
+}
+
+static fret_real loss_of(const fret_pressed *contact, const fret_wear_held *held) {
+    fret_real loss = 0;
+    CHECK_OK(held->by_displacement ? fret_cycle_loss_by_displacement(contact, held->amplitude, &loss)
+                                   : fret_cycle_loss_by_force(contact, held->amplitude, &loss));
+    return loss;
+}
+
+/* ---- the limit --------------------------------------------------------------------------------- */
+
+/* References of 25 digits. */
+static void limits_of_spheres(void) {
+    static const double k[] = {0, 0.3, -0.3}, a[] = {0.187082869339e-3, 0.213307290077e-3, 0.156524758425e-3},
+                        b[] = {1.1872319986, 1.12436316892, 1.25781980528},
+                        V[] = {5.625306806e-14, 8.480688083e-14, 3.111286034e-14};
+    for (int i = 0; i < 3; i++) {
+        const fret_normal *n = normal_of(SPHERE, k[i]);
+        const fret_wear_held held = hold(n, true, true, 0.6);
+        fret_wear *w = NULL;
+        fret_press press;
+        fret_real inner, outer;
+        CHECK_OK(fret_press_by_depth(n, depth, &press));
+        CHECK_REL(press.a, a[i], 1e-11L);
+        CHECK_OK(fret_wear_limit(n, &held, &w));
+        fret_wear_ring(w, &inner, &outer);
+        CHECK_REL(inner, 0.6L * press.a, 1e-14L);
+        CHECK_REL(outer, b[i] * press.a, 1e-10L);
+        CHECK_REL(fret_wear_volume(w), V[i], 1e-9L);
+        CHECK(isinf(fret_wear_cycles(w)) && isnan(fret_wear_work(w)));
+        fret_wear_free(w);
+    }
+}
+
+/* k = 0: the surface of a contact that ends at c, pressed on as a flat punch, and what is held. */
+static void limits_by_surfaces(void) {
+    for (int shape = 0; shape < SHAPES; shape++)
+        for (int by = 0; by < 4; by++) {
+            const fret_normal *n = normal_of(shape, 0);
+            const fret_wear_held held = hold(n, by & 1, by & 2, 0.9);
+            fret_wear *w = NULL;
+            fret_field *field = NULL;
+            fret_press stuck;
+            fret_real inner, outer, h;
+            CHECK_OK(fret_wear_limit(n, &held, &w));
+            if (!w)
+                continue;
+            fret_wear_ring(w, &inner, &outer);
+            CHECK_OK(fret_press_by_radius(n, (double)inner, &stuck));
+            const fret_real stiff = fret_normal_stiffness(n, inner), eta = fret_normal_foundation(n)->eta,
+                            more = by & 2 ? held.amplitude / (mu * eta) : held.amplitude / (mu * stiff);
+            if (by & 1)
+                CHECK_REL(stuck.dz + more, held.press, 1e-13L);
+            else
+                CHECK_REL(stuck.F + stiff * more, held.press, 1e-13L);
+            CHECK_OK(fret_field_of_press(n, &stuck, &field));
+            for (int i = 1; i < 8; i++) {
+                const fret_real r = inner + (outer - inner) * i / 8;
+                fret_real surface, gap;
+                CHECK_OK(fret_field_surface(field, r, &surface));
+                CHECK_OK(fret_gap_f(fret_normal_gap(n), r, &gap));
+                CHECK_OK(fret_wear_depth(w, r, &h));
+                CHECK_ABS(h, stuck.dz + more - surface - more * 2 / acosl(-1) * asinl(inner / r) - gap, depth,
+                          1e-13L);
+            }
+            CHECK_OK(fret_wear_depth(w, inner * 0.99L, &h));
+            CHECK(h == 0);
+            CHECK_OK(fret_wear_depth(w, outer * 1.01L, &h));
+            CHECK(h == 0);
+            fret_field_free(field);
+            fret_wear_free(w);
+        }
+}
+
+/* What is run arrives there, and presses there as the limit does. */
+static void arrivals(void) {
+    for (int shape = 0; shape < SHAPES; shape++)
+        for (int by = 0; by < 2; by++) { /* F_N and F_A, or depth and delta_A */
+            if (unit_skips((size_t)shape))
+                continue;
+            const fret_normal *n = normal_of(shape, shape == CONE ? 0.1 : 0);
+            const fret_wear_held held = hold(n, by, by, 0.7);
+            fret_wear *w = run(n, &held, 1e9, 3e-3), *limit = NULL;
+            fret_real c, b, inner, outer;
+            CHECK_OK(fret_wear_limit(n, &held, &limit));
+            fret_wear_ring(w, &c, &b);
+            fret_wear_ring(limit, &inner, &outer);
+            CHECK_REL(c, inner, 1e-6L);
+            CHECK_REL(b, outer, 0.01L);
+            CHECK_REL(fret_wear_volume(w), fret_wear_volume(limit), 0.01L);
+            fret_wear_free(w);
+            fret_wear_free(limit);
+        }
+}
+
+/* ---- cycles ------------------------------------------------------------------------------------ */
+
+/* One cycle: alpha 4 mu p s at each place, alpha dW in all. */
+static void single_cycles(void) {
+    static const double ks[] = {0, 0.3, -0.3}, parts[] = {0.3, 0.9, -1.4};
+    for (int shape = 0; shape < SHAPES; shape++)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                const fret_normal *n = normal_of(shape, ks[i]);
+                const fret_wear_held held = hold(n, false, true, parts[j]);
+                fret_contact *contact = NULL;
+                fret_field *field = NULL;
+                fret_state at;
+                if (shape == FLAT_CONE && ks[i] < 0) { /* no table holds its edge */
+                    fret_wear *none = make(n);
+                    if (parts[j] > 0)
+                        CHECK_CODE(fret_wear_run(none, &held, 1, 1e-3, NULL, NULL), FRET_NOT_MONOTONE);
+                    CHECK(fret_wear_cycles(none) == 0);
+                    fret_wear_free(none);
+                    continue;
+                }
+                fret_wear *w = run(n, &held, 1, 1e-3);
+                const fret_pressed c = {n, mu, press_worn(w, &held).press};
+                fret_real most = 0;
+                CHECK_REL(fret_wear_volume(w), alpha * loss_of(&c, &held), 1.5e-3L);
+                CHECK_REL(alpha * fret_wear_work(w), alpha * loss_of(&c, &held), 1e-3L);
+                CHECK_OK(fret_contact_make(n, mu, FRET_EXACT, &contact));
+                CHECK_OK(fret_contact_step(contact,
+                                           &(fret_step){.normal_by = FRET_TO_FORCE, .normal = held.press}));
+                CHECK_OK(fret_contact_step(
+                    contact, &(fret_step){.tangential_by = FRET_TO_DX, .tangential = held.amplitude}));
+                CHECK_OK(fret_field_make(contact, &field));
+                fret_contact_state(contact, &at);
+                for (int m = 19; m > 0; m--) { /* where neither begins nor ends steeply */
+                    const fret_real r = at.c + (at.a - at.c) * m / 20;
+                    fret_real p, s, h;
+                    CHECK_OK(fret_field_pressure(field, r, &p));
+                    CHECK_OK(fret_field_slip(field, r, &s));
+                    CHECK_OK(fret_wear_depth(w, r, &h));
+                    most = fmaxl(most, alpha * 4 * mu * p * s);
+                    if (m > 3 && m < 16)
+                        CHECK_ABS(h, alpha * 4 * mu * p * s, most, 0.01L);
+                }
+                fret_field_free(field);
+                fret_contact_free(contact);
+                fret_wear_free(w);
+            }
+}
+
+/* The volume is alpha times the work, that of the closed cycles of the worn gap on the way, by Simpson. */
+static void volumes_and_work(void) {
+    for (int shape = 0; shape < SHAPES; shape++)
+        for (int by = 0; by < 3; by++) {
+            enum { PARTS = 8 };
+            if (unit_skips((size_t)shape))
+                continue;
+            const fret_normal *n = normal_of(shape, shape == SUM ? 0.2 : 0);
+            /* both forces, both ways, or gross slip */
+            const fret_wear_held held = hold(n, by == 1, by > 0, by == 2 ? -1.3 : 0.6);
+            const double cycles = by == 2 ? 2e3 : 2e4;
+            fret_wear *w = make(n);
+            fret_pressed c = {n, mu, press_worn(w, &held).press};
+            fret_real sum = loss_of(&c, &held);
+            for (int i = 1; i <= PARTS; i++) {
+                CHECK_OK(fret_wear_run(w, &held, cycles / PARTS, 4e-3, NULL, NULL));
+                c = press_worn(w, &held);
+                sum += (i == PARTS ? 1 : i % 2 ? 4 : 2) * loss_of(&c, &held);
+            }
+            CHECK_REL(fret_wear_cycles(w), cycles, 1e-12L);
+            CHECK_REL(fret_wear_volume(w), alpha * fret_wear_work(w), 4e-3L);
+            CHECK_REL(fret_wear_work(w), sum * cycles / (3 * PARTS), 4e-3L);
+            fret_wear_free(w);
+        }
+}
+
+/* A tenth of the tolerance, a tenth of the error. */
+static void tolerances(void) {
+    for (int by = 0; by < 4; by++) {
+        const fret_normal *n = normal_of(SPHERE, 0);
+        const fret_wear_held held = hold(n, by & 1, by & 2, 0.6);
+        fret_real V[3], off[2];
+        static const double tolerance[] = {1.6e-2, 2e-3, 2.5e-4};
+        for (int i = 0; i < 3; i++) {
+            fret_wear *w = run(n, &held, 5e4, tolerance[i]);
+            V[i] = fret_wear_volume(w);
+            CHECK_ABS(alpha * fret_wear_work(w), V[i], V[i], 1.2L * tolerance[i]);
+            fret_wear_free(w);
+        }
+        off[0] = fabsl(V[0] - V[2]) / V[2];
+        off[1] = fabsl(V[1] - V[2]) / V[2];
+        CHECK(off[0] < tolerance[0] && off[1] < tolerance[1] && off[1] < off[0] / 3);
+    }
+}
+
+/* The radius that sticks: held by both forces or both ways it stays, else it grows or shrinks. */
+static void stick_radii(void) {
+    for (int by = 0; by < 4; by++) {
+        const fret_normal *n = normal_of(SPHERE, 0.2);
+        const fret_wear_held held = hold(n, by & 1, by & 2, 0.8);
+        fret_wear *w = make(n);
+        fret_pressed c = press_worn(w, &held);
+        fret_loading first, last;
+        CHECK_OK(held.by_displacement ? fret_loading_by_displacement(&c, held.amplitude, &first)
+                                      : fret_loading_by_force(&c, held.amplitude, &first));
+        CHECK_OK(fret_wear_run(w, &held, 2e5, 1e-3, NULL, NULL));
+        c = press_worn(w, &held);
+        CHECK_OK(held.by_displacement ? fret_loading_by_displacement(&c, held.amplitude, &last)
+                                      : fret_loading_by_force(&c, held.amplitude, &last));
+        if (by == 0 || by == 3)
+            CHECK_REL(last.c, first.c, 1e-3L);
+        else
+            CHECK(by == 2 ? last.c > 1.005L * first.c : last.c < 0.995L * first.c);
+        fret_wear_free(w);
+    }
+}
+
+/* In parts as at once; a copy goes on by itself; other loads go on where they find the gap. */
+static void parts_and_copies(void) {
+    const fret_normal *n = normal_of(SPHERE, 0);
+    const fret_wear_held held = hold(n, false, true, 0.6), more = hold(n, false, true, -1.2);
+    fret_wear *whole = run(n, &held, 4e4, 1e-3), *w = run(n, &held, 1e4, 1e-3), *copy = NULL;
+    CHECK_OK(fret_wear_copy(w, &copy));
+    CHECK(fret_wear_law(copy) == fret_wear_law(w));
+    CHECK_OK(fret_wear_run(copy, &held, 3e4, 1e-3, NULL, NULL));
+    CHECK_REL(fret_wear_volume(copy), fret_wear_volume(whole), 1e-3L);
+    CHECK(fret_wear_volume(w) < 0.5L * fret_wear_volume(whole) && fret_wear_cycles(w) == 1e4);
+    fret_wear_free(w);
+    CHECK_OK(fret_wear_run(copy, &more, 1e3, 1e-3, NULL, NULL));
+    CHECK_REL(fret_wear_volume(copy), alpha * fret_wear_work(copy), 1e-3L);
+    CHECK_OK(fret_wear_run(copy, &more, 0, 1e-3, NULL, NULL));
+    CHECK(fret_wear_cycles(copy) == 41000);
+    fret_wear_free(copy);
+    fret_wear_free(whole);
+}
+
+/* ---- what cannot be ---------------------------------------------------------------------------- */
+
+static void refusals(void) {
+    const fret_normal *n = normal_of(SPHERE, 0);
+    const fret_gap flat = {.kind = FRET_GAP_FLAT, .b = 1e-4};
+    const fret_material material = {{{210e9, 0.3, false}, {210e9, 0.3, true}}, 0, 1e-3};
+    const fret_wear_held held = hold(n, false, false, 0.6);
+    fret_wear_held bad = held;
+    fret_wear *w = make(n), *limit = NULL, *punch = make(unit_keep_normal(&material, &flat));
+    fret_real h;
+    CHECK_ERROR(fret_wear_run(w, &held, -1, 1e-3, NULL, NULL), FRET_NEGATIVE, "cycles");
+    CHECK_ERROR(fret_wear_run(w, &held, (double)NAN, 1e-3, NULL, NULL), FRET_NOT_FINITE, "cycles");
+    CHECK_ERROR(fret_wear_run(w, &held, 1, 1e-9, NULL, NULL), FRET_OUTSIDE, "tolerance");
+    CHECK_ERROR(fret_wear_run(punch, &held, 1, 1e-3, NULL, NULL), FRET_SINGULAR, "r");
+    bad.press = 0;
+    CHECK_ERROR(fret_wear_run(w, &bad, 1, 1e-3, NULL, NULL), FRET_NOT_POSITIVE, "FN");
+    bad.by_depth = true;
+    CHECK_ERROR(fret_wear_limit(n, &bad, &limit), FRET_NOT_POSITIVE, "dz");
+    bad = held;
+    bad.mu = -1;
+    CHECK_ERROR(fret_wear_run(w, &bad, 1, 1e-3, NULL, NULL), FRET_NOT_POSITIVE, "mu");
+    bad = held;
+    bad.alpha = 0;
+    CHECK_ERROR(fret_wear_run(w, &bad, 1, 1e-3, NULL, NULL), FRET_NOT_POSITIVE, "alpha");
+    bad = held;
+    bad.amplitude = 1.01 * mu * held.press;
+    CHECK_CODE(fret_wear_run(w, &bad, 1, 1e-3, NULL, NULL), FRET_GROSS_SLIP);
+    CHECK_CODE(fret_wear_limit(n, &bad, &limit), FRET_GROSS_SLIP);
+    for (int by = 0; by < 2; by++) {
+        bad = hold(n, by, true, -1.2);
+        CHECK_CODE(fret_wear_limit(n, &bad, &limit), FRET_GROSS_SLIP);
+    }
+    bad = hold(n, true, false, 0.2); /* F_N falls until nothing sticks */
+    CHECK_CODE(fret_wear_run(w, &bad, 1e8, 1e-2, NULL, NULL), FRET_GROSS_SLIP);
+    CHECK(fret_wear_volume(w) == 0 && fret_wear_cycles(w) == 0 && fret_wear_law(w) == n);
+    CHECK_ERROR(fret_wear_depth(w, -1, &h), FRET_NEGATIVE, "r");
+    CHECK_OK(fret_wear_limit(n, &held, &limit));
+    CHECK_CODE(fret_wear_run(limit, &held, 1, 1e-3, NULL, NULL), FRET_OUTSIDE);
+    fret_wear_free(limit);
+    fret_wear_free(punch);
+    fret_wear_free(w);
+}
+
+/* The gap ends before the wear does. */
+static void short_tables(void) {
+    const fret_normal *n = normal_of(TABLE, 0);
+    const fret_wear_held held = hold(n, false, true, -1.5);
+    fret_wear *w = make(n);
+    CHECK_CODE(fret_wear_run(w, &held, 1e8, 1e-2, NULL, NULL), FRET_TABLE_SHORT);
+    CHECK(fret_wear_volume(w) == 0);
+    fret_wear_free(w);
+}
+
+static volatile sig_atomic_t stopping;
+static int times;
+static void stop_soon(double cycles, void *user) {
+    CHECK(cycles > 0 && user == &times);
+    stopping = ++times == 5;
+}
+
+static void interruptions(void) {
+    fret_normal *n = normal_of(SPHERE, 0);
+    const fret_wear_held held = hold(n, false, false, 0.6);
+    fret_wear *w = run(n, &held, 1e3, 1e-2);
+    const fret_real before = fret_wear_volume(w);
+    const fret_normal *law = fret_wear_law(w);
+    fret_normal_stop(n, &stopping);
+    CHECK_CODE(fret_wear_run(w, &held, 1e6, 1e-2, stop_soon, &times), FRET_INTERRUPTED);
+    stopping = 0;
+    fret_normal_stop(n, NULL);
+    CHECK(times == 5 && fret_wear_volume(w) == before && fret_wear_cycles(w) == 1e3 &&
+          fret_wear_law(w) == law);
+    fret_wear_free(w);
+}
+
+static fret_status last;
+static bool fine(fret_status st) {
+    last = st;
+    return !st.code;
+}
+
+static void allocations(void) {
+    const fret_normal *n = normal_of(SPHERE, 0);
+    const fret_wear_held held = hold(n, false, false, 0.6);
+    fret_wear *w = NULL, *copy = NULL, *limit = NULL;
+    EACH_FAILS(0, fine(fret_wear_make(n, &w)), last.code == FRET_NO_MEMORY && w == NULL);
+    EACH_FAILS(8, fine(fret_wear_run(w, &held, 10, 0.1, NULL, NULL)),
+               last.code == FRET_NO_MEMORY && fret_wear_cycles(w) == 0 && fret_wear_law(w) == n);
+    EACH_FAILS(2, fine(fret_wear_copy(w, &copy)), last.code == FRET_NO_MEMORY && copy == NULL);
+    EACH_FAILS(8, fine(fret_wear_limit(n, &held, &limit)), last.code == FRET_NO_MEMORY && limit == NULL);
+    fret_wear_free(limit);
+    fret_wear_free(copy);
+    fret_wear_free(w);
+}
+
+/* ---- time -------------------------------------------------------------------------------------- */
+
+static void a_million_cycles(void) {
+    const fret_normal *n = normal_of(SPHERE, 0);
+    const fret_wear_held held = hold(n, false, false, 0.6);
+    const clock_t start = clock();
+    fret_wear_free(run(n, &held, 1e6, 1e-3));
+    printf("  10^6 cycles to 1e-3: %.2f s\n", (double)(clock() - start) / CLOCKS_PER_SEC);
+}
+
+int main(int argc, char **argv) {
+    enum { ROWS = 200 };
+    double r[ROWS], f[ROWS];
+    unit_start("wear", argc, argv);
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = 1e-3 * i / (ROWS - 1);
+        f[i] = 50 * r[i] * r[i];
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &sampled));
+    CASE(limits_of_spheres());
+    CASE(limits_by_surfaces());
+    CASE(arrivals());
+    CASE(single_cycles());
+    CASE(volumes_and_work());
+    CASE(tolerances());
+    CASE(stick_radii());
+    CASE(parts_and_copies());
+    CASE(refusals());
+    CASE(short_tables());
+    CASE(interruptions());
+    CASE(allocations());
+    CASE(a_million_cycles());
+    const int result = unit_finish();
+    fret_table_free(sampled);
+    return result;
+}
