@@ -540,6 +540,10 @@ def handout(tests, name, path, questions, figures):
     root = xml.etree.ElementTree.fromstring(text)
     xhtml = "{http://www.w3.org/1999/xhtml}"
     asked = [e for e in root.iter(xhtml + "p") if e.get("class") == "question"]
+    ids = re.findall(r"<[^>]*\sid=['\"]([^'\"]*)", text)
+    tests.check("a handout of %s: no id twice" % name, len(set(ids)) == len(ids) >= figures and
+                {at for at in re.findall(r"<[^>]*(?:href=['\"]|url\(['\"]?)#([^'\")]*)", text)} <= set(ids),
+                str(sorted(id for id in set(ids) if ids.count(id) > 1)))
     fetched = re.findall(r"(?:src|href)\s*=\s*['\"](?!#)[^'\"]*|url\((?!['\"]?#)[^)]*|@import|<script|<link", text)
     tests.check("a handout of " + name, root.tag == xhtml + "html" and len(asked) == questions == len(list(root.iter(xhtml + "li"))) and not fetched and
                 len(list(root.iter("{http://www.w3.org/2000/svg}svg"))) == figures, "%d questions, %d figures, %s" % (len(asked), text.count("<svg"), fetched))
