@@ -468,8 +468,19 @@ def integrals(tests):
         close(tests, "%s, k = %g: integral of q_x" % (command, k), 25, traction, 1e-11)
 
 
+def stiffened(tests):
+    """A rigid punch that sticks is (1-nu) ln(3-4nu)/(1-2nu) times as stiff (Mossakovskii; Handbook of Contact Mechanics, (2.141);
+    any shape, Spence 1968): what the warning says of it, and that it says nothing where there is nothing to say."""
+    for nu in (-0.3, 0.0, 0.1, 0.2, 1 / 3, 0.4, 0.45):
+        part = 100 * ((1 - nu) * math.log(3 - 4 * nu) / (1 - 2 * nu) - 1)
+        done = tests.run("-c", "material E0=1 GPa nu=%.17g; second rigid; geometry sphere R=10 mm; friction 0.4; press FN=1 N; step Fx=0.1 N" % nu)
+        tests.check("stiffened, nu = %g" % nu, "kn up to %.2g %% too small" % part in done.stderr, tests.report(done))
+    done = tests.run("-c", "material E0=1 GPa nu=0.5; second rigid; geometry sphere R=10 mm; friction 0.4; press FN=1 N; step Fx=0.1 N")
+    tests.check("stiffened, nu = 0.5", done.returncode == 0 and not done.stderr, tests.report(done))
+
+
 def run(tests):
-    tests.each([lambda: integrals(tests), lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
+    tests.each([lambda: integrals(tests), lambda: stiffened(tests), lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
                 lambda: gap_file(tests), lambda: dense_file(tests), lambda: dense_fields(tests), lambda: tip_in_rows(tests), lambda: whole_gap(tests),
                 lambda: swinging_rows(tests), lambda: hardly_moved_rows(tests),
                 lambda: histories(tests), lambda: rig(tests), lambda: on_the_way(tests)])
