@@ -96,9 +96,10 @@ static bool read_value(exercise *x, const lexer *lx, said *all, const heard *equ
         return calc_fail(lx->error, lx->at, 0, "expected within 5 %%: how far off may a guess be?");
     const bool number = own.kind == T_NUMBER;
     return read_one_expression(sh, &own, 0, &x->column) &&
-           (!number || sh->list[0].count > 1 || name_answer(x) || calc_no_memory(lx->error)) &&
            expr_eval(&sh->calc, &sh->list[0], &x->value, lx->error) &&
-           column_fits(&sh->list[0], &x->column, x->value, lx->error) && read_within(x, lx, &within->hole[0]);
+           column_fits(&sh->list[0], &x->column, x->value, lx->error) &&
+           read_within(x, lx, &within->hole[0]) &&
+           (!number || sh->list[0].count > 1 || name_answer(x) || calc_no_memory(lx->error));
 }
 
 static bool read_exercise(exercise *x, lexer *lx, said *all) {
