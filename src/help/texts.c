@@ -100,8 +100,8 @@ const char lessons_text[] =
     "A lesson begins without a scene. EXPR is evaluated where the question stands. A\n"
     "statement that is meant to fail ends in `# refused`. A transcript with a title\n"
     "above it is a lesson too: what follows its prompts counts, answers do not.\n\n"
-    "    demo ./FILE                a name with a `.` or a `/`. Mistakes are told line\n"
-    "                               by line, and a lesson that has some is not played\n"
+    "    demo ./FILE                a name with a `.` or a `/`. Mistakes are told by\n"
+    "                               line, and a lesson that has some is not played\n"
     "    demo ./FILE to FILE.html   a handout of it; in the sources `make handouts`\n"
     "                               makes those of all lessons here\n";
 
@@ -135,8 +135,8 @@ const char limits_text[] =
     "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
     "0.4 % of dW in a comparison with boundary elements.\n\n"
     "    -1 < k < 1, -1 < nu <= 1/2; both bodies share k and c0\n"
-    "    bodies are half-spaces: a warning where a > 0.3 R (of R1 and R2 the smaller one) or\n"
-    "        a slope exceeds 20 deg\n"
+    "    bodies are half-spaces: a warning where a > 0.3 R (of R1 and R2 the smaller\n"
+    "        one) or a slope exceeds 20 deg\n"
     "    the contact is a disc: g(x) must not fall\n"
     "    quasi-static, no adhesion, one coefficient of friction\n"
     "    slip and friction's work at a radius are means over the angle, along F_x\n\n"

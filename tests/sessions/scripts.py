@@ -440,6 +440,7 @@ def demos(tests):
     tests.check("there are demos", len(paths) > 10)
     listed = tests.run("-c", "show demos").stdout.splitlines()
     figures_of_paper = glob.glob(os.path.join(harness.ROOT, "scripts", "paper", "*.txt"))
+    tests.check("show demos fits a terminal", max(map(len, listed)) <= 80, max(listed, key=len))
     tests.check("show demos", len(listed) == len(paths) + len(figures_of_paper), "\n".join(listed))
     jobs = [lambda p=path, row=row: lesson(tests, p, row) for path, row in zip(paths, listed)]
     tests.each(jobs + [lambda: lessons_aside(tests), lambda: path_of_lessons(tests, listed), lambda: own_lessons(tests)])
