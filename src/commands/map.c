@@ -77,8 +77,7 @@ static bool run_map(shell *sh, lexer *lx, const grid *g, column *c, const looks 
     return ok;
 }
 
-/* map EXPR for A = LO .. HI for B = LO .. HI */
-static bool read_map(shell *sh, lexer *lx, said *all, column *c, grid_range *r) {
+bool map_read(shell *sh, lexer *lx, said *all, column *c, grid_range *r) {
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     lex_next(&own);
     return read_one_expression(sh, &own, 0, c) && grid_range_read(sh, lx, all, r, MAP_STEPS, MAP_STEPS);
@@ -87,15 +86,7 @@ static bool read_map(shell *sh, lexer *lx, said *all, column *c, grid_range *r) 
 bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     column c;
     grid_range r;
-    const bool ok = read_map(sh, lx, all, &c, &r) && run_map(sh, lx, &r.grid, &c, l, p);
-    columns_free(&c, 1);
-    return ok;
-}
-
-bool map_list(shell *sh, lexer *lx, said *all) {
-    column c;
-    grid_range r;
-    const bool ok = read_map(sh, lx, all, &c, &r) && table_grid(sh, lx, all, &r, &c, 1);
+    const bool ok = map_read(sh, lx, all, &c, &r) && run_map(sh, lx, &r.grid, &c, l, p);
     columns_free(&c, 1);
     return ok;
 }

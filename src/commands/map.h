@@ -19,10 +19,9 @@ bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t st
 /* Is the cursor on `map EXPR`? */
 bool map_at(const lexer *lx);
 bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
-/* Its values as rows of a table, of which a share can be run. */
-bool map_list(shell *sh, lexer *lx, said *all);
-
-/* view_commands.c: a row for each pair of a grid, to where `to` says; takes the names of the columns. */
-bool table_grid(shell *sh, lexer *lx, said *all, grid_range *over, column *columns, size_t count);
+/* The expression and the ranges of a map; the column is to be freed, also after an error. */
+bool map_read(shell *sh, lexer *lx, said *all, column *c, grid_range *r);
+/* view_commands.c: its values as rows of a table, of which a share can be run. */
+bool table_map(shell *sh, lexer *lx, said *all);
 
 #endif

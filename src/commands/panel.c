@@ -597,7 +597,7 @@ bool panel_is_map(const lexer *lx, const panel *p) {
 }
 
 bool panel_list(shell *sh, lexer *lx, panel *as) {
-    const bool ok = said_wake(sh, lx, &as->said) && map_list(sh, lx, &as->said);
+    const bool ok = said_wake(sh, lx, &as->said) && table_map(sh, lx, &as->said);
     said_sleep(sh, &as->said);
     return ok;
 }

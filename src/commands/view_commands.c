@@ -308,8 +308,12 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
     return ok;
 }
 
-bool table_grid(shell *sh, lexer *lx, said *all, grid_range *over, column *columns, size_t count) {
-    return run_table(sh, lx, all, &over->grid.a, &over->grid, NULL, columns, count);
+bool table_map(shell *sh, lexer *lx, said *all) {
+    column c;
+    grid_range r;
+    const bool ok = map_read(sh, lx, all, &c, &r) && run_table(sh, lx, all, &r.grid.a, &r.grid, NULL, &c, 1);
+    columns_free(&c, 1);
+    return ok;
 }
 
 bool do_table(shell *sh, lexer *lx, const command *self) {
@@ -336,7 +340,7 @@ bool do_table(shell *sh, lexer *lx, const command *self) {
              run_table(sh, lx, &all, &r.sweep, NULL, &at, columns, count);
     else if (ok && said_of(&all, "for", 1))
         ok = grid_range_read(sh, lx, &all, &two, ROWS, ACROSS) &&
-             table_grid(sh, lx, &all, &two, columns, count);
+             run_table(sh, lx, &all, &two.grid.a, &two.grid, NULL, columns, count);
     else
         ok = ok && range_read(sh, lx, &all, 0, &r) && range_options(sh, lx, &all, 0, &r, ROWS) &&
              run_table(sh, lx, &all, &r.sweep, NULL, NULL, columns, count);
