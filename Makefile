@@ -4,7 +4,9 @@ VERSION := $(shell awk '/define FRET_VERSION_/ { v = v d $$3; d = "." } END { pr
 PREFIX  ?= /usr/local
 LIBDIR  ?= $(PREFIX)/lib
 B       ?= build
-OBJCOPY ?= objcopy
+DARWIN  := $(filter Darwin,$(shell uname))
+# on macOS ld -r hides what is hidden by itself
+OBJCOPY ?= $(if $(DARWIN),:,objcopy)
 CC      ?= cc
 # Straight-line vectors pack pairs of doubles through memory: a tenth slower in double-double arithmetic.
 OPT     ?= -O2 -g -fno-tree-slp-vectorize
@@ -72,7 +74,7 @@ $(B)/libfret.a: $(call OBJ,$(CORE))
 	$(AR) rcs $@ $(B)/libfret.o
 
 $(B)/libfret.so: $(call SHARED,$(CORE))
-	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -o $@ $^ $(LIBS_CORE)
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -shared $(if $(DARWIN),-Wl$(COMMA)-install_name$(COMMA)$(LIBDIR)/$(SONAME),-Wl$(COMMA)-soname$(COMMA)$(SONAME)) -o $@ $^ $(LIBS_CORE)
 
 $(B)/scripts.c: scripts/embed $(SCRIPTS)
 	@mkdir -p $(@D)

@@ -77,14 +77,16 @@ static bool run_map(shell *sh, lexer *lx, const grid *g, column *c, const looks 
     return ok;
 }
 
+bool map_read(shell *sh, lexer *lx, said *all, column *c, grid_range *r) {
+    lexer own = hole_lexer(lx, &all->list[0].hole[0]);
+    lex_next(&own);
+    return read_one_expression(sh, &own, 0, c) && grid_range_read(sh, lx, all, r, MAP_STEPS, MAP_STEPS);
+}
+
 bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     column c;
     grid_range r;
-    lexer own = hole_lexer(lx, &all->list[0].hole[0]);
-    lex_next(&own);
-    const bool ok = read_one_expression(sh, &own, 0, &c) &&
-                    grid_range_read(sh, lx, all, &r, MAP_STEPS, MAP_STEPS) &&
-                    run_map(sh, lx, &r.grid, &c, l, p);
+    const bool ok = map_read(sh, lx, all, &c, &r) && run_map(sh, lx, &r.grid, &c, l, p);
     columns_free(&c, 1);
     return ok;
 }

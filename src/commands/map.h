@@ -19,5 +19,9 @@ bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t st
 /* Is the cursor on `map EXPR`? */
 bool map_at(const lexer *lx);
 bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
+/* The expression and the ranges of a map; the column is to be freed, also after an error. */
+bool map_read(shell *sh, lexer *lx, said *all, column *c, grid_range *r);
+/* view_commands.c: its values as rows of a table, of which a share can be run. */
+bool table_map(shell *sh, lexer *lx, said *all);
 
 #endif

@@ -589,6 +589,19 @@ bool panel_is_whole(panel *p) {
     return p->figure || range_of(&p->said);
 }
 
+bool panel_is_map(const lexer *lx, const panel *p) {
+    if (p->figure)
+        return false;
+    const lexer first = hole_lexer(lx, &p->said.list[0].hole[0]);
+    return map_at(&first);
+}
+
+bool panel_list(shell *sh, lexer *lx, panel *as) {
+    const bool ok = said_wake(sh, lx, &as->said) && table_map(sh, lx, &as->said);
+    said_sleep(sh, &as->said);
+    return ok;
+}
+
 static bool draw_panel(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
     const size_t index = f->count;
     plot_panel *p = plot_panel_add(f, lx->error);

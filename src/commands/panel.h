@@ -28,6 +28,9 @@ typedef struct panel {
 bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out);
 /* Does it say what it goes over? One of the table need not. */
 bool panel_is_whole(panel *p);
+/* A map: its values can be rows too, of which a share is run. */
+bool panel_is_map(const lexer *lx, const panel *p);
+bool panel_list(shell *sh, lexer *lx, panel *as);
 /* Appends a panel; m: NULL where nothing moves. */
 bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m);
 

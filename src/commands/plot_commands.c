@@ -226,17 +226,30 @@ static bool read_figures(shell *sh, lexer *lx, const command *self, const char *
                    (plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to)));
 }
 
+/* Of a map, under --part: rows, as of a table. */
+static bool share_map(shell *sh, lexer *lx, panels *p) {
+    const heard *to = last_said(p, "to");
+    if (to)
+        return calc_fail(lx->error, to->at, to->len,
+                         "a share of a map is rows, not a picture: they go to standard output, without `to`");
+    return panel_list(sh, lx, &p->list[0]);
+}
+
 bool do_plot(shell *sh, lexer *lx, const command *self) {
     static const char wants[] = "EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N";
     char file[FILE_NAME];
     plot_figure f;
     panels p = {.count = 0};
     plot_figure_init(&f);
-    bool ok = read_figures(sh, lx, self, wants, &p, file) && draw_panels(sh, lx, &p, &f, NULL);
-    if (ok && sh->replaying && !*file)
+    bool ok = read_figures(sh, lx, self, wants, &p, file);
+    const bool shared = ok && sh->share.of && p.count == 1 && panel_is_map(lx, &p.list[0]);
+    ok = ok && (shared ? share_map(sh, lx, &p) : draw_panels(sh, lx, &p, &f, NULL));
+    if (!ok || shared)
+        ;
+    else if (sh->replaying && !*file)
         fprintf(sh->out, "%c\n", MARK_DRAWING);
     else
-        ok = ok && draw(sh, lx, &f, NULL, *file ? file : NULL);
+        ok = draw(sh, lx, &f, NULL, *file ? file : NULL);
     plot_figure_free(&f);
     panels_free(sh, &p);
     return ok;

@@ -308,6 +308,14 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
     return ok;
 }
 
+bool table_map(shell *sh, lexer *lx, said *all) {
+    column c;
+    grid_range r;
+    const bool ok = map_read(sh, lx, all, &c, &r) && run_table(sh, lx, all, &r.grid.a, &r.grid, NULL, &c, 1);
+    columns_free(&c, 1);
+    return ok;
+}
+
 bool do_table(shell *sh, lexer *lx, const command *self) {
     enum { ROWS = 20, ACROSS = 5 };
     column columns[COLUMNS - 2];

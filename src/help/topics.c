@@ -107,10 +107,10 @@ static void equation(FILE *to, const char *number, const char *text) {
     }
 }
 
-#define TITLE_BEGINS "Frictional Energy Dissipation in Partial Slip Contacts of Axisymmetric Power-Law Graded"
-#define TITLE_ENDS                                                                                           \
-    "Elastic Solids under Oscillating Tangential Loads: Effect of the Geometry and the In-Depth Grading"
-static const char reference[] = "J. Wilhayn, M. He\xc3\x9f: " TITLE_BEGINS " " TITLE_ENDS
+#define TITLE                                                                                                \
+    "Frictional Energy Dissipation in Partial Slip Contacts of Axisymmetric Power-Law Graded Elastic "       \
+    "Solids under Oscillating Tangential Loads: Effect of the Geometry and the In-Depth Grading"
+static const char reference[] = "J. Wilhayn, M. He\xc3\x9f: " TITLE
                                 ". Mathematics 2022, 10(19), 3641. https://doi.org/10.3390/math10193641";
 
 void help_cite(FILE *to) {
@@ -118,8 +118,10 @@ void help_cite(FILE *to) {
     fputs("fret " FRET_VERSION ": an interactive calculator for partial-slip contact.\n\n"
           "@article{math10193641,\n"
           "  author  = {Wilhayn, Josefine and He{\\ss}, Markus},\n"
-          "  title   = {" TITLE_BEGINS "\n             " TITLE_ENDS "},\n"
-          "  journal = {Mathematics},\n"
+          "  title   = {",
+          to);
+    help_wrapped(to, TITLE "},", 13, 13);
+    fputs("  journal = {Mathematics},\n"
           "  year    = {2022},\n"
           "  volume  = {10},\n"
           "  number  = {19},\n"

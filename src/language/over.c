@@ -87,7 +87,8 @@ static fret_estimate between(over *o, long double lo, long double hi, long doubl
 
 /* From `far` to a singular end: between halves of the distance, whose sums go on as their limit does (Wynn's
  * epsilon, exact for sums of powers of the distance). There x keeps its digits, which next to the end it
- * loses. Where the last of them do not shrink there is no limit. */
+ * loses. Where the last of them do not shrink there is no limit; what they tell of the rest holds a limit
+ * that belongs to another law, farther from the end, off. */
 static fret_estimate to_end(over *o, long double far, long double end) {
     enum { HALVES = 40 };
     long double row[HALVES + 1], sum = 0, from = far, rounding = 0, last = NAN, before = 0, shrinks = 0,
@@ -95,6 +96,8 @@ static fret_estimate to_end(over *o, long double far, long double end) {
     fret_estimate best = {0, INFINITY};
     for (int n = 0; n <= HALVES && !o->error->raised; n++) {
         const long double to = end - (end - from) / 2, digits = LDBL_EPSILON * fabsl(end / (end - to));
+        if (digits > 1e-4L)
+            break;
         const fret_estimate piece = between(o, from, to, 1e-15L + 4 * digits, false);
         long double above = 0;
         row[n] = sum += piece.value;
@@ -113,7 +116,12 @@ static fret_estimate to_end(over *o, long double far, long double end) {
             best = (fret_estimate){now, off + earlier + rounding};
         last = now;
     }
-    return shrinks < 0.999L || before == 0 ? best : (fret_estimate){sum, INFINITY};
+    if (!(shrinks < 0.999L) && before != 0)
+        return (fret_estimate){sum, INFINITY};
+    const long double rest = before != 0 ? before * shrinks / (1 - shrinks) : 0;
+    return fabsl(best.value - sum - rest) <= fabsl(rest) + best.error + rounding
+               ? best
+               : (fret_estimate){sum + rest, fabsl(rest) + rounding};
 }
 
 /* *size: of its magnitude. */
@@ -128,27 +136,32 @@ static fret_estimate of_part(over *o, long double lo, long double hi, long doubl
     const long double mid = lo + (hi - lo) / 2;
     const fret_estimate left = to_end(o, mid, lo), right = to_end(o, mid, hi);
     const fret_estimate both = {right.value - left.value, left.error + right.error};
-    if (both.error < all.error || !isfinite(all.error))
+    const long double rough = fabsl(all.value);
+    const bool agree = fabsl(both.value - all.value) <= 4 * (both.error + all.error);
+    if ((both.error < all.error && agree) || !isfinite(all.error))
         all = both;
     if (!isfinite(all.error)) /* all of it is unsure: little, where it is a sliver of the whole */
-        all.error = fabsl(left.value) + fabsl(right.value);
+        all.error = fmaxl(rough, fabsl(left.value) + fabsl(right.value));
     *size = fmaxl(*size, fmaxl(fabsl(all.value), isfinite(both.error) ? 0 : all.error));
     return all;
 }
 
-/* Where parts end: of a place, where the scene has an edge, and pressure may be singular there. The first
- * lets no rule lie evenly about a pole, whose sides would take each other away. */
-enum { EDGES = 5 };
+/* Where parts end: of a place, where the scene has an edge, and pressure may be singular there; a contact
+ * that reaches but little beyond a flat end has another law nearer to it than that. The first lets no rule
+ * lie evenly about a pole, whose sides would take each other away. */
+enum { EDGES = 7 };
 static size_t edges(const over *o, long double at[EDGES]) {
     static const char *const names[] = {"b", "a"};
-    size_t count = 0;
+    long double v[3];
+    size_t count = 0, found = 0;
     at[count++] = o->lo + 0.381966L * (o->hi - o->lo);
-    for (size_t i = 0; i < 2 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++) {
-        long double v;
-        if (!quantity_get(quantity_find(names[i], 1), &o->t->scene, &v, error_quiet()))
-            continue;
-        at[count++] = v;
-        at[count++] = -v;
+    for (size_t i = 0; i < 2 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++)
+        found += quantity_get(quantity_find(names[i], 1), &o->t->scene, &v[found], error_quiet());
+    if (found == 2 && v[1] > v[0] && v[1] < 1.1L * v[0])
+        v[found++] = v[0] - (v[1] - v[0]);
+    for (size_t i = 0; i < found; i++) {
+        at[count++] = v[i];
+        at[count++] = -v[i];
     }
     return count;
 }

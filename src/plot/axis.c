@@ -129,6 +129,16 @@ double plot_step(double least) {
     return 10 * power;
 }
 
+size_t plot_log_tics(const plot_axis *a, double at[PLOT_TICS]) {
+    const bool wide = a->hi > 5 * a->lo;
+    const double step = plot_step((a->hi - a->lo) / 5);
+    size_t n = 0;
+    for (double v = wide ? plot_step(a->lo) : ceil(a->lo / step - same) * step;
+         v <= a->hi * (1 + same) && n < PLOT_TICS; v = wide ? plot_step(1.5 * v) : v + step)
+        at[n++] = v;
+    return n;
+}
+
 size_t plot_levels(const plot_map *m, double *level, size_t room) {
     double lo = INFINITY, hi = -INFINITY;
     for (size_t i = 0; i < m->nx * m->ny; i++)

@@ -53,14 +53,11 @@ static void linear_tics(page_ruler *r, double step) {
 static void log_tics(page_ruler *r, int most) {
     const plot_axis *a = &r->axis;
     int first = (int)ceil(log10(a->lo) - 1e-9), last = (int)floor(log10(a->hi) + 1e-9);
-    if (last - first < 1) { /* within a decade or two: 1, 2, 5 */
-        static const double steps[] = {1, 2, 5};
-        for (int e = first - 1; e <= last; e++)
-            for (int i = 0; i < 3; i++) {
-                double v = steps[i] * pow(10, e);
-                if (v >= a->lo * (1 - 1e-9) && v <= a->hi * (1 + 1e-9))
-                    tic(r, v, "%.*g", 6);
-            }
+    if (last - first < 1) {
+        double at[PLOT_TICS];
+        const size_t n = plot_log_tics(a, at);
+        for (size_t i = 0; i < n; i++)
+            tic(r, at[i], "%.*g", 6);
         return;
     }
     int skip = (last - first) / (most > 1 ? most : 1) + 1;

@@ -228,14 +228,26 @@ static void set_text(scribe *s, const char *what, const char *text) {
     putc('\n', s->to);
 }
 
+static void set_log_tics(scribe *s, char name, const plot_axis *a) {
+    double at[PLOT_TICS];
+    const size_t n = plot_log_tics(a, at);
+    fprintf(s->to, "set %ctics (", name);
+    for (size_t i = 0; i < n; i++)
+        fprintf(s->to, "%s%g", i ? "," : "", at[i]);
+    fputs(")\n", s->to);
+}
+
 static void set_axis(scribe *s, char name, const plot_axis *a) {
-    fprintf(s->to, "set %crange [%.9g:%.9g]\n", name, a->flip ? a->hi : a->lo, a->flip ? a->lo : a->hi);
+    fprintf(s->to, "set %crange [%.9g:%.9g]\nset %ctics autofreq\n", name, a->flip ? a->hi : a->lo,
+            a->flip ? a->lo : a->hi, name);
     if (a->log) {
         fprintf(s->to, "set logscale %c\n", name);
         if (a->hi / a->lo > 50)
             fprintf(s->to,
                     s->kind->form == PLOT_TEX ? "set format %c '$10^{%%T}$'\n" : "set format %c '10^{%%T}'\n",
                     name);
+        else /* powers of ten alone would not tell its scale */
+            set_log_tics(s, name, a);
     } else if (fmax(fabs(a->lo), fabs(a->hi)) >= 1e5 || fmax(fabs(a->lo), fabs(a->hi)) < 1e-3) {
         fprintf(s->to, "set format %c '%%h'\n", name);
     }
@@ -523,9 +535,7 @@ static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, c
     set_text(s, "ylabel", p->ylabel);
     set_axis(s, 'x', &x);
     set_axis(s, 'y', &y);
-    fputs("set border lw 1.2\nset xtics autofreq\nset ylabel offset 0,0\nset tics front\nset mxtics\nset "
-          "mytics\n",
-          s->to);
+    fputs("set border lw 1.2\nset ylabel offset 0,0\nset tics front\nset mxtics\nset mytics\n", s->to);
     if (!p->map.nx)
         fputs("set grid back lt 1 lc rgb '#e6e6e6' lw 1\n", s->to);
     if (!p->map.nx && !x.log && !y.log)

@@ -35,6 +35,10 @@ bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis 
 
 /* The step 1, 2 or 5 times a power of ten next to `least` or above. */
 double plot_step(double least);
+/* The tics of a logarithmic axis over less than two decades: at 1, 2, 5, or a step apart where these are few.
+ * How many. */
+enum { PLOT_TICS = 12 };
+size_t plot_log_tics(const plot_axis *a, double at[PLOT_TICS]);
 
 /* At most `room` levels for contours of z, in rising order. */
 size_t plot_levels(const plot_map *m, double *level, size_t room);

@@ -81,15 +81,25 @@ static bool read_within(exercise *x, const lexer *lx, const span *part) {
            (v.v > 0 || calc_fail(lx->error, part->at, part->len, "within must be positive")) && at_end(&own);
 }
 
+/* A mere number says nothing of itself. */
+static bool name_answer(exercise *x) {
+    free(x->column.name);
+    x->column.name = column_name("answer", 6);
+    return x->column.name != NULL;
+}
+
 static bool read_value(exercise *x, const lexer *lx, said *all, const heard *equals) {
     shell *sh = x->sh;
     const heard *within = said_of(all, "within", 0);
     lexer own = hole_lexer(lx, &equals->hole[0]);
     if (!within)
         return calc_fail(lx->error, lx->at, 0, "expected within 5 %%: how far off may a guess be?");
+    const bool number = own.kind == T_NUMBER;
     return read_one_expression(sh, &own, 0, &x->column) &&
            expr_eval(&sh->calc, &sh->list[0], &x->value, lx->error) &&
-           column_fits(&sh->list[0], &x->column, x->value, lx->error) && read_within(x, lx, &within->hole[0]);
+           column_fits(&sh->list[0], &x->column, x->value, lx->error) &&
+           read_within(x, lx, &within->hole[0]) &&
+           (!number || sh->list[0].count > 1 || name_answer(x) || calc_no_memory(lx->error));
 }
 
 static bool read_exercise(exercise *x, lexer *lx, said *all) {

@@ -31,8 +31,8 @@ static const char usage[] =
     "  --replay FILE...    run transcripts and compare; exit 1 where one differs\n"
     "  --tolerance X       relative tolerance of numbers in a replay\n"
     "  --format=FORMAT     text, csv or json\n"
-    "  --part I/N          share I = 1..N of the rows of a table, or of the samples of\n"
-    "                      uncertainty, as csv or json: cat puts the shares together\n"
+    "  --part I/N          share I = 1..N of the rows of a table or a map, or of the\n"
+    "                      samples of uncertainty, as csv or json: cat puts them together\n"
     "  --keep-going        go on after an error\n"
     "  --quiet             no banner\n"
     "  --no-rc             do not read the start-up file\n"
@@ -308,7 +308,7 @@ static int run_part(shell *sh, const wishes *w) {
     const int status = w->count ? run_jobs(sh, w) : shell_file(sh, "-");
     if (status != EXIT_OK || sh->share.met)
         return status;
-    shell_error(sh, "--part: there was no table, and no uncertainty, whose rows could be shared");
+    shell_error(sh, "--part: there was no table, map or uncertainty whose rows could be shared");
     return EXIT_ERROR;
 }
 

@@ -135,12 +135,11 @@ static bool misspelt(shell *sh, lexer *lx) {
 
 static bool dispatch(shell *sh, lexer *lx) {
     if (lx->kind == T_NAME) {
-        const command *c = command_find(lx->text + lx->at, lx->len);
-        const token_kind next = c ? lex_peek(lx) : T_END;
-        if (c && next != T_ASSIGN && next != T_INCREMENT && next != T_DEFINE)
-            return run_command(sh, lx, c);
         if (assign_at(lx))
             return assign(sh, lx);
+        const command *c = command_find(lx->text + lx->at, lx->len);
+        if (c)
+            return run_command(sh, lx, c);
         if (misspelt(sh, lx))
             return false;
         const quantity *q = lex_peek(lx) == T_NUMBER ? quantity_find(lx->text + lx->at, lx->len) : NULL;

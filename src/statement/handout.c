@@ -39,13 +39,15 @@ static const char head[] =
     ".question { font-weight: bold; counter-increment: question; break-after: avoid; }\n"
     ".question::before { content: counter(question) \". \"; margin-left: -1.5em; display: inline-block; "
     "width: 1.5em; }\n"
-    ".choice { margin-top: 0.2em; margin-bottom: 0.2em; }\n"
+    ".choice { margin-top: 0.2em; margin-bottom: 0.2em; break-before: avoid; }\n"
     ".choice::before { content: \"\\2610\\00a0\"; }\n"
-    ".room { height: 3.2em; margin-left: 1.5em; border-bottom: 1px dotted #777; }\n"
+    ".room { height: 3.2em; margin-left: 1.5em; border-bottom: 1px dotted #777; break-inside: avoid; "
+    "break-before: avoid; }\n"
     "figure { margin: 1em 0; break-inside: avoid; }\n"
     "figure svg { width: 100%; max-width: 36em; height: auto; display: block; margin: auto; }\n"
     ".solutions { break-before: page; }\n"
-    "@media print { body { margin: 0 auto; font-size: 10pt; } }\n"
+    "@media print { body { margin: 0 auto; font-size: 10pt; } figure { margin: 0.5em 0; } "
+    "figure svg { max-width: 30em; } }\n"
     "@page { margin: 18mm; }\n"
     "</style>\n"
     "<title>";
@@ -62,6 +64,23 @@ static void put_text(FILE *to, const char *text, size_t len) {
         } else {
             n = character_shown(text + i, len - i, shown);
             fputs(shown, to);
+        }
+    }
+}
+
+/* A picture as it is, but for the names of its parts and where it refers to them: they are to be the only
+ * ones on the page. */
+static void put_figure(handout *p, const char *text, size_t len) {
+    static const char *const naming[] = {" id=\"", " id='", "href=\"#", "href='#", "url(#", "url('#"};
+    bool tag = false;
+    p->figures++;
+    for (size_t i = 0; i < len; i++) {
+        tag = text[i] == '<' || (tag && text[i] != '>');
+        putc(text[i], p->to);
+        for (size_t j = 0; tag && j < sizeof naming / sizeof *naming; j++) {
+            const size_t n = strlen(naming[j]);
+            if (i + 1 >= n && !memcmp(text + i + 1 - n, naming[j], n))
+                fprintf(p->to, "fig%u-", p->figures);
         }
     }
 }
@@ -107,7 +126,7 @@ void handout_put(handout *p, page_part part, const char *text, size_t len) {
         fputs(parts[part].begin, p->to);
     }
     if (part == PAGE_FIGURE)
-        fwrite(text, 1, len, p->to);
+        put_figure(p, text, len);
     else
         put_text(p->to, text, len);
     p->open = part;

@@ -16,13 +16,14 @@ typedef enum page_part {
     PAGE_CHOICE,
     PAGE_ROOM,     /* for an answer by hand */
     PAGE_SOLUTION, /* of a question: they come together, at the end */
-    PAGE_FIGURE    /* SVG, as it is */
+    PAGE_FIGURE    /* SVG */
 } page_part;
 
 typedef struct handout {
     FILE *to; /* NULL: there is none */
     page_part open;
     char last;           /* that was written, but for line ends */
+    unsigned figures;    /* so far */
     file_text solutions; /* to the questions */
 } handout;
 

@@ -63,7 +63,7 @@ bool target_share(shell *sh, target *t, size_t rows, size_t *from, size_t *to, c
         return true;
     if (p->met)
         return calc_fail(error, 0, 0,
-                         "--part shares the rows of one table, or of the samples of one uncertainty: "
+                         "--part shares the rows of one table or map, or the samples of one uncertainty: "
                          "this would be a second");
     if (t->file.to)
         return calc_fail(error, t->name.at, t->name.len,

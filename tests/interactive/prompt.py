@@ -169,7 +169,7 @@ def exercises(tests):
         s.child.expect("guess> ")
         s.child.send(key)
         said = s.prompt()
-        tests.check("no guess, by " + name, ("1 = 1" in said) == (key != "\x03") == ("interrupted" not in said), said)
+        tests.check("no guess, by " + name, ("answer = 1" in said) == (key != "\x03") == ("interrupted" not in said), said)
     for name, text in (("recorded", None), ("copied", PROMPT + SCENE + "; press FN=100 N\n" + copied)):
         path = os.path.join(tests.dir, "guesses.txt")
         if text:

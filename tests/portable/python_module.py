@@ -21,23 +21,43 @@ SHAPES = {
     "power n=3 h=1 um r0=1 mm": fret.power(3, 1e-6, 1e-3), "sum 2:50 m^-1, 4:2e6 m^-3": fret.powers([(2, 50, 1), (4, 2e6, 1)]),
     "flat-cone b=0.1 mm slope=0.05": fret.flat_cone(1e-4, 0.05),
     "flat-paraboloid b=0.1 mm R=10 mm": fret.flat_paraboloid(1e-4, 10e-3),
-    "flat-rounded b=0.1 mm R=10 mm": fret.flat_rounded(1e-4, 10e-3), "exact-sphere R=10 mm": fret.exact_sphere(10e-3)}
+    "flat-rounded b=0.1 mm R=10 mm": fret.flat_rounded(1e-4, 10e-3), "exact-sphere R=10 mm": fret.exact_sphere(10e-3),
+    "flat b=0.1 mm": fret.flat(1e-4)}
 with fret.session() as s:
     s.run("material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; friction 0.4")
     for said, shape in SHAPES.items():
         s.run("geometry %s; press FN=100 N; step Fx=20 N; step FN=90 N Fx=-10 N" % said)
-        contact = fret.Contact(steel, shape, mu=0.4).press(FN=100).step(Fx=20).step(FN=90, Fx=-10)
+        contact = fret.Contact(steel, shape, mu=0.4).watch().press(FN=100).step(Fx=20).step(FN=90, Fx=-10)
         for ours, theirs in ((contact.state.a, "a"), (contact.state.dx, "dx"), (contact.state.W, "W"), (contact.state.c, "c"),
                              (contact.qx(5e-5), "qx(0.05 mm)"), (contact.ux(1e-3), "ux(1 mm)"), (contact.p(5e-5), "p(0.05 mm)"),
-                             (contact.uz(1e-3), "uz(1 mm)"), (contact.loss(FA=10), "dW(10 N)")):
+                             (contact.uz(1e-3), "uz(1 mm)"), (contact.slip(9e-5), "slip(0.09 mm)"), (contact.loss(FA=10), "dW(10 N)"),
+                             (contact.work(9e-5), "WdA(0.09 mm)")):
             want = s.value(theirs)
             assert abs(ours - want) <= 1e-12 * abs(want), (said, theirs, ours, want)
         again = pickle.loads(pickle.dumps(contact))
         assert again.state == contact.state, said
         assert contact.copy().step(Fx=5).state == contact.step(Fx=5).state, said
-    s.run("geometry sphere R=10 mm; press FN=100 N; cycle FA=20 N FNA=30 N phase=90 deg times 3")
+    s.run("k = 0; second aluminium; geometry sphere R=10 mm; press FN=100 N; step Fx=20 N")
+    pair = fret.Material(E0=210e9, nu=0.3, second=fret.Body(*(s.value(name) for name in ("E0_2", "nu_2"))))
+    contact = fret.Contact(pair, fret.sphere(R=10e-3), mu=0.4).press(FN=100).step(Fx=20)
+    for z in (1e-4, -1e-4):
+        inside = contact.stress(5e-5, [[0, 2e-5]], z)
+        place = "(0.05 mm, 0.02 mm, %g m)" % z
+        for ours, name in zip(inside + (inside.mises, inside.tresca, inside.principal[..., 0], inside.principal[..., 2]),
+                              ("sxx", "syy", "szz", "sxy", "sxz", "syz", "mises", "tresca", "sigma1", "sigma3")):
+            want = s.value(name + place)
+            assert ours.shape == (1, 2) and abs(ours[0, 1] - want) <= 1e-9 * abs(want), (name, z, ours, want)
+    s.run("second same; k = 0.3; press FN=100 N; cycle FA=20 N FNA=30 N phase=90 deg times 3")
     swung = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).press(FN=100).cycle(FA=20, FNA=30, phase=np.pi / 2, times=3)
     assert abs(swung - s.value("dW")) <= 1e-12 * swung, swung
+    seen = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).watch().press(FN=100)
+    assert seen.phases == 0
+    seen.cycle(FA=20, FNA=30, phase=np.pi / 2, times=2)
+    before = seen.phases
+    seen.swing(20, 30, np.pi / 2, 100.0)
+    want = s.value("dWdA(0.15 mm)")
+    assert abs(seen.work(1.5e-4, since=before) - want) <= 1e-9 * want, (seen.work(1.5e-4, since=before), want)
+    assert seen.press(FN=100).phases == 0 and not seen.work(1e-4)
     for refused, what in (("press FN=-1 N", fret.SessionError),):
         try:
             s.run(refused)
@@ -53,6 +73,19 @@ for wrong in (lambda: fret.Material(E0=-1, nu=0.3), lambda: fret.Material(E0=1e9
         assert error.quantity in ("E0", "k"), error
     else:
         raise AssertionError("taken")
+ball = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).press(FN=100)
+on_rigid = fret.Contact(fret.Material(E0=210e9, nu=0.3, second=fret.rigid), fret.sphere(R=10e-3), mu=0.4).press(FN=100)
+quick = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4, exact=False)
+for call, says in ((lambda: ball.stress(0, 0, 1e-4), "k = 0.3 lies outside"), (lambda: on_rigid.stress(0, 0, [1e-4, -1e-4]), "rigid"), (lambda: ball.work(0), "watch"),
+                   (lambda: ball.copy().watch().copy().work(0), "watch"), (lambda: ball.copy().watch().work(0, since=1), "since = 1"),
+                   (quick.watch, "exactness"), (lambda: ball.slip(-1), "negative"), (lambda: fret.Contact(steel, fret.flat(0), mu=0.4), "b = 0 must"),
+                   (lambda: fret.Contact(steel, fret.flat(1e-3), mu=0.4).press(FN=100).p(1e-3), "infinite")):
+    try:
+        call()
+    except fret.Error as error:
+        assert says in str(error), (says, error)
+    else:
+        raise AssertionError("taken: " + says)
 r = np.linspace(0, 1e-3, 50)
 rows = fret.Contact(steel, fret.table(r, r**2 / 0.02), mu=0.4).press(FN=100)
 ball = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).press(FN=100)

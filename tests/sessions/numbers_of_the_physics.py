@@ -468,8 +468,38 @@ def integrals(tests):
         close(tests, "%s, k = %g: integral of q_x" % (command, k), 25, traction, 1e-11)
 
 
+def slivers(tests):
+    """Of a contact that reaches but a hair beyond a flat end p has two laws there, one nearer than the hair: the integral is
+    as good as the digits of a place allow, or refused."""
+    steep = ("flat-cone b=0.2 mm slope=0.05", "flat-cone b=0.2 mm slope=1", "flat-paraboloid b=0.2 mm R=1 mm",
+             "flat-paraboloid b=0.2 mm R=10 mm", "flat-paraboloid b=0.2 mm R=100 mm", "flat-rounded b=0.2 mm R=0.1 mm")
+    told = 0
+    for k, command in tests.some(((k, command) for k in (-0.9, -0.7, -0.5, -0.3, -0.1) for command in steep), 5):
+        done = tests.run("--format=json", "--quiet", "-c", "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry %s; press FN=100 N\n"
+                         "(integral 2*pi*r*p(r) for r = 0 m .. a)" % (k, command))
+        if done.returncode:
+            tests.check("%s, k = %g: integral of p over a hair" % (command, k), "does not converge" in done.stderr and (k, command) in (
+                        (-0.7, "flat-cone b=0.2 mm slope=1"), (-0.7, "flat-paraboloid b=0.2 mm R=1 mm")), tests.report(done))
+            continue
+        told += 1
+        got = [row["value"] for row in harness.told(done.stdout) if "value" in row]
+        close(tests, "%s, k = %g: integral of p over a hair" % (command, k), 100, got[0] if got else None, 2e-9)
+    tests.check("integrals over a hair", told)
+
+
+def stiffened(tests):
+    """A rigid punch that sticks is (1-nu) ln(3-4nu)/(1-2nu) times as stiff (Mossakovskii; Handbook of Contact Mechanics, (2.141);
+    any shape, Spence 1968): what the warning says of it, and that it says nothing where there is nothing to say."""
+    for nu in (-0.3, 0.0, 0.1, 0.2, 1 / 3, 0.4, 0.45):
+        part = 100 * ((1 - nu) * math.log(3 - 4 * nu) / (1 - 2 * nu) - 1)
+        done = tests.run("-c", "material E0=1 GPa nu=%.17g; second rigid; geometry sphere R=10 mm; friction 0.4; press FN=1 N; step Fx=0.1 N" % nu)
+        tests.check("stiffened, nu = %g" % nu, "kn up to %.2g %% too small" % part in done.stderr, tests.report(done))
+    done = tests.run("-c", "material E0=1 GPa nu=0.5; second rigid; geometry sphere R=10 mm; friction 0.4; press FN=1 N; step Fx=0.1 N")
+    tests.check("stiffened, nu = 0.5", done.returncode == 0 and not done.stderr, tests.report(done))
+
+
 def run(tests):
-    tests.each([lambda: integrals(tests), lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
+    tests.each([lambda: integrals(tests), lambda: slivers(tests), lambda: stiffened(tests), lambda: published(tests), lambda: corners(tests), lambda: material(tests), lambda: shapes(tests),
                 lambda: gap_file(tests), lambda: dense_file(tests), lambda: dense_fields(tests), lambda: tip_in_rows(tests), lambda: whole_gap(tests),
                 lambda: swinging_rows(tests), lambda: hardly_moved_rows(tests),
                 lambda: histories(tests), lambda: rig(tests), lambda: on_the_way(tests)])

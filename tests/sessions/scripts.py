@@ -440,6 +440,7 @@ def demos(tests):
     tests.check("there are demos", len(paths) > 10)
     listed = tests.run("-c", "show demos").stdout.splitlines()
     figures_of_paper = glob.glob(os.path.join(harness.ROOT, "scripts", "paper", "*.txt"))
+    tests.check("show demos fits a terminal", max(map(len, listed)) <= 80, max(listed, key=len))
     tests.check("show demos", len(listed) == len(paths) + len(figures_of_paper), "\n".join(listed))
     jobs = [lambda p=path, row=row: lesson(tests, p, row) for path, row in zip(paths, listed)]
     tests.each(jobs + [lambda: lessons_aside(tests), lambda: path_of_lessons(tests, listed), lambda: own_lessons(tests)])
@@ -540,6 +541,10 @@ def handout(tests, name, path, questions, figures):
     root = xml.etree.ElementTree.fromstring(text)
     xhtml = "{http://www.w3.org/1999/xhtml}"
     asked = [e for e in root.iter(xhtml + "p") if e.get("class") == "question"]
+    ids = re.findall(r"<[^>]*\sid=['\"]([^'\"]*)", text)
+    tests.check("a handout of %s: no id twice" % name, len(set(ids)) == len(ids) >= figures and
+                {at for at in re.findall(r"<[^>]*(?:href=['\"]|url\(['\"]?)#([^'\")]*)", text)} <= set(ids),
+                str(sorted(id for id in set(ids) if ids.count(id) > 1)))
     fetched = re.findall(r"(?:src|href)\s*=\s*['\"](?!#)[^'\"]*|url\((?!['\"]?#)[^)]*|@import|<script|<link", text)
     tests.check("a handout of " + name, root.tag == xhtml + "html" and len(asked) == questions == len(list(root.iter(xhtml + "li"))) and not fetched and
                 len(list(root.iter("{http://www.w3.org/2000/svg}svg"))) == figures, "%d questions, %d figures, %s" % (len(asked), text.count("<svg"), fetched))

@@ -18,6 +18,7 @@ ROWS = (
     "table a for FN = 100 N, 3 N, 20 N, 5 N with k = 0, 0.3",
     "table a, c at loads.csv",
     "table dz, a at depths.csv with k = 0, 0.3",
+    "2*a; plot map c(F)/a for F = 10 N .. 30 N steps 4 for k = -0.5 .. 0.5 steps 6 title \"stick\"; a",
 )
 FILES = {"loads.csv": "FN [N],mu\n" + "".join("%d,%g\n" % (70 + i, 0.4 + i / 100) for i in range(17)),
          "depths.csv": "FN [N],depth [um]\n" + "".join("%d,%g\n" % (60 + i, 4 + i / 10) for i in range(11))}
@@ -49,7 +50,8 @@ def tables(tests):
     for statement in ROWS:
         script = "%s; %s" % (GRADED, statement)
         for form in ("csv", "json"):
-            whole = tests.run("--format=" + form, "-c", script)
+            # the values of a map are those of the table over its ranges
+            whole = tests.run("--format=" + form, "-c", re.sub("plot map (.*) title [^;]*", r"table \1", script))
             for of in COUNTS:
                 got, want = put_together(tests, of, script, form), rows_alone(whole.stdout) if of > 1 else whole.stdout
                 tests.check("%s, %s, by %d" % (statement, form, of), whole.returncode == 0 and got == want, harness.diff(want, got))
@@ -108,6 +110,8 @@ def refused(tests):
                                 (("--format=csv",), "table q for q = 1 .. 2 to rows.csv", "standard output"),
                                 (("--format=csv",), "table q for q = 1 .. 2; table q for q = 1 .. 2", "a second"),
                                 (("--format=csv",), "1 + 1", "there was no table"),
+                                (("--format=csv",), "plot q for q = 1 .. 2 to share.svg", "no table, map or"),
+                                (("--format=csv",), "plot map q + s for q = 1 .. 2 for s = 1 .. 2 to share.svg", "not a picture"),
                                 (("--format=csv",), "table q for q = 1 .. foo", "unknown name 'foo'")):
         done = tests.run(*words, "--part", "2/3", "-c", script)
         tests.check("a share of " + script, done.returncode == 1 and says in done.stderr and "1 + 1" not in done.stdout, tests.report(done))

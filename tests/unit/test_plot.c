@@ -662,6 +662,15 @@ static void axes(void) {
                                       {6, 10},  {0.011, 0.02}, {1e-7, 1e-7}};
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
         CHECK_REL(plot_step(steps[i][0]), steps[i][1], 1e-12L);
+    static const double ranges[][6] = {
+        {0.3, 8, 4, 0.5, 5}, {1.1, 1.9, 4, 1.2, 1.8}, {3e-5, 7e-5, 5, 3e-5, 7e-5}, {2, 90, 5, 2, 50}};
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        double at[PLOT_TICS];
+        const size_t n = plot_log_tics(&(plot_axis){.lo = ranges[i][0], .hi = ranges[i][1], .log = true}, at);
+        CHECK(n == (size_t)ranges[i][2]);
+        CHECK_REL(at[0], ranges[i][3], 1e-12L);
+        CHECK_REL(at[n - 1], ranges[i][4], 1e-12L);
+    }
 }
 
 static void levels(void) {

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Partial-slip (fretting) contact of axisymmetric solids with E(z) = E0 (z/c0)^k, by libfret. SI units throughout.
 
-Contact is a contact with a memory: press, step, cycle, and ask; arrays of loads at once. session() runs statements of the
+Contact is a contact with a memory: press, step, cycle, and ask for forces, fields, stress and work; arrays of loads at once. session() runs statements of the
 program `fret`, with its units, `solve` and `fit`. Arguments out of range raise Error, a force beyond the friction limit
 GrossSlip, memory that is out MemoryError; a contact is then as before. Equation numbers are those of Mathematics 2022, 10,
 3641, by whose method (dimensionality reduction) all is computed; accuracies are what the tests of the library hold it to."""
 from typing import Optional
 
 from ._library import Error, GrossSlip
-from ._contact import (Body, Contact, Material, Shape, State, cone, exact_sphere, flat_cone, flat_paraboloid, flat_rounded,
-                      power, powers, rigid, sphere, table)
+from ._contact import (Body, Contact, Material, Shape, State, Stress, cone, exact_sphere, flat, flat_cone,
+                      flat_paraboloid, flat_rounded, power, powers, rigid, sphere, table)
 from ._session import Session, SessionError
 
 
@@ -31,6 +31,6 @@ def session(program: Optional[str] = None) -> Session:
     return Session(program)
 
 
-__all__ = ["Body", "Contact", "Error", "GrossSlip", "Material", "Session", "SessionError", "Shape", "State", "cone",
-           "exact_sphere", "flat_cone", "flat_paraboloid", "flat_rounded", "power", "powers", "rigid", "session", "sphere",
-           "table"]
+__all__ = ["Body", "Contact", "Error", "GrossSlip", "Material", "Session", "SessionError", "Shape", "State", "Stress",
+           "cone", "exact_sphere", "flat", "flat_cone", "flat_paraboloid", "flat_rounded", "power", "powers", "rigid", "session",
+           "sphere", "table"]

@@ -114,10 +114,55 @@ def table(r: Array, f: Array) -> Shape:
     return Shape(6, rows=(r, f))
 
 
+def flat(b: float) -> Shape:
+    """A rigid flat punch, f = 0 for r < b [m] and nothing beyond: a = b under any load, and p is infinite at the edge.
+
+    >>> import fret
+    >>> punch = fret.Contact(fret.Material(E0=210e9, nu=0.3, second=fret.rigid), fret.flat(b=1e-3), mu=0.4).press(FN=100)
+    >>> print("%.12g" % (punch.p(0) / (100 / (2 * 3.141592653589793 * 1e-3**2))))
+    1
+    """
+    return Shape(7, b=b)
+
+
 State = namedtuple("State", "FN dz a Fx dx c W U kn kt")
 State.__doc__ = """What a contact is now: normal force FN [N], indentation depth dz [m], contact radius a [m]; tangential force
 Fx [N], displacement dx [m], stick radius c [m]; energy dissipated so far W [J], stored tangential energy U [J]; stiffnesses
 kn = dFN/ddz and kt = dFx/ddx going on in the direction of the last step [N/m]."""
+
+
+class Stress(namedtuple("Stress", "xx yy zz xy xz yz")):
+    """Stress [Pa], tension positive: each component a number, or an array of the shape of the places.
+
+    >>> import fret
+    >>> float(fret.Stress(3e6, 1e6, 0, 0, 0, 0).tresca)
+    3000000.0
+    """
+    __slots__ = ()
+
+    @property
+    def mises(self) -> Values:
+        """Von Mises' equivalent stress [Pa]."""
+        return self._each(library.fret_stress_mises)
+
+    @property
+    def tresca(self) -> Values:
+        """Tresca's equivalent stress [Pa]: the largest principal stress less the smallest."""
+        return self._each(library.fret_stress_tresca)
+
+    @property
+    def principal(self) -> numpy.ndarray:
+        """The principal stresses [Pa], the largest first, along a last axis of 3; to 1e-8 of it where two are equal."""
+        def of(stress):
+            out, address = lib.numbers(numpy.empty(3))
+            library.fret_stress_principal(stress, address)
+            return out
+        return self._each(of)
+
+    def _each(self, of) -> Values:
+        parts = numpy.broadcast_arrays(*self)
+        found = numpy.array([of(ctypes.byref(lib.Stress(*at))) for at in zip(*(part.flat for part in parts))])
+        return found.reshape(parts[0].shape + found.shape[1:])[()]
 
 
 def _one_of(what: str, **given) -> Tuple[str, float]:
@@ -132,8 +177,8 @@ class Contact:
     """Two bodies in contact: any history of both forces, or both displacements, exactly.
 
     Coulomb's friction mu > 0, slip along the force. `exact` steps in long double, all digits of a double; without it power
-    laws step five times as fast, to 3e-14 of mu FN (fret/contact.h tells the bounds), and have no fields and no swing.
-    Raises Error where a constant of the material, a length of the shape or mu is out of range, or, with exact=False, the
+    laws step five times as fast, to 3e-14 of mu FN (fret/contact.h tells the bounds), and have no fields, no swing and no work
+    by place. Raises Error where a constant of the material, a length of the shape or mu is out of range, or, with exact=False, the
     shape is no power.
 
     >>> import fret
@@ -154,6 +199,7 @@ class Contact:
         self._law = lib.Handle("fret_normal_make", "fret_normal_free", ctypes.byref(material._struct()),
                                ctypes.byref(shape._gap), None, None)
         self._contact = lib.Handle("fret_contact_make", "fret_contact_free", self._law.pointer, mu, 0 if exact else 1)
+        self._slips: Optional[lib.Handle] = None
 
     # ---- loads ----------------------------------------------------------------------------------
 
@@ -165,6 +211,7 @@ class Contact:
         if name == "a":
             name, value = "dz", float(self._pressed("radius", value).dz)
         library.fret_contact_reset(self._contact.pointer)
+        self._forget()
         return self.step(**{name: value})
 
     def step(self, FN: Optional[float] = None, dz: Optional[float] = None, Fx: Optional[float] = None,
@@ -258,19 +305,108 @@ class Contact:
         return self._field("surface_x", r)
 
     def slip(self, r: Array) -> Values:
-        """Local slip delta_x - u_x(r) [m], on which friction works, at r >= 0 [m]; errors as of p."""
-        return self.forces.dx - self.ux(r)
+        """Local slip delta_x - u_x(r) [m], on which friction works, at r >= 0 [m]: exactly 0 where all springs within r
+        stick; accuracy as of u_x, of delta_x; errors as of p. Of first loading it is mu eta (f + u_z - dz) of the contact
+        that ends at c, in closed form of a ball:
+
+        >>> import fret, numpy
+        >>> ball = fret.Contact(fret.Material(E0=210e9, nu=0.3), fret.sphere(R=10e-3), mu=0.4).press(FN=100).step(Fx=20)
+        >>> c, r = ball.state.c, numpy.linspace(0.8, 1, 5) * ball.state.a
+        >>> t = numpy.arcsin(c / r)
+        >>> s = c**2 / 10e-3 * (r**2 / c**2 / 2 - 1 + ((2 - r**2 / c**2) * t + 1 / numpy.tan(t)) / numpy.pi)
+        >>> bool(numpy.allclose(ball.slip(r), ball.dxmax / ball.state.dz * s, rtol=1e-11)), float(ball.slip(c / 2))
+        (True, 0.0)
+        """
+        return self._field("slip", r)
+
+    def stress(self, x: Array, y: Array, z: Array) -> Stress:
+        """Stress inside homogeneous bodies (k = 0) at places x, y, z [m], x along Fx, z >= 0 into the first body, z < 0 into
+        the second; numbers or arrays that broadcast. By line loads on the imaginary axis (fret/field.h), to 1e-12 of the
+        largest pressure, 5 us each. Raises Error of graded bodies, in a rigid one, with exact=False, after swinging, and where
+        p is infinite. Beneath Hertz's ball, nu = 0.3, the largest shear stress is 0.310 p0 at 0.48 a (Johnson 1985, 4.2):
+
+        >>> import fret, numpy
+        >>> ball = fret.Contact(fret.Material(E0=210e9, nu=0.3), fret.sphere(R=10e-3), mu=0.4).press(FN=100)
+        >>> z = numpy.linspace(0.4, 0.6, 2001) * ball.state.a
+        >>> shear = ball.stress(0, 0, z).tresca / 2 / ball.p(0)
+        >>> "%.3f p0 at %.3f a" % (shear.max(), z[shear.argmax()] / ball.state.a)
+        '0.310 p0 at 0.481 a'
+        """
+        field = self._present()
+        material = self._made_of[0]
+        places = numpy.broadcast_arrays(*(numpy.asarray(at, dtype=float) for at in (x, y, z)))
+        found = numpy.empty((6,) + places[0].shape)
+        stress = lib.Stress()
+        for at in numpy.ndindex(places[0].shape):
+            body = material.second if material.second and places[2][at] < 0 else material
+            if body is rigid:
+                raise lib.Error("z < 0 is in the second body, which is rigid: it has no stress")
+            lib.check(library.fret_field_stress(field.pointer, body.nu, *(place[at] for place in places), ctypes.byref(stress)))
+            found[(slice(None),) + at] = [getattr(stress, name) for name in Stress._fields]
+        return Stress(*(part[()] for part in found))
+
+    def _present(self) -> lib.Handle:
+        return lib.Handle("fret_field_make", "fret_field_free", self._contact.pointer)
 
     def _field(self, kind: str, r: Array) -> Values:
-        ask = getattr(library, "fret_field_" + kind)
-        field = lib.Handle("fret_field_make", "fret_field_free", self._contact.pointer)
+        return self._at("fret_field_" + kind, self._present(), r)
+
+    def _at(self, kind: str, of: lib.Handle, r: Array) -> Values:
+        ask = getattr(library, kind)
         radii = numpy.asarray(r, dtype=float)
         values = numpy.empty(radii.size)
         value = ctypes.c_longdouble()
         for i, radius in enumerate(radii.flat):
-            lib.check(ask(field.pointer, radius, ctypes.byref(value)))
+            lib.check(ask(of.pointer, radius, ctypes.byref(value)))
             values[i] = value.value
         return values.reshape(radii.shape)[()]
+
+    # ---- what friction has done, by place ---------------------------------------------------------
+
+    def watch(self) -> "Contact":
+        """From here on what slips is kept, phase by phase (150 bytes each), so that `work` can tell where; pressing anew
+        begins anew. Returns the contact. Raises Error with exact=False.
+
+        >>> import fret, numpy
+        >>> ball = fret.Contact(fret.Material(E0=210e9, nu=0.3), fret.sphere(R=10e-3), mu=0.4).watch()
+        >>> before = ball.press(FN=100).step(Fx=20).phases
+        >>> dW = ball.cycle(FA=20)
+        >>> x, weight = numpy.polynomial.legendre.leggauss(60)  # of r = a sin(t), t = 0 .. pi/2: 2 pi int w r dr = W
+        >>> t, a = numpy.pi / 4 * (x + 1), ball.state.a
+        >>> ring = numpy.pi / 4 * weight * 2 * numpy.pi * a**2 * numpy.sin(t) * numpy.cos(t)
+        >>> "%.3f" % (numpy.sum(ring * ball.work(a * numpy.sin(t))) / ball.state.W)
+        '1.000'
+        >>> "%.3f" % (numpy.sum(ring * ball.work(a * numpy.sin(t), since=before)) / dW)
+        '1.000'
+        >>> r, s = 0.9 * a, ball.slip(0.9 * a)  # of a closed cycle 4 mu p s at its end
+        >>> "%.10f" % (ball.work(r, since=before) / (4 * 0.4 * ball.p(r) * s))
+        '1.0000000000'
+        """
+        slips = lib.Handle("fret_slips_make", "fret_slips_free")
+        lib.check(library.fret_contact_watch(self._contact.pointer, slips.pointer))
+        self._slips = slips
+        return self
+
+    @property
+    def phases(self) -> int:
+        """How many phases of slip there have been since the contact is watched; 0 where it is not."""
+        return library.fret_slips_count(self._slips.pointer) if self._slips else 0
+
+    def work(self, r: Array, since: int = 0) -> Values:
+        """Work of friction w(r) [J/m^2] >= 0 at radii r >= 0 [m], of what has slipped while the contact was watched; since: of
+        the phases from that number on, as `phases` was before a cycle. In closed form at constant FN, else integrated
+        (fret/work.h); a wear law makes a depth alpha w(r) of it. Raises Error where nobody watches, r < 0, since is no such
+        number, and where pressure is infinite and it slips."""
+        if not self._slips:
+            raise lib.Error("the work of friction is that of a contact that is watched: watch() before it slips")
+        if not 0 <= since <= self.phases:
+            raise lib.Error("since = %s must lie in 0 .. %d, the phases so far" % (since, self.phases))
+        return self._at("fret_work_at", lib.Handle("fret_work_make", "fret_work_free", self._law.pointer, self._made_of[2],
+                                                   self._slips.pointer, since, self.phases), r)
+
+    def _forget(self) -> None:
+        if self._slips:
+            library.fret_slips_clear(self._slips.pointer)
 
     # ---- closed forms for arrays of loads -------------------------------------------------------
 
@@ -331,9 +467,9 @@ class Contact:
     # ---- the history ----------------------------------------------------------------------------
 
     def copy(self) -> "Contact":
-        """Another contact with the same history, over the same law."""
+        """Another contact with the same history, over the same law; nobody watches it."""
         other = Contact.__new__(Contact)
-        other._made_of, other._law = self._made_of, self._law
+        other._made_of, other._law, other._slips = self._made_of, self._law, None
         other._contact = lib.Handle("fret_contact_make", "fret_contact_free", self._law.pointer, self._made_of[2],
                                     0 if self._made_of[3] else 1)
         lib.check(library.fret_contact_copy(other._contact.pointer, self._contact.pointer))
@@ -349,9 +485,11 @@ class Contact:
         return out
 
     def unpack(self, history: Array) -> "Contact":
-        """Takes a history that `pack` gave. Raises Error where it is none of such a contact, which is then as before."""
+        """Takes a history that `pack` gave; what was watched before is forgotten. Raises Error where it is none of such a
+        contact, which is then as before."""
         array, address = lib.numbers(history)
         lib.check(library.fret_contact_unpack(self._contact.pointer, address, array.size))
+        self._forget()
         return self
 
     def __reduce__(self):

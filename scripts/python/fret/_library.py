@@ -54,6 +54,10 @@ class State(Structure):
     _fields_ = [(name, c_longdouble) for name in "FN dz a Fx dx c W U kn kt".split()] + [("slices", c_size_t)]
 
 
+class Stress(Structure):
+    _fields_ = [(name, c_double) for name in "xx yy zz xy xz yz".split()]
+
+
 class Foundation(Structure):
     _fields_ = [("k", c_longdouble), ("c0", c_longdouble), ("cN0", c_longdouble), ("cT0", c_longdouble),
                 ("eta", c_longdouble), ("hN", c_longdouble * 2), ("hT", c_longdouble * 2), ("beta", c_longdouble * 2),
@@ -114,6 +118,19 @@ _SIGNATURES = {
     "fret_field_surface": (Status, c_void_p, c_longdouble, POINTER(c_longdouble)),
     "fret_field_traction": (Status, c_void_p, c_longdouble, POINTER(c_longdouble)),
     "fret_field_surface_x": (Status, c_void_p, c_longdouble, POINTER(c_longdouble)),
+    "fret_field_slip": (Status, c_void_p, c_longdouble, POINTER(c_longdouble)),
+    "fret_field_stress": (Status, c_void_p, c_double, c_double, c_double, c_double, POINTER(Stress)),
+    "fret_stress_mises": (c_double, POINTER(Stress)),
+    "fret_stress_tresca": (c_double, POINTER(Stress)),
+    "fret_stress_principal": (None, POINTER(Stress), POINTER(c_double)),
+    "fret_slips_make": (Status, POINTER(c_void_p)),
+    "fret_slips_free": (None, c_void_p),
+    "fret_slips_clear": (None, c_void_p),
+    "fret_slips_count": (c_size_t, c_void_p),
+    "fret_contact_watch": (Status, c_void_p, c_void_p),
+    "fret_work_make": (Status, c_void_p, c_double, c_void_p, c_size_t, c_size_t, POINTER(c_void_p)),
+    "fret_work_free": (None, c_void_p),
+    "fret_work_at": (Status, c_void_p, c_longdouble, POINTER(c_longdouble)),
 }
 
 
