@@ -147,13 +147,16 @@ APART fret_status count_near(DIAGRAM *d, coordinate by, double y) {
  * quadratic between any two of the places where front and edge begin and end, here inner (1-x)^2 + 2 middle x
  * (1-x) + outer x^2,   x = 0 .. 1 from the inner one to the outer one. No term is negative: thin zones keep
  * their digits. */
+FRET_INLINE NUMBER weighed(NUMBER weight, NUMBER bend) {
+    return weight > 0 ? weight * bend : 0; /* the centre may bend without end */
+}
+
 FRET_INLINE NUMBER over(const DIAGRAM *d, coordinate by, const place *from, const place *to, NUMBER w,
                         NUMBER inner, NUMBER middle, NUMBER outer) {
     if (!(w > 0))
         return 0;
     const bow b = law_bow(d, by, to, from, w);
-    const NUMBER sum = middle * b.middle + outer * b.outer;
-    return inner > 0 ? sum + inner * b.inner : sum; /* the centre may bend without end */
+    return weighed(middle, b.middle) + weighed(outer, b.outer) + weighed(inner, b.inner);
 }
 
 /* The zone where a front of slip is. */
@@ -173,7 +176,7 @@ APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_fro
         growth = b->edge.y - a->edge.y, size = size_of(growth);
     const place *at[4] = {&b->at, &a->at, &a->edge, &b->edge};
     NUMBER w[3] = {travel, h0, size}, start = travel * (h0 + (h1 - travel)) / 2, end = travel * size / 2,
-           middle[3] = {travel * h1 / 2, (start + end) / 2, 0}, sum = 0;
+           middle[2] = {travel * h1 / 2, (start + end) / 2};
     if (!(travel > 0))
         return 0;
     law_know(d, by, &a->edge);
@@ -196,10 +199,9 @@ APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_fro
         middle[0] = h1 * h1 / 2;
         middle[1] = h0 * h1 / 2;
     }
-    const NUMBER psi[4] = {0, start, end, 0};
-    for (int i = 2; i >= 0; i--)
-        sum += over(d, by, at[i], at[i + 1], w[i], psi[i], middle[i], psi[i + 1]);
-    return sum;
+    return over(d, by, at[2], at[3], w[2], end, 0, 0) +
+           over(d, by, at[1], at[2], w[1], start, middle[1], end) +
+           over(d, by, at[0], at[1], w[0], 0, middle[0], start);
 }
 
 /* Of the force between two depths: that of the chord, less what lies between. */
@@ -237,6 +239,12 @@ FRET_INLINE place place_of(const point *p, coordinate by) {
 }
 
 /* Not as a whole: that waits for its parts to be written. */
+FRET_INLINE void put_place(place *to, const place *from) {
+    to->y = from->y;
+    to->v = from->v;
+    to->at = from->at;
+}
+
 FRET_INLINE void put_point(place *to, const point *p, coordinate by) {
     to->y = p->y[by];
     to->v = p->y[other_than(by)];
@@ -313,6 +321,7 @@ FRET_INLINE void cut(path *p, coordinate by, NUMBER s, size_t count, NUMBER part
             put_point(&front, &top->inner, by);
             fall = law_fall(d, by, &edge, thick, &front);
             zone--;
+            count--;
         }
     } else {
         p->to.t[by] = s * edge.y;
@@ -324,7 +333,7 @@ FRET_INLINE void cut(path *p, coordinate by, NUMBER s, size_t count, NUMBER part
     zone->inner.t[by] = ty;
     zone->inner.t[aside] = tv;
     zone->sigma = s;
-    d->count = (size_t)(zone - d->layers) + 1;
+    d->count = count + 1;
     p->to.t[aside] = tv + s * fall;
 }
 
@@ -333,6 +342,12 @@ FRET_INLINE void put_end(slip_front *end, const path *p, coordinate by, NUMBER t
     put_point(&end->edge, &p->to, by);
     put_point(&end->at, &p->d->layers[p->d->count - 1].inner, by);
     end->thick = thick;
+}
+
+FRET_INLINE void put_front(slip_front *to, const slip_front *from) {
+    put_place(&to->edge, &from->edge);
+    put_place(&to->at, &from->at);
+    to->thick = from->thick;
 }
 
 FRET_INLINE void begin_at(slip_front *begin, const point *edge, coordinate by) {
@@ -357,11 +372,11 @@ FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
     const NUMBER drive = s * p->turn - p->grow, level = end_level(p, by, s), edge = p->to.y[by];
     const point *outer = &d->edge;
     NUMBER left = drive;
-    slip_front zone[2], *now = &zone[0], *next = &zone[1];
+    slip_front now, next;
     size_t count = d->count;
     meeting at = {0, 0};
     bool thin = false;
-    begin_at(now, &d->edge, by);
+    begin_at(&now, &d->edge, by);
     for (; count; count--) {
         const layer *top = &d->layers[count - 1];
         const NUMBER thick = layer_thickness(top, outer, by),
@@ -372,29 +387,31 @@ FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
             at.rest = at.gain * thick - left;
         if (at.gain > 0 && at.rest > 0 && !(at.rest <= same && at.rest <= (NUMBER)1e-6 * at.gain * thick))
             break;
-        left = greater(left - at.gain * thick, 0);
-        if (at.gain > 0 && p->grow != 0)
-            put_at(&next->edge, edge - p->grow * (left / drive));
-        else
-            next->edge = now->edge;
-        put_point(&next->at, &top->inner, by);
-        next->thick = now->thick + thick + (next->edge.y - now->edge.y);
-        if (at.gain > 0)
-            dissipate(p, by, at.gain, now, next, thick);
-        slip_front *const last = now;
-        now = next;
-        next = last;
         outer = &top->inner;
+        if (!(at.gain > 0)) { /* it slips as it is */
+            put_point(&now.at, outer, by);
+            now.thick += thick;
+            continue;
+        }
+        left = greater(left - at.gain * thick, 0);
+        if (p->grow != 0)
+            put_at(&next.edge, edge - p->grow * (left / drive));
+        else
+            put_place(&next.edge, &now.edge);
+        put_point(&next.at, outer, by);
+        next.thick = now.thick + thick + (next.edge.y - now.edge.y);
+        dissipate(p, by, at.gain, &now, &next, thick);
+        put_front(&now, &next);
     }
     if (!count) {
-        dissipate_all(p, by, left, &now->edge);
+        dissipate_all(p, by, left, &now.edge);
         cut(p, by, s, 0, 0, edge, NULL, 0);
         return;
     }
-    const NUMBER travel = left / at.gain, thick = now->thick + (edge - now->edge.y) + travel;
+    const NUMBER travel = left / at.gain, thick = now.thick + (edge - now.edge.y) + travel;
     cut(p, by, s, count, at.rest / at.gain, thick, thin && p->grow == 0 ? outer : NULL, travel);
-    put_end(next, p, by, thick);
-    dissipate(p, by, at.gain, now, next, travelled(p, now, next, travel));
+    put_end(&next, p, by, thick);
+    dissipate(p, by, at.gain, &now, &next, travelled(p, &now, &next, travel));
 }
 
 /* The last phase of a step that goes back: up to its end a front of slip of sign s moves in the outermost of
@@ -777,12 +794,14 @@ static const layer *outermost(const DIAGRAM *d) {
 }
 
 static void diagram_forces(const DIAGRAM *d, fret_state *out) {
-    *out = (fret_state){.FN = d->edge.y[LOAD],
-                        .dz = d->dz,
-                        .Fx = d->Fx,
-                        .dx = d->dx,
-                        .W = (fret_real)d->W + d->W_rest,
-                        .slices = d->count};
+    static const fret_state nothing;
+    *out = nothing; /* cleared as a literal, by gcc's loop, it takes as long as a step */
+    out->FN = d->edge.y[LOAD];
+    out->dz = d->dz;
+    out->Fx = d->Fx;
+    out->dx = d->dx;
+    out->W = (fret_real)d->W + d->W_rest;
+    out->slices = d->count;
 }
 
 static void diagram_state(const DIAGRAM *d, fret_state *out) {

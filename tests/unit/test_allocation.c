@@ -55,11 +55,6 @@ static void laws(void) {
     fret_table_free(table);
 }
 
-static bool same(const fret_state *a, const fret_state *b) {
-    return a->FN == b->FN && a->dz == b->dz && a->Fx == b->Fx && a->dx == b->dx && a->W == b->W &&
-           a->U == b->U && a->slices == b->slices;
-}
-
 /* Ever smaller swings: each turning point is kept. */
 static void memories(void) {
     fret_memory *m, *copy, *whole;
@@ -79,7 +74,7 @@ static void memories(void) {
         if (st.code) {
             CHECK_CODE(st, FRET_NO_MEMORY);
             fret_memory_state(m, &now);
-            CHECK(same(&before, &now));
+            CHECK(same_state(&before, &now));
             CHECK_OK(fret_memory_step(m, &step));
             refused++;
         }
@@ -87,12 +82,12 @@ static void memories(void) {
     }
     fret_memory_state(m, &now);
     fret_memory_state(whole, &before);
-    CHECK(refused > 2 && same(&before, &now));
+    CHECK(refused > 2 && same_state(&before, &now));
     fret_memory_state(copy, &before);
-    EACH(1, fret_memory_copy(copy, m), (fret_memory_state(copy, &now), same(&before, &now)));
+    EACH(1, fret_memory_copy(copy, m), (fret_memory_state(copy, &now), same_state(&before, &now)));
     fret_memory_state(m, &before);
     fret_memory_state(copy, &now);
-    CHECK(same(&before, &now));
+    CHECK(same_state(&before, &now));
     fret_memory_free(m);
     fret_memory_free(copy);
     fret_memory_free(whole);
@@ -115,7 +110,7 @@ static void diagrams(void) {
         if (st.code) {
             CHECK_CODE(st, FRET_NO_MEMORY);
             fret_diagram_forces(d[0], &now);
-            CHECK(!memcmp(&before, &now, sizeof now));
+            CHECK(same_state(&before, &now));
             CHECK_OK(fret_diagram_step(d[0], &step));
             refused++;
         }
@@ -123,7 +118,7 @@ static void diagrams(void) {
     }
     fret_diagram_forces(d[0], &now);
     fret_diagram_forces(d[1], &before);
-    CHECK(refused > 1 && !memcmp(&before, &now, sizeof now));
+    CHECK(refused > 1 && same_state(&before, &now));
     for (int i = 0; i < 2; i++)
         fret_diagram_free(d[i]);
 }
@@ -147,12 +142,12 @@ static void swings(void) {
     CHECK_OK(fret_swing_make(m, &copy));
     EACH(0, period_of(w, copy, &sine), true);
     fret_swing_state(copy, &before);
-    EACH(0, fret_swing_copy(copy, w), (fret_swing_state(copy, &now), same(&before, &now)));
+    EACH(0, fret_swing_copy(copy, w), (fret_swing_state(copy, &now), same_state(&before, &now)));
     fret_swing_state(w, &before);
     fret_swing_state(copy, &now);
-    CHECK(same(&before, &now));
+    CHECK(same_state(&before, &now));
     fret_memory_state(back, &before);
-    EACH(0, fret_swing_memory(w, back), (fret_memory_state(back, &now), same(&before, &now)));
+    EACH(0, fret_swing_memory(w, back), (fret_memory_state(back, &now), same_state(&before, &now)));
     fret_swing_free(w);
     fret_swing_free(copy);
     fret_memory_free(m);
@@ -226,7 +221,7 @@ static void smaller_swings(void) {
         const fret_status st = fret_swing_copy(small, w);
         left = -1;
         fret_swing_state(small, &now);
-        CHECK(!st.code || same(&then, &now));
+        CHECK(!st.code || same_state(&then, &now));
         copies += st.code == FRET_NO_MEMORY;
         fret_swing_free(small);
     }
@@ -267,7 +262,7 @@ static void periods_without_room(void) {
             }
             fret_swing_state(w, &whole);
             fret_swing_state(small, &now);
-            CHECK(same(&whole, &now));
+            CHECK(same_state(&whole, &now));
             fret_swing_free(small);
         }
         fret_swing_free(w);

@@ -263,7 +263,7 @@ static void objects(void) {
             CHECK(st.quantity && strcmp(st.quantity, refused[i].quantity) == 0);
         fret_state now;
         fret_diagram_forces(d, &now);
-        CHECK(memcmp(&now, &before, sizeof now) == 0);
+        CHECK(same_state(&now, &before));
     }
     at_the_ends_of_the_range(normal);
     /* nested turning points: room for so many, and no more; a copy goes on alike */
@@ -280,7 +280,7 @@ static void objects(void) {
         if (st.code) {
             fret_state after;
             fret_diagram_forces(few, &after);
-            CHECK(memcmp(&now, &after, sizeof now) == 0);
+            CHECK(same_state(&now, &after));
         }
         go(d, FRET_KEEP_NORMAL, 0, FRET_TO_FX, at);
     }
@@ -292,7 +292,7 @@ static void objects(void) {
     CHECK_OK(fret_diagram_copy(other, other));
     const fret_state one = go(d, FRET_TO_DEPTH, (double)state_of(d).dz / 2, FRET_TO_DX, 0),
                      two = go(other, FRET_TO_DEPTH, (double)state_of(other).dz / 2, FRET_TO_DX, 0);
-    CHECK(memcmp(&one, &two, sizeof one) == 0);
+    CHECK(same_state(&one, &two));
     /* without the loss all else is the same */
     fret_diagram_reset(d);
     fret_diagram_reset(other);
