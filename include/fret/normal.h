@@ -25,9 +25,10 @@ typedef struct fret_press {
  *
  * The law of a shape other than a power becomes polynomials, cell by cell: 0.2 to 1.5 ms, of a table 0.1 to
  * 0.2 ms a row; then F_N(delta_z), its inverse and what is asked of slices take some 1 us whatever the shape.
- * like: NULL, or a contact whose cells are taken where gap and k are the same, at once. stop, which may be
- * NULL, ends the making; it is not kept. Errors: those of fret_foundation_make and fret_gap_check;
- * FRET_NOT_MONOTONE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
+ * like: NULL, or a contact whose polynomials are taken where k and the kind of shape, or the table, are the
+ * same, whatever E0, nu, b, R and slope are: within 10 us, and bit for bit what it would be without. stop,
+ * which may be NULL, ends the making; it is not kept. Errors: those of fret_foundation_make and
+ * fret_gap_check; FRET_NOT_MONOTONE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
 fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, const fret_normal *like,
                              fret_stop stop, fret_normal **out);
 /* One more user, who frees it too. */

@@ -15,7 +15,8 @@ enum { FRET_RUNS = 40 };
 
 typedef struct fret_cells {
     atomic_size_t users;
-    fret_gap gap; /* of which gap and exponent */
+    struct fret_cells *unit; /* of which these are scaled, or NULL */
+    fret_gap gap;            /* of which gap and exponent */
     double k;
     fret_rule rule;
     size_t count, room;
@@ -26,11 +27,12 @@ typedef struct fret_cells {
     bool falls;                   /* g begins to fall there */
 } fret_cells;
 
-/* Of a gap that has been checked. Errors: FRET_NOT_MONOTONE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
-fret_status fret_cells_make(const fret_gap *gap, double k, fret_stop stop, fret_cells **out);
+/* Of a gap that has been checked. Shapes with sizes are cut where those are 1, and scaled. like: NULL, or
+ * cells, which are shared or scaled where shape and exponent are the same; which they were cannot be told.
+ * Errors: FRET_NOT_MONOTONE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
+fret_status fret_cells_make(const fret_gap *gap, double k, fret_cells *like, fret_stop stop,
+                            fret_cells **out);
 void fret_cells_free(fret_cells *cells);
-/* The same cells for one more user, if they are those of this gap and exponent; else NULL. */
-fret_cells *fret_cells_share(fret_cells *cells, const fret_gap *gap, double k);
 
 /* Does a law that ends at `most` know `value`? A double's rounding beyond it counts as its end: what a
  * contact that reaches the end of its gap answers must be carried when it is given back. */

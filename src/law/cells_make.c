@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes cells: of a sum of powers one, of other shapes as many as polynomials want, of a sampled gap at least
- * one a row. Allocates them, and frees them. */
+ * one a row; and scales them. Allocates them, and frees them. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -316,7 +316,8 @@ static void find_most(fret_cells *all) {
         all->most[by] = ends ? fret_cells_level(all, by, &end) : (fret_real)INFINITY;
 }
 
-fret_status fret_cells_make(const fret_gap *gap, double k, fret_stop stop, fret_cells **out) {
+/* Cut them for a gap as it is. */
+static fret_status cut_cells(const fret_gap *gap, double k, fret_stop stop, fret_cells **out) {
     fret_cells *all = calloc(1, sizeof *all);
     if (!all)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
@@ -353,12 +354,101 @@ void fret_cells_free(fret_cells *all) {
     for (int l = 0; l < FRET_RUNS; l++)
         free(all->run[l]);
     free(all->cell);
+    fret_cells_free(all->unit);
     free(all);
 }
 
-fret_cells *fret_cells_share(fret_cells *all, const fret_gap *gap, double k) {
-    if (!all || all->k != k || !fret_gap_same(&all->gap, gap))
-        return NULL;
+/* ---- of another size --------------------------------------------------------------------------- */
+
+static fret_cells *hold(fret_cells *all) {
     all->users++;
     return all;
+}
+
+/* How many times as large depths and loads are, the stiffness, what a stretch carries, and radii. */
+typedef struct scales {
+    fret_real level[2], K, L, radius;
+} scales;
+
+static fret_stretch scaled_stretch(const fret_stretch *s, const scales *by) {
+    return (fret_stretch){by->level[BY_DEPTH] * s->h, by->K * s->K, by->level[BY_LOAD] * s->G, by->L * s->L};
+}
+
+static void scale_cell(fret_cell *c, const scales *by) {
+    const fret_real y = by->level[BY_DEPTH], F = by->level[BY_LOAD],
+                    series[FRET_CELL_SERIES] = {y, y, by->K, F, F, by->L, by->L, by->L, F, F};
+    c->x *= by->radius;
+    c->width *= c->powers ? 1 : by->radius * by->radius;
+    c->y *= y;
+    c->F *= F;
+    c->K *= by->K;
+    c->K_at_1 *= by->K;
+    for (int i = 0; i < FRET_CELL_SERIES; i++)
+        for (int j = 0; j < c->count[i]; j++)
+            c->of[i][j] *= series[i];
+    for (int i = BY_DEPTH; i <= BY_LOAD; i++)
+        c->rise[i] *= by->level[i];
+}
+
+static bool scale_cells(fret_cells *all, const fret_cells *unit, const scales *by) {
+    all->cell = malloc(unit->count * sizeof *all->cell);
+    if (!all->cell)
+        return false;
+    for (size_t i = 0; i < unit->count; i++) {
+        all->cell[i] = unit->cell[i];
+        scale_cell(&all->cell[i], by);
+    }
+    for (int l = 0; unit->count >> l; l++) {
+        all->run[l] = malloc((unit->count >> l) * sizeof *all->run[l]);
+        if (!all->run[l])
+            return false;
+        for (size_t i = 0; i < unit->count >> l; i++)
+            all->run[l][i] = scaled_stretch(&unit->run[l][i], by);
+    }
+    for (int i = BY_DEPTH; i <= BY_LOAD; i++)
+        all->most[i] = by->level[i] * unit->most[i];
+    return true;
+}
+
+/* Takes over its user of `unit`. */
+static fret_cells *scaled(fret_cells *unit, const fret_gap *gap, fret_real radii, fret_real depths) {
+    const fret_real K = fret_pow(radii, (fret_real)unit->k + 1), F = K * depths;
+    fret_cells *all = calloc(1, sizeof *all);
+    if (!all) {
+        fret_cells_free(unit);
+        return NULL;
+    }
+    all->users = 1;
+    all->unit = unit;
+    all->gap = *gap;
+    all->k = unit->k;
+    all->rule = unit->rule;
+    all->count = all->room = unit->count;
+    all->end = radii * unit->end;
+    all->error = unit->error;
+    all->falls = unit->falls;
+    if (scale_cells(all, unit, &(scales){{depths, F}, K, F * depths, radii}))
+        return all;
+    fret_cells_free(all);
+    return NULL;
+}
+
+fret_status fret_cells_make(const fret_gap *gap, double k, fret_cells *like, fret_stop stop,
+                            fret_cells **out) {
+    fret_real radii, depths;
+    const fret_gap at_1 = fret_gap_unit(gap, &radii, &depths);
+    fret_status st = fret_ok();
+    if (like && like->k == k && fret_gap_same(&like->gap, gap)) {
+        *out = hold(like);
+        return st;
+    }
+    fret_cells *unit = like && like->unit ? like->unit : like;
+    if (unit && unit->k == k && fret_gap_same(&unit->gap, &at_1))
+        (void)hold(unit);
+    else
+        st = cut_cells(&at_1, k, stop, &unit);
+    if (st.code)
+        return st;
+    *out = fret_gap_same(&at_1, gap) ? unit : scaled(unit, gap, radii, depths);
+    return *out ? st : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
 }

@@ -373,6 +373,18 @@ bool fret_gap_same(const fret_gap *a, const fret_gap *b) {
     return true;
 }
 
+fret_gap fret_gap_unit(const fret_gap *gap, fret_real *radii, fret_real *depths) {
+    const shape *s = shape_of(gap);
+    const fret_real R = s->R ? gap->R : 1;
+    fret_gap unit = *gap;
+    *radii = s->b ? gap->b : R;
+    *depths = s->slope ? *radii * gap->slope : *radii * *radii / R;
+    unit.b = s->b ? 1 : gap->b;
+    unit.R = s->R ? 1 : gap->R;
+    unit.slope = s->slope ? 1 : gap->slope;
+    return unit;
+}
+
 bool fret_gap_sharp(const fret_gap *gap) {
     return shape_of(gap)->sharp;
 }

@@ -53,6 +53,10 @@ fret_gap fret_gap_of_table(const struct fret_table *table);
 /* Are two gaps that have passed the same? */
 bool fret_gap_same(const fret_gap *gap, const fret_gap *other);
 
+/* The gap of this shape whose sizes are 1: its radii are `radii` times as large, its depths `depths` times.
+ * Of powers and of tables the gap itself. */
+fret_gap fret_gap_unit(const fret_gap *gap, fret_real *radii, fret_real *depths);
+
 /* One power: the contact has closed forms. */
 bool fret_gap_closed(const fret_gap *gap);
 

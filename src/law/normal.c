@@ -53,9 +53,7 @@ static fret_status give_shape(fret_normal *n, const fret_gap *gap, const fret_no
         return st;
     }
     fret_gap_rule(gap, k, &n->rule);
-    n->cells = like ? fret_cells_share(like->cells, gap, k) : NULL;
-    if (!n->cells)
-        st = fret_cells_make(gap, k, stop, &n->cells);
+    st = fret_cells_make(gap, k, like ? like->cells : NULL, stop, &n->cells);
     n->end = st.code ? 0 : n->cells->end;
     return st;
 }

@@ -39,7 +39,7 @@ static void tables_and_contacts(void) {
     fret_table_free(table);
 }
 
-/* The law of a table; of one like it there is nothing to make. */
+/* The law of a table; of one like it there is nothing to make, and little of a shape of another size. */
 static void laws(void) {
     struct fret_table *table = NULL;
     fret_normal *n = NULL, *other = NULL;
@@ -53,6 +53,13 @@ static void laws(void) {
     fret_normal_free(n);
     fret_normal_free(other);
     fret_table_free(table);
+    n = other = NULL;
+    fret_gap sphere = {.kind = FRET_GAP_EXACT_SPHERE, .R = 1e-2};
+    EACH(8, fret_normal_make(&m, &sphere, NULL, NULL, &n), n == NULL);
+    sphere.R *= 2;
+    EACH(6, fret_normal_make(&m, &sphere, n, NULL, &other), other == NULL);
+    fret_normal_free(n);
+    fret_normal_free(other);
 }
 
 /* Ever smaller swings: each turning point is kept. */

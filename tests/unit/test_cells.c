@@ -42,7 +42,7 @@ static void places(const fret_gap *gap, double k, fret_real exact) {
     fret_cells *c = NULL;
     fret_rule rule;
     fret_gap_rule(gap, k, &rule);
-    CHECK_OK(fret_cells_make(gap, k, NULL, &c));
+    CHECK_OK(fret_cells_make(gap, k, NULL, NULL, &c));
     if (!c)
         return;
     const fret_real start = fret_gap_start(gap), whole = (isfinite(c->end) ? c->end : 0.05L) - start;
@@ -83,7 +83,7 @@ static fret_stretch slice(const fret_cells *c, int by, const fret_place *outer, 
 static void slices(const fret_gap *gap, double k, fret_real few) {
     fret_cells *c = NULL;
     fret_real K, unused;
-    CHECK_OK(fret_cells_make(gap, k, NULL, &c));
+    CHECK_OK(fret_cells_make(gap, k, NULL, NULL, &c));
     if (!c)
         return;
     const fret_place end = fret_cells_at(c, isfinite(c->end) ? c->end : 0.05L);
@@ -125,7 +125,7 @@ static fret_real load_at(fret_real t, fret_real rest, void *context) {
 static void areas(const fret_gap *gap, double k) {
     fret_cells *c = NULL;
     fret_place outer;
-    CHECK_OK(fret_cells_make(gap, k, NULL, &c));
+    CHECK_OK(fret_cells_make(gap, k, NULL, NULL, &c));
     CHECK(fret_cells_find(c, BY_DEPTH, 1e-5L, &outer));
     const fret_place centre = {0, c->cell[0].begin};
     fret_real K;
@@ -136,29 +136,65 @@ static void areas(const fret_gap *gap, double k) {
     fret_cells_free(c);
 }
 
-/* Of another material, or the same, the cells are shared; of another shape or exponent they are not. */
+/* Of another material the cells are shared; of another exponent they are not. */
 static void shared(void) {
     fret_material m = unit_make_scene(2, 0.3).material;
-    fret_gap gap = shapes[2];
-    fret_normal *n, *other;
-    CHECK_OK(fret_normal_make(&m, &gap, NULL, NULL, &n));
+    const fret_gap *gap = &shapes[2];
+    fret_normal *n, *other, *last;
+    CHECK_OK(fret_normal_make(&m, gap, NULL, NULL, &n));
     m.body[0].E0 *= 2;
     m.body[1].E0 *= 2;
-    CHECK_OK(fret_normal_make(&m, &gap, n, NULL, &other));
+    CHECK_OK(fret_normal_make(&m, gap, n, NULL, &other));
     CHECK(other->cells == n->cells);
     CHECK_REL(fret_law_force(other, 1e-6L), 2 * fret_law_force(n, 1e-6L), 1e-18L);
     fret_normal_free(n);
     CHECK(fret_law_force(other, 1e-6L) > 0);
-    fret_normal *last;
-    gap.b *= 1.5;
-    CHECK_OK(fret_normal_make(&m, &gap, other, NULL, &last));
-    CHECK(last->cells != other->cells);
-    fret_normal_free(last);
     m.k = 0.2;
-    CHECK_OK(fret_normal_make(&m, &shapes[2], other, NULL, &last));
-    CHECK(last->cells != other->cells);
+    CHECK_OK(fret_normal_make(&m, gap, other, NULL, &last));
+    CHECK(last->cells != other->cells && last->cells->unit != other->cells->unit);
     fret_normal_free(last);
     fret_normal_free(other);
+}
+
+static void same_cells(const fret_cells *a, const fret_cells *b) {
+    const fret_real most = isfinite(a->end) ? a->most[BY_DEPTH] : 10 * a->cell[a->count - 1].y;
+    CHECK(a->count == b->count && a->end == b->end && a->error == b->error);
+    for (int i = 0; i < 100; i++) {
+        const fret_real y = most * uniform(0, 1);
+        fret_place at, also, inner[2] = {{0, 0}, {0, 0}};
+        fret_real K[2];
+        CHECK(fret_cells_find(a, BY_DEPTH, y, &at) && fret_cells_find(b, BY_DEPTH, y, &also));
+        CHECK(at.i == also.i && at.s == also.s);
+        CHECK(fret_cells_radius(a, &at) == fret_cells_radius(b, &at));
+        CHECK(fret_cells_level(a, BY_LOAD, &at) == fret_cells_level(b, BY_LOAD, &at));
+        const fret_stretch own = slice(a, BY_DEPTH, &at, y / 2, y / 2, &inner[0], &K[0]),
+                           other = slice(b, BY_DEPTH, &at, y / 2, y / 2, &inner[1], &K[1]);
+        CHECK(own.G == other.G && own.L == other.L && K[0] == K[1]);
+    }
+}
+
+/* Of another size they are scaled, and bit for bit what they are alone, whatever they are scaled from. */
+static void sizes(const fret_gap *gap, double k) {
+    fret_gap large = *gap, larger = *gap;
+    fret_cells *first = NULL, *alone = NULL, *like = NULL, *last = NULL, *other = NULL;
+    large.b *= 3;
+    large.R *= 0.7;
+    large.slope *= 1.1;
+    larger.R *= 1e9;
+    CHECK_OK(fret_cells_make(gap, k, NULL, NULL, &first));
+    CHECK_OK(fret_cells_make(&large, k, NULL, NULL, &alone));
+    CHECK_OK(fret_cells_make(&larger, k, first, NULL, &last));
+    fret_cells_free(first);
+    CHECK_OK(fret_cells_make(&large, k, last, NULL, &like));
+    CHECK(like->unit && like->unit == last->unit && like->unit != alone->unit);
+    fret_cells_free(last);
+    same_cells(like, alone);
+    /* a shape of another kind has its own */
+    CHECK_OK(fret_cells_make(gap == shapes ? shapes + 1 : shapes, k, like, NULL, &other));
+    CHECK(other->unit && other->unit != like->unit);
+    fret_cells_free(other);
+    fret_cells_free(like);
+    fret_cells_free(alone);
 }
 
 int main(int argc, char **argv) {
@@ -168,6 +204,8 @@ int main(int argc, char **argv) {
             CASE(places(&shapes[i], gradings[j], UNIT_TOL(2e-16L, 1e-13L)));
             CASE(slices(&shapes[i], gradings[j], UNIT_TOL(2e-14L, 1e-11L)));
             CASE(areas(&shapes[i], gradings[j]));
+            if (shapes[i].kind != FRET_GAP_SUM)
+                CASE(sizes(&shapes[i], gradings[j]));
         }
     for (rough how = SMOOTH; how <= CONE; how++) {
         struct fret_table *t = table_of(how, how == WIDER ? 40 : 100);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One law, and one field, asked by several threads at once: questions on what is const write nothing, so each
- * gets what it gets alone. The room `portable` runs this under ThreadSanitizer, which knows what two have
- * touched. */
+/* One law, and one field, asked by several threads at once, and laws made like it: questions on what is const
+ * write nothing, so each gets what it gets alone. The room `portable` runs this under ThreadSanitizer, which
+ * knows what two have touched. */
 #include <pthread.h>
 
 #include "fret/cycle.h"
 #include "fret/field.h"
 #include "unit.h"
 
-enum { THREADS = 4, STEPS = 60, PLACES = 20, ANSWERS = 4 * STEPS + 4 * PLACES };
+enum { THREADS = 4, STEPS = 60, PLACES = 20, ANSWERS = 4 * STEPS + 4 * PLACES, SIZES = 20 };
 
 typedef struct asker {
     pthread_t thread;
@@ -49,9 +49,45 @@ static void *ask(void *context) {
     return NULL;
 }
 
+/* Laws of other sizes and materials, like the one. */
+static void *make(void *context) {
+    asker *a = context;
+    for (int i = 0; i < SIZES; i++) {
+        fret_material material = unit_make_scene(2, 0.3).material;
+        fret_gap gap = *fret_normal_gap(a->law);
+        fret_press press = {.F = 0};
+        fret_normal *n = NULL;
+        material.body[i % 2].E0 *= 1 + i;
+        gap.R *= 1 + i / 2;
+        a->failed += fret_normal_make(&material, &gap, a->law, NULL, &n).code != 0;
+        a->failed += !n || fret_press_by_force(n, 100, &press).code != 0;
+        a->answer[i] = press.dz;
+        fret_normal_free(n);
+    }
+    return NULL;
+}
+
+static void at_once(void *(*run)(void *), const fret_normal *law, const fret_field *field, int answers) {
+    static asker alone, all[THREADS];
+    alone = (asker){.law = law, .field = field};
+    run(&alone);
+    CHECK(!alone.failed);
+    for (int i = 0; i < THREADS; i++)
+        all[i] = (asker){.law = law, .field = field};
+    int made = 0;
+    while (made < THREADS && !pthread_create(&all[made].thread, NULL, run, &all[made]))
+        made++;
+    CHECK(made == THREADS);
+    for (int i = 0; i < made; i++) {
+        pthread_join(all[i].thread, NULL);
+        CHECK(!all[i].failed);
+        for (int j = 0; j < answers; j++)
+            CHECK(all[i].answer[j] == alone.answer[j]);
+    }
+}
+
 static void shared(const fret_gap *gap) {
     unit_scene s = unit_make_scene(2, 0.3);
-    static asker alone, all[THREADS];
     fret_contact *c = NULL;
     fret_field *field = NULL;
     const fret_normal *law = unit_keep_normal(&s.material, gap);
@@ -59,21 +95,8 @@ static void shared(const fret_gap *gap) {
     CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 100, 0}));
     CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 110, 20}));
     CHECK_OK(fret_field_make(c, &field));
-    alone = (asker){.law = law, .field = field};
-    ask(&alone);
-    CHECK(!alone.failed);
-    for (int i = 0; i < THREADS; i++)
-        all[i] = (asker){.law = law, .field = field};
-    int made = 0;
-    while (made < THREADS && !pthread_create(&all[made].thread, NULL, ask, &all[made]))
-        made++;
-    CHECK(made == THREADS);
-    for (int i = 0; i < made; i++) {
-        pthread_join(all[i].thread, NULL);
-        CHECK(!all[i].failed);
-        for (int j = 0; j < ANSWERS; j++)
-            CHECK(all[i].answer[j] == alone.answer[j]);
-    }
+    at_once(ask, law, field, ANSWERS);
+    at_once(make, law, field, SIZES);
     fret_field_free(field);
     fret_contact_free(c);
 }
