@@ -469,7 +469,7 @@ int fret_cell_fit(const fret_chebyshev *nodes, const fret_real *value, fret_real
 /* Series i becomes int of the values times s^(power-1), over s^power; power 0: they themselves. */
 static bool integrate(fret_cell *c, int i, const fret_chebyshev *nodes, const fret_real *value,
                       fret_real power) {
-    static const fret_real LITTLE = 1e-20L, ENOUGH = 1e-17L;
+    static const fret_real LITTLE = 2e-19L, ENOUGH = 1e-17L;
     fret_real most = 0, tail;
     for (int j = 0; j < nodes->count; j++)
         most = fmaxl(most, fabsl(value[j]));

@@ -13,13 +13,15 @@
 #include "number/integral.h"
 #include "number/real.h"
 
-enum { MOMENTS = 32, NEAR = 4 }; /* NEAR^-MOMENTS is 5e-20 */
+/* NEAR^-MOMENTS is 5e-20; of those after the leading ones, which count by 2e-5, a double keeps enough. */
+enum { LEADING = 8, LATER = 24, MOMENTS = LEADING + LATER, NEAR = 4 };
 
 /* A block of several rows precedes its two halves. */
 typedef struct block {
-    size_t first, last, next; /* rows; the first block that is no part of this one */
-    fret_real R, d;
-    fret_real moment[MOMENTS]; /* with the factor of the series */
+    size_t first, last, next;   /* rows; the first block that is no part of this one */
+    fret_real begin, end, R, d; /* radii */
+    fret_real moment[LEADING];  /* with the factor of the series */
+    double later[LATER];
 } block;
 
 struct fret_transform {
@@ -47,16 +49,29 @@ static void make_moments(const fret_transform *t, block *b) {
             const fret_real x = h * ((fret_real)(j / 8) + fret_gauss_node[j % 8]),
                             z = ((r + x) * (r + x) - b->R) / b->d;
             fret_real of = h * fret_gauss_weight[j % 8] * (c[0] + x * (c[1] + x * c[2]));
-            for (int n = 0; n < MOMENTS; n++, of *= z)
-                b->moment[n] += of * t->factor[n];
+            for (int n = 0; n < LEADING; n++, of *= z)
+                b->moment[n] += of;
+            double rest = (double)of;
+            for (int n = 0; n < LATER; n++, rest *= (double)z)
+                b->later[n] += rest;
         }
     }
+    for (int n = 0; n < MOMENTS; n++)
+        if (n < LEADING)
+            b->moment[n] *= t->factor[n];
+        else
+            b->later[n - LEADING] *= (double)t->factor[n];
 }
 
 static void make_block(fret_transform *t, size_t first, size_t last, fret_stop stop) {
     block *b = &t->block[t->count++];
     const fret_real lo = radius_of(t, first), hi = radius_of(t, last);
-    *b = (block){.first = first, .last = last, .R = (lo * lo + hi * hi) / 2, .d = (hi - lo) * (hi + lo) / 2};
+    *b = (block){.first = first,
+                 .last = last,
+                 .begin = lo,
+                 .end = hi,
+                 .R = (lo * lo + hi * hi) / 2,
+                 .d = (hi - lo) * (hi + lo) / 2};
     if (stop && *stop)
         return;
     make_moments(t, b);
@@ -100,12 +115,15 @@ void fret_transform_free(fret_transform *t) {
 /* A block that is far; D: how far X is beyond its middle. */
 static fret_real far_sum(const fret_transform *t, const block *b, fret_real D, fret_real X) {
     const fret_real ratio = b->d / D;
-    int count = 1;
-    for (double left = 1e20 * (double)ratio; left > 1 && count < MOMENTS; left *= (double)ratio)
-        count++;
-    fret_real sum = 0;
-    while (count-- > 0)
-        sum = sum * ratio + b->moment[count];
+    const double x = (double)ratio, square = x * x;
+    double even = 0, odd = 0; /* two sums take half the time of one */
+    for (int n = LATER - 2; n >= 0; n -= 2) {
+        odd = odd * square + b->later[n + 1];
+        even = even * square + b->later[n];
+    }
+    fret_real sum = even + x * odd;
+    for (int n = LEADING; n-- > 0;)
+        sum = sum * ratio + b->moment[n];
     return sum * fret_pow(D / X, t->m - 1);
 }
 
@@ -115,18 +133,13 @@ static fret_real near_sum(const fret_real c[3], fret_real v, fret_real x, const 
     return x * ((c[0] + v * (c1 + v * c2)) * moment[0] - (c1 + 2 * v * c2) * moment[1] + c2 * moment[2]);
 }
 
-/* e: of x beyond the beginning of the row `from`. */
-static fret_real behind(const fret_transform *t, size_t row, size_t from, fret_real e) {
-    return (radius_of(t, from) - radius_of(t, row)) + e;
-}
-
 fret_real fret_transform_at(const fret_transform *t, size_t last, size_t from, fret_real e) {
-    const fret_real x = radius_of(t, from) + e, X = x * x;
+    const fret_real begin = radius_of(t, from), x = begin + e, X = x * x;
     fret_real sum = 0, c[3], moment[3];
     for (size_t i = 0; i < t->count && t->block[i].first < last;) {
         const block *b = &t->block[i];
         const bool within = b->last <= last, single = b->next == i + 1;
-        const fret_real lo = behind(t, b->first, from, e), D = lo * (2 * x - lo) - b->d;
+        const fret_real lo = (begin - b->begin) + e, D = lo * (2 * x - lo) - b->d;
         if (within && D >= (fret_real)NEAR * b->d)
             sum += far_sum(t, b, D, X);
         else if (!single) {
@@ -135,7 +148,7 @@ fret_real fret_transform_at(const fret_transform *t, size_t last, size_t from, f
         } else {
             const fret_real v = lo / x;
             const fret_edge all = fret_edge_moments(t->rule, v),
-                            beyond = fret_edge_moments(t->rule, behind(t, b->last, from, e) / x);
+                            beyond = fret_edge_moments(t->rule, ((begin - b->end) + e) / x);
             for (int j = 0; j < 3; j++)
                 moment[j] = all.moment[j] - beyond.moment[j];
             fret_table_slope(t->table, b->first, c);
@@ -143,7 +156,7 @@ fret_real fret_transform_at(const fret_transform *t, size_t last, size_t from, f
         }
         i = b->next;
     }
-    const fret_real v = behind(t, last, from, e) / x;
+    const fret_real v = ((begin - radius_of(t, last)) + e) / x;
     const fret_edge all = fret_edge_moments(t->rule, v);
     fret_table_slope(t->table, last, c);
     return sum + near_sum(c, v, x, all.moment);
