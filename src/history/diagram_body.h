@@ -753,10 +753,6 @@ FRET_INLINE fret_status diagram_step(DIAGRAM *d, const fret_step *step) {
 
 /* ---- state ------------------------------------------------------------------------------------- */
 
-FRET_INLINE const point *outer_of(const DIAGRAM *d, const layer *l) {
-    return l + 1 < d->layers + d->count ? &l[1].inner : &d->edge;
-}
-
 /* U = mu^2 eta/2 int v^2 dK with v the sum of sigma from the edge: from the centre outwards, a layer of
  * thickness h adds sigma h T + sigma^2 J to the half integral, T the sum of sigma dF_N inside it. */
 static fret_real stored(const DIAGRAM *d) {

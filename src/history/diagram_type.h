@@ -47,6 +47,10 @@ struct DIAGRAM {
     layer *layers;     /* innermost first */
 };
 
+FRET_INLINE const point *outer_of(const DIAGRAM *d, const layer *l) {
+    return l + 1 < d->layers + d->count ? &l[1].inner : &d->edge;
+}
+
 /* How thick a layer is up to its outer end, in depth or load. Where all slips t tells it: that is small where
  * forces are, and has the digits of what is thin. */
 FRET_INLINE NUMBER layer_thickness(const layer *l, const point *outer, coordinate by) {

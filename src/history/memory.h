@@ -34,11 +34,6 @@ fret_press fret_memory_pressed(const fret_memory *memory);
 /* Room for `count` layers. Error: FRET_NO_MEMORY. */
 fret_status fret_memory_reserve(fret_memory *memory, size_t count);
 
-/* The outer end of layer i. */
-static inline const point *fret_memory_outer(const fret_memory *m, size_t i) {
-    return i + 1 < m->count ? &m->layers[i + 1].inner : &m->edge;
-}
-
 /* As fret/contact.h packs: how many numbers there are, what they are, and back. */
 size_t fret_memory_packed(const fret_memory *memory);
 void fret_memory_pack(const fret_memory *memory, double out[]);

@@ -353,10 +353,6 @@ static fret_status known(fret_swing *c) {
     return fret_unless_stopped(c->normal, fret_ok());
 }
 
-fret_status fret_swing_period(fret_swing *c, const fret_sine *sine) {
-    return fret_swing_part(c, sine, 0, 1);
-}
-
 /* Where it passes through its mean, to the rounding of the time. */
 static fret_real harmonic(fret_real angle) {
     const fret_real v = cosl(angle);
@@ -499,7 +495,7 @@ fret_status fret_swing_make(const fret_memory *m, fret_swing **out) {
     fret_real at[2] = {0, 0};
     for (size_t i = 0; i < m->count; i++) {
         arc *p = &c->arcs[c->count++];
-        const fret_real h = layer_thickness(&m->layers[i], fret_memory_outer(m, i), LOAD),
+        const fret_real h = layer_thickness(&m->layers[i], outer_of(m, &m->layers[i]), LOAD),
                         sigma = m->layers[i].sigma;
         *p = (arc){.first = {at[M], at[P]}};
         at[M] += (1 - sigma) * h;

@@ -27,8 +27,7 @@ fret_status fret_swing_copy(fret_swing *to, const fret_swing *from);
 /* Can it run this: the contact stays closed and slips partially throughout, and is where the period is
  * at the time `from`? */
 bool fret_swing_fits(const fret_swing *swing, const fret_sine *sine, double from);
-/* One period that fits, or a part of it: as fret_contact_swing. */
-fret_status fret_swing_period(fret_swing *swing, const fret_sine *sine);
+/* A part of a period that fits: as fret_contact_swing. */
 fret_status fret_swing_part(fret_swing *swing, const fret_sine *sine, double from, double to);
 /* A step by force, by depth with F_x, or to delta_x at constant F_N; others: FRET_OUTSIDE. */
 fret_status fret_swing_step(fret_swing *swing, const fret_step *step);

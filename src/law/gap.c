@@ -150,9 +150,6 @@ static fret_real sampled_start(const fret_gap *gap) {
 static fret_real sampled_end(const fret_gap *gap) {
     return fret_table_end(gap->table);
 }
-static fret_real sampled_kink(const fret_gap *gap, fret_real e) {
-    return fret_table_kink(gap->table, e);
-}
 static fret_real sampled_tip(const fret_gap *gap) {
     return fret_table_pointed(gap->table) ? 1 : 2;
 }
@@ -210,14 +207,12 @@ static void far_rounded(const fret_gap *gap, const fret_rule *rule, fret_real x0
     add_far_cone(gap, rule, x0, -gap->b / (fret_real)gap->R, factor);
 }
 
-/* One row a shape. What a row leaves out: begins at 0, never ends, one smooth piece without a singularity
- * begins like r^2, grows. */
+/* One row a shape. What a row leaves out: begins at 0, never ends, begins like r^2, grows. */
 typedef struct shape {
     fret_real (*f)(const fret_gap *,
                    fret_real r); /* beyond the start, as the next: none where it ends there */
     fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real e);
     fret_real (*start)(const fret_gap *), (*end)(const fret_gap *), (*tip)(const fret_gap *);
-    fret_real (*kink)(const fret_gap *, fret_real e);
     bool (*grows)(const fret_gap *);
     int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);
     void (*far)(const fret_gap *, const fret_rule *, fret_real x0, fret_real *factor);
@@ -267,7 +262,6 @@ static const shape shapes[] = {
                         .start = sampled_start,
                         .end = sampled_end,
                         .tip = sampled_tip,
-                        .kink = sampled_kink,
                         .grows = sampled_grows,
                         .series = sampled_series,
                         .sampled = true},
@@ -331,11 +325,6 @@ fret_real fret_gap_end(const fret_gap *gap) {
 fret_real fret_gap_tip(const fret_gap *gap) {
     const shape *s = shape_of(gap);
     return s->tip ? s->tip(gap) : 2;
-}
-
-fret_real fret_gap_kink(const fret_gap *gap, fret_real e) {
-    const shape *s = shape_of(gap);
-    return s->kink ? s->kink(gap, e) : 0;
 }
 
 int fret_gap_powers(const fret_gap *gap, const fret_power **power) {

@@ -23,10 +23,6 @@ fret_profile fret_gap_profile(const fret_gap *gap, const fret_rule *rule, fret_r
 fret_real fret_gap_start(const fret_gap *gap);
 fret_real fret_gap_end(const fret_gap *gap);
 
-/* Distance from the start of the last place below e > 0 where the profile is not smooth: the start itself or
- * a row of a table. */
-fret_real fret_gap_kink(const fret_gap *gap, fret_real e);
-
 /* The power of r that a gap without a flat end begins with. */
 fret_real fret_gap_tip(const fret_gap *gap);
 

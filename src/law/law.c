@@ -281,18 +281,6 @@ fret_real fret_law_thickness(const fret_normal *n, const fret_level *outer, fret
     return fret_law_fall(n, outer, true, w, outer->F - w, (fret_place[2]){{0, 0}, {0, 0}});
 }
 
-fret_real fret_law_load_outside(const fret_normal *n, const fret_level *outer, fret_real inner_depth) {
-    if (fret_normal_closed(n))
-        return -outer->F * expm1l(n->p * logl(inner_depth / outer->y));
-    return outer->F - fret_law_force(n, inner_depth);
-}
-
-fret_real fret_law_thickness_outside(const fret_normal *n, const fret_level *outer, fret_real inner_load) {
-    if (fret_normal_closed(n))
-        return -outer->y * expm1l(n->q * logl(inner_load / outer->F));
-    return outer->y - fret_law_depth(n, inner_load);
-}
-
 fret_real fret_law_level_radius(const fret_normal *n, const fret_level *level) {
     if (!fret_normal_closed(n))
         return fret_law_radius(n, level->y);

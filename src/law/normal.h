@@ -110,11 +110,6 @@ fret_real fret_slice_moment(const fret_slice *slice);
 fret_real fret_law_load(const fret_normal *normal, const fret_level *outer, fret_real h);
 fret_real fret_law_thickness(const fret_normal *normal, const fret_level *outer, fret_real w);
 
-/* The same for all but an inner part that is known by itself, which may be far smaller than the whole. */
-fret_real fret_law_load_outside(const fret_normal *normal, const fret_level *outer, fret_real inner_depth);
-fret_real fret_law_thickness_outside(const fret_normal *normal, const fret_level *outer,
-                                     fret_real inner_load);
-
 /* Radius [m] of a level: from its load, which tells it best. */
 fret_real fret_law_level_radius(const fret_normal *normal, const fret_level *level);
 

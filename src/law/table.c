@@ -428,14 +428,6 @@ bool fret_table_grows(const struct fret_table *t) {
     return t->grows;
 }
 
-fret_real fret_table_kink(const struct fret_table *t, fret_real e) {
-    fret_real start = t->start;
-    size_t i = table_piece(t, start + e);
-    while (i > 0 && t->r[i] - start >= e)
-        i--;
-    return fmaxl(t->r[i] - start, 0);
-}
-
 /* int f' K, int r^2 f' K and int r f'' K over a part of the contact, in units of its radius. */
 typedef struct sums {
     fret_real g, I, s;

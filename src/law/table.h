@@ -14,7 +14,6 @@ bool fret_table_pointed(const struct fret_table *table); /* begins with a slope,
 bool fret_table_tip(const struct fret_table *table, fret_real r, fret_real factor[3]);
 size_t fret_table_rows(const struct fret_table *table, fret_real r); /* up to r */
 bool fret_table_grows(const struct fret_table *table);               /* as fret_gap_grows */
-fret_real fret_table_kink(const struct fret_table *table, fret_real e);
 fret_real fret_table_f(const struct fret_table *table, fret_real r);
 fret_profile fret_table_profile(const struct fret_table *table, const fret_rule *rule, fret_real e);
 

@@ -133,7 +133,7 @@ static void diagrams(void) {
 /* One period from the state of `from`: what a failed one leaves is good for a copy only. */
 static fret_status period_of(fret_swing *w, const fret_swing *from, const fret_sine *sine) {
     const fret_status st = fret_swing_copy(w, from);
-    return st.code ? st : fret_swing_period(w, sine);
+    return st.code ? st : fret_swing_part(w, sine, 0, 1);
 }
 
 /* Falling phases that each leave a piece more: the sine's own curve. */
@@ -213,12 +213,12 @@ static void smaller_swings(void) {
         for (int period = 0; period < 2; period++) {
             CHECK_OK(fret_swing_copy(before, w));
             left = 0;
-            const fret_status st = period ? fret_swing_period(w, &sine) : fret_swing_step(w, &step);
+            const fret_status st = period ? fret_swing_part(w, &sine, 0, 1) : fret_swing_step(w, &step);
             left = -1;
             if (st.code) {
                 CHECK_CODE(st, FRET_NO_MEMORY);
                 CHECK_OK(fret_swing_copy(w, before));
-                CHECK_OK(period ? fret_swing_period(w, &sine) : fret_swing_step(w, &step));
+                CHECK_OK(period ? fret_swing_part(w, &sine, 0, 1) : fret_swing_step(w, &step));
                 refused++;
             }
         }
@@ -258,9 +258,9 @@ static void periods_without_room(void) {
             CHECK_OK(fret_swing_make(m, &small));
             CHECK_OK(fret_swing_copy(small, w));
             CHECK_OK(fret_swing_copy(before, w));
-            CHECK_OK(fret_swing_period(w, &sine));
+            CHECK_OK(fret_swing_part(w, &sine, 0, 1));
             left = 0;
-            fret_status st = fret_swing_period(small, &sine);
+            fret_status st = fret_swing_part(small, &sine, 0, 1);
             left = -1;
             if (st.code) {
                 CHECK_CODE(st, FRET_NO_MEMORY);

@@ -55,8 +55,6 @@ static void shapes(void) {
     fret_rule rule;
     fret_gap_rule(&ball, 0, &rule); /* at its centre its series has no terms */
     CHECK(fret_gap_profile(&ball, &rule, 0).g == 0 && fret_gap_profile(&ball, &rule, 0).slope == 0);
-    fret_gap_rule(&one, 0, &rule);
-    CHECK(fret_gap_kink(&one, 1e-3L) == 0);
     wrong.power[0].n = -1; /* the first of two is told */
     wrong.power[1].h = INFINITY;
     CHECK_ERROR(fret_gap_check(&wrong), FRET_NOT_POSITIVE, "n");
@@ -266,7 +264,7 @@ static void short_pieces(void) {
             CHECK_OK(fret_swing_step(w, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, top, sine.FA}));
             if (!CHECK(fret_swing_fits(w, &sine, 0)))
                 break;
-            CHECK_OK(fret_swing_period(w, &sine));
+            CHECK_OK(fret_swing_part(w, &sine, 0, 1));
             fret_swing_state(w, &now);
             CHECK_OK(fret_swing_memory(w, shown));
             fret_memory_state(shown, &then);

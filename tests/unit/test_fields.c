@@ -93,13 +93,24 @@ static fret_real other_rate(fret_real t, fret_real rest, void *context) {
     return span * way * pressure_rate(c, way);
 }
 
+/* Distance from the start of the last place below e > 0 where the profile is not smooth: the start itself or
+ * a row of a table. */
+static fret_real kink_below(const fret_gap *gap, fret_real e) {
+    if (!fret_gap_sampled(gap))
+        return 0;
+    size_t row = fret_table_row(gap->table, e);
+    while (row > 0 && fret_table_distance(gap->table, row) >= e)
+        row--;
+    return fmaxl(fret_table_distance(gap->table, row), 0);
+}
+
 /* Of a contact that reaches to the distance a. */
 static fret_real pressure_of(const fret_normal *n, fret_real a, fret_real r) {
     const fret_gap *gap = &n->gap;
     const fret_real inner = fmaxl(r - fret_gap_start(gap), 0);
     fret_real sum = 0;
     for (fret_real hi = a, lo; hi > inner; hi = lo) {
-        const fret_real kink = fret_gap_kink(gap, hi);
+        const fret_real kink = kink_below(gap, hi);
         lo = fmaxl(kink, inner);
         const fret_real beyond = fmaxl(lo - (r - fret_gap_start(gap)), 0);
         const fret_real scale = lo > kink ? lo - kink : beyond > 0 ? beyond : hi - lo;
@@ -128,7 +139,7 @@ static fret_real surface_of(const fret_normal *n, fret_real a, fret_real dz, fre
     const fret_real start = fret_gap_start(&n->gap), k = n->foundation.k;
     fret_real sum = 0;
     for (fret_real hi = a; hi > 0;) {
-        const fret_real lo = hi > start ? start + fret_gap_kink(&n->gap, hi - start) : 0;
+        const fret_real lo = hi > start ? start + kink_below(&n->gap, hi - start) : 0;
         stretch c = {.normal = n, .r = r, .dz = dz, .lo = lo, .width = hi - lo};
         sum += fret_integral(surface_rate, &c, 1e-18L).value;
         hi = lo;
@@ -253,7 +264,7 @@ static fret_real place_of(const asking *q, bool inside) {
     case 2: /* at a row, or beside one: not where the definitions do not resolve that */
         if (q->which >= ROUND_TABLE && grading_now < -0.5)
             return a * uniform(0, 1);
-        return start + fret_gap_kink(&q->normal->gap, a - start) + (uniform(0, 1) < 0.5 ? 0 : a * off / 100);
+        return start + kink_below(&q->normal->gap, a - start) + (uniform(0, 1) < 0.5 ? 0 : a * off / 100);
     case 3:
         return fret_law_radius(q->normal, s.outer) * (1 + off);
     case 4:

@@ -900,7 +900,7 @@ static bool in_order(const fret_contact *c) {
     const fret_real slack = 8 * LDBL_EPSILON;
     for (size_t i = 0; fret_contact_segment(c, i, &s); i++, last = s.outer) {
         const layer *l = &m->layers[i];
-        const point *outer = fret_memory_outer(m, i);
+        const point *outer = outer_of(m, &m->layers[i]);
         for (coordinate by = DEPTH; by <= LOAD; by++) {
             const fret_real thick = layer_thickness(l, outer, by), apart = outer->y[by] - l->inner.y[by];
             if (!(apart >= 0 && fabsl(thick - apart) <= slack * outer->y[by]))

@@ -65,14 +65,8 @@ static void law(void) {
             CHECK_REL(h, x * 1e-6L, UNIT_TOL(1e-17L, 1e-14L) * (1 + 1 / (n->p * powl(1 - x, n->p))));
             CHECK_REL(w, fret_law_slice(n, &edge, x * 1e-6L).w, UNIT_TOL(1e-17L, 1e-14L));
         }
-        /* the outside of a small part, from that part; it is a level of its own */
         for (fret_real x = 1; x > 1e-18L; x /= 7) {
             const fret_level inner = {x * edge.y, fret_law_force(n, x * edge.y)};
-            fret_real w = fret_law_load_outside(n, &edge, inner.y);
-            CHECK_ABS(w + inner.F, edge.F, edge.F, UNIT_TOL(1e-18L, 1e-15L));
-            if (inner.F > 0)
-                CHECK_ABS(fret_law_thickness_outside(n, &edge, inner.F) + inner.y, edge.y, edge.y,
-                          UNIT_TOL(1e-18L, 1e-15L));
             CHECK_REL(fret_law_level_radius(n, &inner), fret_law_radius(n, inner.y),
                       UNIT_TOL(1e-16L, 1e-13L));
         }

@@ -3,7 +3,6 @@
 #include "number/chebyshev.h"
 #include "number/integral.h"
 #include "number/least.h"
-#include "number/polynomial.h"
 #include "number/real.h"
 #include "number/root.h"
 #include "number/sum.h"
@@ -207,9 +206,14 @@ static void sums(void) {
     CHECK_REL(fret_sum_value(&s), 1 + 125000 * LDBL_EPSILON, LDBL_EPSILON);
 }
 
+static fret_real value_of(const fret_real *c, fret_real x) {
+    fret_real sum = 0;
+    for (int i = FRET_CHEBYSHEV; i-- > 0;)
+        sum = sum * x + c[i];
+    return sum;
+}
+
 static void polynomials(void) {
-    const fret_real c[] = {3, -2, 0, 5};
-    CHECK(fret_horner(c, 4, 2) == 39 && fret_horner(c, 1, 7) == 3 && fret_horner(c, 0, 7) == 0);
     fret_chebyshev rule; /* through the values of a function, in powers */
     fret_real value[FRET_CHEBYSHEV], term[FRET_CHEBYSHEV], power[FRET_CHEBYSHEV];
     for (int from_nil = 0; from_nil < 2; from_nil++) {
@@ -220,7 +224,7 @@ static void polynomials(void) {
         fret_chebyshev_powers(&rule, term, 16, power);
         for (int i = 0; i <= 10; i++) {
             const fret_real x = from_nil ? i / 10.0L : i / 5.0L - 1;
-            CHECK_REL(fret_horner(power, FRET_CHEBYSHEV, x), expl(x / 2), UNIT_TOL(1e-17L, 1e-13L));
+            CHECK_REL(value_of(power, x), expl(x / 2), UNIT_TOL(1e-17L, 1e-13L));
         }
     }
 }

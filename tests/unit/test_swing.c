@@ -118,7 +118,7 @@ static void references(void) {
         fret_state now;
         CHECK(fret_swing_fits(s, &w, 0));
         for (int i = 0; i < 3; i++) {
-            CHECK_OK(fret_swing_period(s, &w));
+            CHECK_OK(fret_swing_part(s, &w, 0, 1));
             if (i == 0) {
                 fret_swing_state(s, &now);
                 CHECK_REL(now.W, unit_result(&t, 4), 1e-15L);
@@ -177,7 +177,7 @@ static void against_chords(int count) {
         fret_real loss[2] = {0, 0};
         CHECK(fret_swing_fits(s, &w, 0));
         for (int j = 0; j < 2; j++) {
-            CHECK_OK(fret_swing_period(s, &w));
+            CHECK_OK(fret_swing_part(s, &w, 0, 1));
             loss[0] = chords(coarse, &l, 320);
             loss[1] = chords(fine, &l, 640);
         }
@@ -250,7 +250,7 @@ static void in_parts(int count) {
             CHECK_ABS(a.dx, b.dx, reach, 1e-5L);
             CHECK_ABS(a.W, b.W, loss_of(&l, m, a.W), 1e-4L);
         }
-        CHECK_OK(fret_swing_period(whole, &w));
+        CHECK_OK(fret_swing_part(whole, &w, 0, 1));
         fret_swing_state(whole, &a);
         fret_swing_state(parts, &b);
         CHECK_ABS(b.W, a.W, loss_of(&l, m, a.W), 100 * known(&l));
@@ -315,7 +315,7 @@ static void in_phase(int count) {
         fret_swing *s = swing_of(m);
         fret_state a, b;
         for (int period = 0; period < 2; period++) {
-            CHECK_OK(fret_swing_period(s, &w));
+            CHECK_OK(fret_swing_part(s, &w, 0, 1));
             CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, l.FN - along, -l.FA}));
             CHECK_OK(fret_memory_step(m, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, l.FN + along, l.FA}));
         }
@@ -343,7 +343,7 @@ static void by_displacement(int count) {
         fret_memory *m = begin(&l);
         fret_swing *s = swing_of(m), *t = swing_of(m);
         for (int period = 0; period < 2; period++)
-            CHECK_OK(fret_swing_period(s, &w));
+            CHECK_OK(fret_swing_part(s, &w, 0, 1));
         for (int step = 0; step < 4; step++) {
             fret_state before, a, b;
             fret_swing_state(s, &before);
@@ -379,7 +379,7 @@ static void through_slip(void) {
     fret_memory *m = begin(&l);
     fret_swing *s = swing_of(m);
     fret_state before, a, b;
-    CHECK_OK(fret_swing_period(s, &w));
+    CHECK_OK(fret_swing_part(s, &w, 0, 1));
     fret_swing_state(s, &before);
     CHECK_OK(fret_swing_memory(s, m));
     const fret_real reach = l.mu * m->normal->foundation.eta * before.dz, limit = l.mu * before.FN;
@@ -583,8 +583,8 @@ static void mirrored(int count) {
                 for (int side = 0; side < 2; side++)
                     CHECK_OK(fret_swing_step(
                         s[side], &(fret_step){FRET_TO_FORCE, FRET_TO_FX, (double)FN, side ? -l.FA : l.FA}));
-                CHECK_OK(fret_swing_period(s[0], &w));
-                CHECK_OK(fret_swing_period(s[1], &v));
+                CHECK_OK(fret_swing_part(s[0], &w, 0, 1));
+                CHECK_OK(fret_swing_part(s[1], &v, 0, 1));
             } else {
                 const double FN = 100 * uniform(), Fx = l.mu * FN * (2 * uniform() - 1);
                 for (int side = 0; side < 2; side++)
@@ -629,7 +629,7 @@ static void one_stays(void) {
             CHECK_REL(now.dx, straight.dx, 1e-15L);
             CHECK_REL(now.U, straight.U, 1e-15L);
         }
-        CHECK_OK(fret_swing_period(s, &w));
+        CHECK_OK(fret_swing_part(s, &w, 0, 1));
         fret_swing_state(s, &after);
         CHECK(after.W == now.W && after.FN == now.FN && after.Fx == now.Fx);
         CHECK_REL(after.dx, now.dx, 1e-17L);

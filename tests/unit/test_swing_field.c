@@ -45,7 +45,7 @@ static fret_swing *swing_of(const unit_scene *scene, double FN, double FA, doubl
     if (!CHECK(fret_swing_make(*m, &s).code == FRET_OK))
         exit(unit_finish());
     if (to > 1)
-        CHECK_OK(fret_swing_period(s, &w));
+        CHECK_OK(fret_swing_part(s, &w, 0, 1));
     CHECK_OK(fret_swing_part(s, &w, 0, to > 1 ? to - 1 : to));
     return s;
 }
