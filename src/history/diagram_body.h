@@ -258,8 +258,9 @@ FRET_INLINE void put_at(place *to, NUMBER y) {
     to->at = (SPOT){0};
 }
 
-/* The level y - s t of slip of sign s at the end. law_left goes by what was asked for, and so knows more near
- * gross slip, but nothing where delta_x is far larger than what is left of it here. */
+/* The level y - s t of slip of sign s at the end. Below a tenth of y the difference loses digits: law_left
+ * goes by what was asked for, and so knows more near gross slip, but nothing where delta_x is far larger than
+ * what is left of it here. */
 FRET_INLINE NUMBER end_level(const path *p, coordinate by, NUMBER s) {
     const NUMBER y = p->to.y[by], level = y - s * p->to.t[by];
     if (size_of(level) > (NUMBER)0.1 * y || level == 0)
@@ -385,6 +386,7 @@ FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
         thin = size_of(top->sigma) == 1 && p->felt < top->inner.y[by];
         if (thin) /* the same, by the drive */
             at.rest = at.gain * thick - left;
+        /* what is left of it may be rounding, unless it is more than a trace of the layer */
         if (at.gain > 0 && at.rest > 0 && !(at.rest <= same && at.rest <= (NUMBER)1e-6 * at.gain * thick))
             break;
         outer = &top->inner;
@@ -636,7 +638,7 @@ FRET_INLINE fret_status find_normal_end(DIAGRAM *d, const fret_step *step, norma
 FRET_INLINE fret_status find_load(const DIAGRAM *d, const fret_step *step, NUMBER FN, NUMBER *load) {
     fret_real to = 0;
     *load = (NUMBER)step->tangential / (NUMBER)d->mu;
-    if (size_of(*load) < (NUMBER)0.9 * FN)
+    if (size_of(*load) < (NUMBER)0.9 * FN) /* far from gross slip */
         return fret_ok();
     const fret_status st = fret_step_load(d->mu, step, FN, &to);
     *load = (NUMBER)to;

@@ -113,6 +113,7 @@ FRET_INLINE bow power_bow(const power_law *p, const place *outer, const place *i
     const NUMBER per = 1 / (outer->y + inner->y), rho = w * per, part = rho * p->per_reach, x = part * part;
     if (!(x < (NUMBER)0.25))
         return power_thick_bow(p, outer, inner, w);
+    /* x^(2 + 2 pairs) is 2^-60 or less */
     const int pairs = x < (NUMBER)0x1p-11 ? 2 : x < (NUMBER)0x1p-5 ? 5 : x < (NUMBER)0x1p-3 ? 9 : LAW_PAIRS;
     const double square = (double)(x * x);
     const law_pair *c = p->later[pairs - 1];

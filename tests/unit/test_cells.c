@@ -14,7 +14,7 @@ static const fret_gap shapes[] = {
     {.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-3, .R = 0.01},
     {.kind = FRET_GAP_EXACT_SPHERE, .R = 0.01},
     {.kind = FRET_GAP_SUM, .terms = 3, .power = {{0.3, 1e-6, 1e-3}, {2, 1e-5, 1e-3}, {60, 1e-6, 1e-3}}}};
-static const double gradings[] = {-0.99, -0.9, -0.5, 0, 0.5, 0.9, 0.99};
+static const double gradings[] = {-0.99, -0.9, -0.5, 0, 5e-4, 0.5, 0.9, 0.99};
 static unsigned long long seed = 7;
 
 static fret_real uniform(fret_real lo, fret_real hi) {
