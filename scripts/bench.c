@@ -672,6 +672,18 @@ static double gap_steps(const fret_normal *n, long count) {
     return t;
 }
 
+/* Laws like one, each of another R. */
+static double like_laws(const fret_normal *n, fret_gap gap_of_R, long count) {
+    const double t0 = seconds();
+    for (long i = 0; i < count; i++) {
+        fret_normal *other;
+        gap_of_R.R *= 1.001;
+        need(fret_normal_make(&material, &gap_of_R, n, NULL, &other));
+        fret_normal_free(other);
+    }
+    return (seconds() - t0) / (double)count;
+}
+
 static double reference_losses(const fret_normal *n, long count) {
     fret_pressed c = {.normal = n, .mu = mu};
     fret_loading peak;
@@ -709,6 +721,9 @@ static void other_gap(const char *name, const fret_gap *of, const fret_normal *h
     line(what, step[0], step[1], "Hertz", us, "10 us");
     snprintf(what, sizeof what, "%s: to set up", name);
     line(what, setting_up, one, "one dW by its definition", us, of->table ? "" : "4 ms");
+    snprintf(what, sizeof what, "%s: of another R", name);
+    if (!of->table)
+        line(what, like_laws(n, *of, 1000), setting_up, "to set up", us, "20 us");
     fret_normal_free(n);
 }
 
