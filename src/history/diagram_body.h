@@ -410,8 +410,11 @@ FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
         cut(p, by, s, 0, 0, edge, NULL, 0);
         return;
     }
-    const NUMBER travel = left / at.gain, thick = now.thick + (edge - now.edge.y) + travel;
-    cut(p, by, s, count, at.rest / at.gain, thick, thin && p->grow == 0 ? outer : NULL, travel);
+    /* of an edge that comes from far the drive has lost the digits */
+    const NUMBER travel = left / at.gain, part = at.rest / at.gain,
+                 thick = -p->grow > edge ? edge - (d->layers[count - 1].inner.y[by] + part)
+                                         : now.thick + (edge - now.edge.y) + travel;
+    cut(p, by, s, count, part, thick, thin && p->grow == 0 ? outer : NULL, travel);
     put_end(&next, p, by, thick);
     dissipate(p, by, at.gain, &now, &next, travelled(p, &now, &next, travel));
 }

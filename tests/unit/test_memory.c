@@ -960,6 +960,24 @@ static void from_far(void) {
     fret_contact_free(c.memory);
 }
 
+/* Slid under 3.6e29 N, then held by 2e-5 N and a force of half that: where slip comes to is at its depth. */
+static void let_off(void) {
+    contact c = make_plain(0.42395847364167, 0.69068488512001491);
+    const fret_step steps[] = {{FRET_TO_DEPTH, FRET_TO_DX, 3.3049568601537604, -36119.252894103418},
+                               to_dx(-364.38482323931157),
+                               to_force(2.207026877894602e-05, 2.47816013513621e-06),
+                               to_fx(4.5078254090145203e-06)};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        go(&c, steps[i]);
+        CHECK(in_order(c.memory));
+        check_state(&c);
+    }
+    const fret_memory *m = c.memory->memory;
+    for (size_t i = 0; i < m->count; i++)
+        CHECK_REL(m->layers[i].inner.y[DEPTH], fret_law_depth(c.normal, m->layers[i].inner.y[LOAD]), 1e-17L);
+    fret_contact_free(c.memory);
+}
+
 int main(int argc, char **argv) {
     unit_start("memory", argc, argv);
     CASE(history_reference("history.csv", false));
@@ -974,6 +992,7 @@ int main(int argc, char **argv) {
     CASE(targets());
     CASE(separation());
     CASE(from_far());
+    CASE(let_off());
     CASE(unequal());
     CASE(gross_slip());
     CASE(standing());
