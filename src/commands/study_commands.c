@@ -80,7 +80,7 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
     answer event;
     answer_begin(&event, &sh->set, sh->out);
     answer_event(&event, "solve");
-    answer_string(&event, "method", "Brent");
+    answer_string(&event, "method", "secant");
     answer_number(&event, "evaluations", a->evaluations);
     answer_items(&event, "bracket");
     answer_number(&event, NULL, a->lo);
@@ -99,7 +99,7 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
         return;
     calc_value_text(q->name.d, a->lo, lo);
     calc_value_text(q->name.d, a->hi, hi);
-    shell_say(sh, "solve: scan and Brent's method, %u evaluations, bracket %s = %s .. %s", a->evaluations,
+    shell_say(sh, "solve: scan and secant, %u evaluations, bracket %s = %s .. %s", a->evaluations,
               q->name.text, lo, hi);
 }
 
@@ -174,7 +174,7 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
     }
     if (sh->set.timing)
         shell_say(sh, "%s: grid, %s%s, %u evaluations", word,
-                  q->count == 1 ? "Brent's method" : "simplex of Nelder and Mead",
+                  q->count == 1 ? "golden section" : "simplex of Nelder and Mead",
                   a->sharp && inner ? ", Newton's method" : "", a->evaluations);
 }
 

@@ -5,6 +5,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "number/root.h"
+
 /* The loss f(d) is convex. From a kink (d_i, f-e) the steepest line that stays below f+e touches it; the next
  * kink is where the line meets f-e again. The least e whose kinks suffice is looked for by halves. */
 /* The least error is looked for to this part of itself; the one that is stated holds all the same. */
@@ -53,30 +55,24 @@ static double loss_slope(march *m, double d) {
 
 typedef double growing(march *m, double d);
 
-/* Regula falsi, the standing end halved (Illinois). f(lo) <= 0 <= f(hi). */
+typedef struct sought {
+    march *m;
+    growing *f;
+    double at; /* asked last */
+} sought;
+
+static fret_real value_there(fret_real x, fret_real *slope, void *context) {
+    sought *s = context;
+    const bool again = (double)x == s->at; /* no double lies closer */
+    (void)slope;
+    s->at = (double)x;
+    return again ? 0 : s->f(s->m, s->at);
+}
+
+/* f(lo) <= 0 <= f(hi). */
 static double zero_of(march *m, growing *f, double lo, double hi) {
-    double at_lo = f(m, lo), at_hi = f(m, hi);
-    int side = 0;
-    for (int i = 0; i < 100 && hi - lo > 2 * DBL_EPSILON * hi; i++) {
-        double mid = (lo * at_hi - hi * at_lo) / (at_hi - at_lo);
-        if (!(mid > lo && mid < hi))
-            mid = lo + (hi - lo) / 2;
-        const double at = f(m, mid);
-        if (at == 0)
-            return mid;
-        if (at < 0) {
-            lo = mid;
-            at_lo = at;
-            at_hi *= side < 0 ? 0.5 : 1;
-            side = -1;
-        } else {
-            hi = mid;
-            at_hi = at;
-            at_lo *= side > 0 ? 0.5 : 1;
-            side = 1;
-        }
-    }
-    return lo + (hi - lo) / 2;
+    sought s = {m, f, NAN};
+    return (double)fret_root(value_there, &s, lo, hi, NAN);
 }
 
 static double first_kink(march *m, double d) {

@@ -5,14 +5,14 @@
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
-#include <gsl/gsl_min.h>
 #include <gsl/gsl_multimin.h>
 #include <math.h>
 
+#include "number/least.h"
 #include "study/points.h"
 
 /* Names are turned into parts of their ranges, 0 to 1. */
-enum { N = OPTIMISE_NAMES, LINE = 16, EDGE_EVALUATIONS = 60, SIMPLEX_STEPS = 400 };
+enum { N = OPTIMISE_NAMES, LINE = 16, EDGE_EVALUATIONS = 60, ROUNDS = 8, SIMPLEX_STEPS = 400 };
 
 /* Narrow enough for Newton's method. */
 #define NARROW 2e-3
@@ -155,50 +155,23 @@ static long double line_at(line *l, double u) {
     return line_take(l, u, place, f);
 }
 
-static double gsl_line(double u, void *context) {
-    return (double)line_at(context, u);
+static fret_real line_value(fret_real u, fret_real *slope, void *context) {
+    line *l = context;
+    (void)slope;
+    return l->s->p.error->raised ? 0 : line_at(l, (double)u);
 }
 
-typedef struct spot {
-    double u, f;
-} spot;
-
-/* An end as good as the place inside: the middle between them comes in, or is the end. */
-static void break_tie(line *l, spot *inside, spot *near, spot *far) {
-    if (near->f != inside->f)
-        return;
-    spot mid = {.u = (inside->u + near->u) / 2};
-    mid.f = (double)line_at(l, mid.u);
-    if (mid.f < inside->f) {
-        *far = *inside;
-        *inside = mid;
-    } else {
-        *near = mid;
-    }
-}
-
-/* A bracket of three, the best inside, made narrow: to this part of what is left on either side. */
+/* The best place lies between: to this part of what is left on either side. */
 static bool narrow(line *l, double lo, double hi, double part) {
-    spot best = {l->u, (double)l->f}, below = {.u = lo}, above = {.u = hi};
-    gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    gsl_function along = {gsl_line, l};
-    if (!m)
-        return calc_no_memory(l->s->p.error);
-    below.f = (double)line_at(l, lo);
-    above.f = (double)line_at(l, hi);
-    break_tie(l, &best, &above, &below);
-    break_tie(l, &best, &below, &above);
-    int status =
-        gsl_min_fminimizer_set_with_values(m, &along, best.u, best.f, below.u, below.f, above.u, above.f);
-    for (int i = 0; !status && i < 40; i++) {
-        status = gsl_min_fminimizer_iterate(m);
-        const double now = gsl_min_fminimizer_x_minimum(m);
-        l->lo = gsl_min_fminimizer_x_lower(m);
-        l->hi = gsl_min_fminimizer_x_upper(m);
-        if (l->hi - l->lo < part * fmin(now, 1 - now))
-            break;
+    static const double round = 1e-2; /* of what is left, each time */
+    for (int i = 0; i < ROUNDS && hi - lo > part * fmin(l->u, 1 - l->u); i++) {
+        const double apart = round * (hi - lo);
+        fret_least(line_value, l, lo, hi, l->u, round);
+        lo = fmax(lo, l->u - apart);
+        hi = fmin(hi, l->u + apart);
     }
-    gsl_min_fminimizer_free(m);
+    l->lo = lo;
+    l->hi = hi;
     return !l->s->p.error->raised;
 }
 
@@ -511,7 +484,7 @@ static bool go_on(search *s, size_t free) {
 static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     size_t free = 0;
     if (s->of->count == 1) {
-        const bool ok = !(l->lo < l->hi) || narrow(l, l->lo, l->hi, 1e-8);
+        const bool ok = !(l->lo < l->hi) || narrow(l, l->lo, l->hi, 1e-15);
         keep_line(s, l);
         return ok;
     }

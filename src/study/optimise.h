@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where an expression is largest or smallest over ranges of one to three names: a grid, then Brent's method
- * or the simplex of Nelder and Mead (GSL), then Newton's on differences of sixth order. */
+/* Where an expression is largest or smallest over ranges of one to three names: a grid, then the golden
+ * section or the simplex of Nelder and Mead (GSL), then Newton's method on differences of sixth order. */
 #ifndef STUDY_OPTIMISE_H
 #define STUDY_OPTIMISE_H
 

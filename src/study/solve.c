@@ -2,20 +2,17 @@
 /* The scan for brackets and the method on them. */
 #include "study/solve.h"
 
-#include <float.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_min.h>
-#include <gsl/gsl_roots.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "number/least.h"
 #include "study/points.h"
 
 /* Intervals of the scan, and of the one where sides that jump or swing want more of them; halvings to an edge
- * of what the scene allows; evaluations to come nearer, and of the method. */
-enum { SCAN = 24, FINE = 8 * SCAN, EDGE = 60, NEARER = 21, METHOD = 60, ROOTS = 48, LISTED = 12 };
+ * of what the scene allows. */
+enum { SCAN = 24, FINE = 8 * SCAN, EDGE = 60, ROOTS = 48, LISTED = 12 };
 
 typedef struct place {
     double x, f; /* f: NaN where there is no value */
@@ -36,6 +33,7 @@ typedef struct search {
     place edge;     /* the last place with a value there */
     calc_error why; /* beyond it */
     place nearest;  /* between places of the scan, without passing: NaN where that was not asked */
+    place dip;      /* nearest there so far */
     double side;    /* of the left side there: 1 above, -1 below */
     bool touches;
     bool pole;   /* a place of the scan alone has no value */
@@ -173,9 +171,17 @@ static bool search_edges(search *s) {
 
 /* ---- between the places of the scan ------------------------------------------------------------ */
 
-static double side_distance(double x, void *context) {
+/* Until they meet. */
+static fret_real side_distance(fret_real x, fret_real *slope, void *context) {
     search *s = context;
-    return s->side * difference(s, x);
+    place p = {.x = (double)x};
+    (void)slope;
+    if (s->dip.f * s->side <= 0)
+        return 0;
+    p.f = difference(s, p.x);
+    if (p.f * s->side < s->dip.f * s->side)
+        s->dip = p;
+    return p.f * s->side;
 }
 
 /* Are the sides further apart at a than at b, on the same side of each other, or as far, but for rounding? */
@@ -188,7 +194,7 @@ static bool as_far(place a, place b) {
 }
 
 /* The sides come nearest at b, with a and c beside it: they may pass each other twice within, or touch. */
-static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
+static bool go_nearer(search *s, place a, place b, place c) {
     static const double touching = 1e-13; /* of the distance at a and c: what rounding leaves */
     const bool first = as_far(a, b);
     if (first || as_far(c, b)) { /* two as near as each other: between them, or they are level */
@@ -208,20 +214,10 @@ static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
             c = other;
         }
     }
-    gsl_min_fminimizer *method = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    gsl_function f = {side_distance, s};
-    if (!method)
-        return calc_no_memory(error);
     s->side = b.f > 0 ? 1 : -1;
-    const unsigned begun = s->p.evaluations;
-    int status = gsl_min_fminimizer_set_with_values(method, &f, b.x, fabs(b.f), fmin(a.x, c.x), fabs(a.f),
-                                                    fmax(a.x, c.x), fabs(c.f));
-    while (!status && b.f * s->side > 0 && s->p.evaluations - begun < NEARER) {
-        status = gsl_min_fminimizer_iterate(method);
-        b.x = gsl_min_fminimizer_x_minimum(method);
-        b.f = s->side * gsl_min_fminimizer_f_minimum(method);
-    }
-    gsl_min_fminimizer_free(method);
+    s->dip = b;
+    fret_least(side_distance, s, fmin(a.x, c.x), fmax(a.x, c.x), b.x, 1e-9L);
+    b = s->dip;
     if (s->p.error->raised)
         return false;
     const double left = b.f * s->side; /* not NaN: it is the least that has been met */
@@ -238,7 +234,7 @@ static bool go_nearer(search *s, place a, place b, place c, calc_error *error) {
 }
 
 /* At an end of the range: do they come nearer at once? */
-static bool search_end(search *s, place end, place next, calc_error *error) {
+static bool search_end(search *s, place end, place next) {
     if (!further(next, end))
         return true;
     place p = {.x = end.x + 1e-3 * (next.x - end.x)};
@@ -250,12 +246,12 @@ static bool search_end(search *s, place end, place next, calc_error *error) {
         add_bracket(s, p, next);
         return true;
     }
-    return !(fabs(p.f) < fabs(end.f)) || go_nearer(s, end, p, next, error);
+    return !(fabs(p.f) < fabs(end.f)) || go_nearer(s, end, p, next);
 }
 
 /* Where the sides come near each other without passing at any two places of the scan: a pole may hide a root,
  * too. */
-static bool search_dips(search *s, calc_error *error) {
+static bool search_dips(search *s) {
     const place *at = s->at;
     const unsigned last = s->places;
     bool level = false;
@@ -263,17 +259,17 @@ static bool search_dips(search *s, calc_error *error) {
         const place *a = &at[i - 1], *b = &at[i], *c = &at[i + 1];
         const bool before = further(*a, *b), after = further(*c, *b);
         if (((before && (after || as_far(*b, *c))) || (after && as_far(*b, *a) && !level)) &&
-            !go_nearer(s, *a, *b, *c, error))
+            !go_nearer(s, *a, *b, *c))
             return false;
         level = before && as_far(*b, *c);
     }
-    return search_end(s, at[0], at[1], error) && search_end(s, at[last], at[last - 1], error);
+    return search_end(s, at[0], at[1]) && search_end(s, at[last], at[last - 1]);
 }
 
-static bool look_for_roots(search *s, unsigned places, calc_error *error) {
+static bool look_for_roots(search *s, unsigned places) {
     s->places = places;
     s->roots = 0;
-    return scan(s) && search_edges(s) && search_dips(s, error);
+    return scan(s) && search_edges(s) && search_dips(s);
 }
 
 /* ---- no root ----------------------------------------------------------------------------------- */
@@ -321,40 +317,35 @@ static bool no_root(search *s, calc_error *error) {
 
 /* ---- the method -------------------------------------------------------------------------------- */
 
-static double gsl_difference(double x, void *context) {
-    return difference(context, x);
+typedef struct sought {
+    search *s;
+    double part; /* of x: places that lie closer are one; of those that are the same double, 0 */
+    double at;   /* asked last */
+    bool lost;   /* no value there */
+} sought;
+
+static fret_real difference_there(fret_real x, fret_real *slope, void *context) {
+    sought *t = context;
+    const bool again = fabs((double)x - t->at) <= t->part * fabs((double)x);
+    (void)slope;
+    t->at = (double)x;
+    const double f = again ? 0 : difference(t->s, t->at);
+    t->lost = isnan(f);
+    return t->lost ? 0 : f;
 }
 
-/* By Brent's method to the last digit; rough: to six. */
+/* To the last digit; rough: to six. */
 static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *error) {
     const place a = s->root[i], b = s->other[i];
+    sought t = {.s = s, .part = rough ? 1e-7 : 0, .at = (double)NAN};
     *x = a.x;
     if (a.x == b.x)
         return true;
-    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    gsl_function f = {gsl_difference, s};
-    if (!solver)
-        return calc_no_memory(error);
-    int status = gsl_root_fsolver_set(solver, &f, fmin(a.x, b.x), fmax(a.x, b.x));
-    double lo = a.x, hi = b.x;
-    const unsigned begun = s->p.evaluations;
-    while (!status && s->p.evaluations - begun < METHOD) {
-        const double before = *x;
-        status = gsl_root_fsolver_iterate(solver);
-        *x = gsl_root_fsolver_root(solver);
-        lo = gsl_root_fsolver_x_lower(solver);
-        hi = gsl_root_fsolver_x_upper(solver);
-        if (fabs(hi - lo) <= (rough ? 1e-7 : DBL_EPSILON) * fabs(*x) ||
-            (rough && fabs(*x - before) < 1e-7 * fabs(*x)) || fabs(*x - before) <= DBL_EPSILON * fabs(*x))
-            break;
-    }
-    gsl_root_fsolver_free(solver);
+    *x = (double)fret_root(difference_there, &t, fmin(a.x, b.x), fmax(a.x, b.x), (double)NAN);
     if (s->p.error->raised)
         return false;
-    if (status)
-        return calc_fail(error, s->of->left->at, s->of->left->len, "no value within the bracket: %s",
-                         s->p.none.text);
-    return true;
+    return !t.lost || calc_fail(error, s->of->left->at, s->of->left->len, "no value within the bracket: %s",
+                                s->p.none.text);
 }
 
 /* A change of sign may be a jump. */
@@ -443,7 +434,7 @@ static bool answer_root(search *s, solve_answer *out, calc_error *error) {
         return false;
     for (unsigned places = SCAN; places <= FINE && (places == SCAN || out->jumps || s->pole || s->swings);
          places += FINE - SCAN) {
-        if (!look_for_roots(s, places, error))
+        if (!look_for_roots(s, places))
             return false;
         if (s->roots && !(s->roots > 1 || out->jumps ? sift : single)(s, out, error))
             return false;
@@ -462,7 +453,6 @@ static bool answer_root(search *s, solve_answer *out, calc_error *error) {
 bool solve(const solve_question *question, solve_answer *out, calc_error *error) {
     search s = {.of = question, .sides = {*question->left, *question->right}, .nearest = {.f = (double)NAN}};
     *out = (solve_answer){.jumps = false};
-    gsl_set_error_handler_off();
     const bool ok =
         points_open(&s.p, question->c, &question->name, 1, s.sides, 2, error) && answer_root(&s, out, error);
     points_close(&s.p);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where two expressions are equal: a scan that finds brackets, then Brent's method (GSL). */
+/* Where two expressions are equal: a scan that finds brackets, then steps of the secant within them. */
 #ifndef STUDY_SOLVE_H
 #define STUDY_SOLVE_H
 
@@ -23,7 +23,7 @@ typedef struct solve_answer {
 
 /* Without a range: the range of an input that has two ends, else three decades on either side of the present
  * value. Between places where the sides come nearest without passing they may still meet, or a pole may hide
- * that they do: looked for by Brent's method for minima. Where they jump the scan is repeated, finer. Errors:
+ * that they do: looked for by the golden section. Where they jump the scan is repeated, finer. Errors:
  * no root, with the place that comes closest and the edge of what the scene allows; several roots; a jump
  * instead of a root. The answer is good to the last digits that the expressions carry.
  */

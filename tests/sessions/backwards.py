@@ -365,12 +365,12 @@ def told(tests):
     done = tests.run("-c", "material steel; geometry sphere R=10 mm; press FN=100 N; set timing on; solve FN for a = 0.2 mm; "
                      "minimize dz over FN = 20 N .. 100 N")
     tests.check("timing tells method, evaluations and bracket",
-                re.search(r"solve: scan and Brent's method, \d+ evaluations, bracket FN = [\d.]+ N \.\. [\d.]+ N", done.stderr)
-                and re.search(r"minimize: grid, Brent's method, \d+ evaluations", done.stderr), tests.report(done))
+                re.search(r"solve: scan and secant, \d+ evaluations, bracket FN = [\d.]+ N \.\. [\d.]+ N", done.stderr)
+                and re.search(r"minimize: grid, golden section, \d+ evaluations", done.stderr), tests.report(done))
 
 
     for question, want in (
-            ("maximize sqrt(1-x) + x over x = 0 .. 5", "grid, Brent's method, Newton's method"), ("minimize x over x = -3 .. 3", "grid, Brent's method"),
+            ("maximize sqrt(1-x) + x over x = 0 .. 5", "grid, golden section, Newton's method"), ("minimize x over x = -3 .. 3", "grid, golden section"),
             ("minimize (x-1)^2 + y over x = -3 .. 3, y = 0 .. 1", "grid, simplex of Nelder and Mead, Newton's method"),
             ("minimize x + y over x = -3 .. 3, y = 0 .. 1", "grid, simplex of Nelder and Mead"),
             ("maximize x + y + 0*sqrt(2-x-y) over x = 0.1 .. 3, y = 0.1 .. 3", "grid, simplex of Nelder and Mead")):

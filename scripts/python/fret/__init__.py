@@ -24,7 +24,7 @@ def session(program: Optional[str] = None) -> Session:
     ...     best = s.run("maximize dWd(1 um) over FN = 1 N .. 400 N")
     ...     print("%.4f %s" % (best[0]["value"], best[0]["unit"]))
     ...     print("%.6g uJ" % s.value("dWd(1 um)/(1 uJ)"))
-    mu = 0.177743 by Brent
+    mu = 0.177743 by secant
     23.4964 N
     12.6102 uJ
     """
