@@ -85,8 +85,9 @@ const figure *figure_find(const char *name, size_t len) {
 
 const grammar *figure_form(size_t i) {
     static grammar forms[FIGURES];
-    return grammar_made(&forms[i], "plot", figures[i].name,
-                        figures[i].takes ? figures[i].takes : "RANGE LOOK [to FILE]");
+    return i < FIGURES && figures[i].takes
+               ? grammar_made(&forms[i], "plot", figures[i].name, figures[i].takes)
+               : NULL;
 }
 
 /* ---- running conditions ------------------------------------------------------------------------- */

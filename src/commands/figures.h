@@ -21,8 +21,8 @@ typedef struct figure {
 
 const figure *figure_row(size_t i); /* NULL after the last */
 const char *figure_name(size_t i);
-const grammar *figure_form(size_t i);
-const char *figure_word(size_t i); /* what a figure may begin with: these, and map */
+const grammar *figure_form(size_t i); /* NULL: that of plot */
+const char *figure_word(size_t i);    /* what a figure may begin with: these, and map */
 const figure *figure_find(const char *name, size_t len);
 
 /* figures that are no sweep */

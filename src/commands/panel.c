@@ -573,10 +573,6 @@ static bool is_named(const shell *sh, const figure *f, said *all) {
 bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
     const figure *f = lx->kind == T_NAME ? figure_find(lx->text + lx->at, lx->len) : NULL;
     out->at = lx->at;
-    if (f && f->build) {
-        lex_next(lx);
-        row = figure_form((size_t)(f - figure_row(0)));
-    }
     const bool ok = said_read_some(sh, lx, row, &out->said);
     out->figure = ok && f && (f->build || is_named(sh, f, &out->said)) ? f : NULL;
     if (!ok)

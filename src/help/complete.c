@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Completion by position, from the tables of commands, settings, geometries, quantities and units. Changes
- * nothing. */
+/* The reader reads the statement as far as it has been typed, and tells where it ends; what may come there is
+ * in the tables of commands, settings, geometries, quantities and units. Changes nothing. */
 #include "help/complete.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "commands/expressions.h"
 #include "help/help.h"
 #include "number/array.h"
 #include "statement/command.h"
@@ -14,23 +15,16 @@
 
 /* ---- candidates -------------------------------------------------------------------------------- */
 
-enum { TOKENS = 256 };
-
-/* The statement before the word at the cursor. */
+/* The word at the cursor, and the statement before it. */
 typedef struct place {
-    calc *c;
+    shell *sh;
     const char *line;
     size_t start, cursor; /* of the word */
-    struct {
-        token_kind kind;
-        size_t at, len;
-    } token[TOKENS];
-    size_t count;
-    const command *command; /* that it begins with, or NULL */
     candidates *out;
+    bool whole; /* one may come that need not be made of tokens, as the name of a file or of a shape */
 } place;
 
-static void add_word(const place *p, const char *word, const char *ending) {
+static void add_word(place *p, const char *word, const char *ending) {
     candidates *out = p->out;
     const size_t typed = p->cursor - p->start, n = strlen(word), m = strlen(ending);
     if (n < typed || memcmp(word, p->line + p->start, typed) != 0)
@@ -52,42 +46,46 @@ static void add_word(const place *p, const char *word, const char *ending) {
     out->word[out->count++] = whole;
 }
 
+static void candidates_none(candidates *c) {
+    while (c->count > 0)
+        free(c->word[--c->count]);
+}
+
 void candidates_free(candidates *c) {
-    for (size_t i = 0; i < c->count; i++)
-        free(c->word[i]);
+    candidates_none(c);
     free(c->word);
     *c = (candidates){.word = NULL};
 }
 
-static void add_all(const place *p, const char *(*name)(size_t i)) {
+static void add_all(place *p, const char *(*name)(size_t i)) {
     for (size_t i = 0; name(i); i++)
         add_word(p, name(i), "");
 }
 
 /* What may begin a value. */
-static void add_values(const place *p) {
+static void add_values(place *p) {
     const quantity *q;
     for (size_t i = 0; (q = quantity_row(i)); i++)
         add_word(p, q->name, quantity_has_value(q) ? "" : "(");
     add_all(p, builtin_name);
-    for (size_t i = 0; i < p->c->names.count; i++) {
-        const own_name *own = &p->c->names.row[i];
+    for (size_t i = 0; i < p->sh->calc.names.count; i++) {
+        const own_name *own = &p->sh->calc.names.row[i];
         const definition *d = (const definition *)own->definition;
         if (own->known)
             add_word(p, own->text, d && d->parameters ? "(" : "");
     }
-    if (p->c->has_ans)
+    if (p->sh->calc.has_ans)
         add_word(p, "ans", "");
 }
 
 /* Inputs that the scene takes, and names of the user's. */
-static void add_knobs(const place *p, const char *end) {
+static void add_knobs(place *p, const char *end) {
     for (input in = 0; in < INPUTS; in++)
-        if (calc_takes(p->c, in, error_quiet()))
+        if (calc_takes(&p->sh->calc, in, error_quiet()))
             add_word(p, quantity_of_input(in)->name, end);
-    for (size_t i = 0; i < p->c->names.count; i++)
-        if (p->c->names.row[i].known && !p->c->names.row[i].definition)
-            add_word(p, p->c->names.row[i].text, end);
+    for (size_t i = 0; i < p->sh->calc.names.count; i++)
+        if (p->sh->calc.names.row[i].known && !p->sh->calc.names.row[i].definition)
+            add_word(p, p->sh->calc.names.row[i].text, end);
 }
 
 static bool same_dim(dim a, dim b) {
@@ -95,7 +93,7 @@ static bool same_dim(dim a, dim b) {
 }
 
 /* Units of the dimension; any: of all. Where no unit alone has the dimension, all again. */
-static void add_units(const place *p, bool any, dim d) {
+static void add_units(place *p, bool any, dim d) {
     static const char *const prefixes[] = {"", "n", "u", "m", "c", "k", "M", "G"};
     enum { PREFIXES = sizeof prefixes / sizeof *prefixes };
     bool none = true;
@@ -111,245 +109,167 @@ static void add_units(const place *p, bool any, dim d) {
         }
 }
 
-/* ---- the statement ----------------------------------------------------------------------------- */
+/* ---- what may come ----------------------------------------------------------------------------- */
 
-static bool token_is(const place *p, size_t i, const char *word) {
-    return p->token[i].kind == T_NAME && strlen(word) == p->token[i].len &&
-           !memcmp(p->line + p->token[i].at, word, p->token[i].len);
-}
-
-/* The `|` before the figure at the cursor, or 0. */
-static size_t figure_begins(const place *p) {
-    size_t i = p->count;
-    while (i-- > 1)
-        if (p->token[i].kind == T_BAR)
-            return i;
-    return 0;
-}
-
-static bool assigns(token_kind kind) {
-    return kind == T_ASSIGN || kind == T_INCREMENT || kind == T_DEFINE;
-}
-
-/* Does the figure, or the statement, have the word; argument: with a value of its own? */
-static bool is_said(const place *p, const char *word, bool argument) {
-    for (size_t i = figure_begins(p) + 1; i < p->count; i++)
-        if (token_is(p, i, word) && (!argument || (i + 1 < p->count && assigns(p->token[i + 1].kind))))
-            return true;
-    return false;
-}
-
-/* The tokens before the word that begins at `start`; what is none, as in names of files, is left out. */
-static void read_tokens(place *p, size_t begin, size_t start) {
-    calc_error *strange = error_quiet();
-    lexer lx;
-    p->start = start;
-    p->count = 0;
-    for (lex_start(&lx, p->line + begin, start - begin, strange);
-         (lx.kind != T_END || strange->raised) && p->count < TOKENS; lex_next(&lx)) {
-        error_clear(strange);
-        if (lx.kind == T_END)
-            continue;
-        p->token[p->count].kind = lx.kind;
-        p->token[p->count].at = begin + lx.at;
-        p->token[p->count++].len = lx.len;
-    }
-    const bool assignment = p->count > 1 && assigns(p->token[1].kind);
-    p->command = p->count && !assignment ? command_find(p->line + p->token[0].at, p->token[0].len) : NULL;
-}
-
-/* What the command takes, behind a word that has a row of its own what that takes; NULL: there is none. */
-static const grammar *form_of(const place *p) {
-    const grammar *f = p->command ? command_form(p->command) : NULL;
-    const hole_row *first = f ? grammar_first(f, HOLE_CHOICE) : NULL;
-    if (!first || !first->form || p->count < 2)
-        return f;
-    const char *name = p->line + p->token[1].at;
-    size_t row;
-    return word_among(first->words, name, strcspn(name, " \t\n;"), &row) ? first->form(row) : f;
-}
-
-/* `along cycle ...`: its arguments may follow. */
-static const command *load_along(const place *p) {
-    for (size_t i = figure_begins(p) + 2; i < p->count; i++)
-        if (token_is(p, i - 1, "along"))
-            return command_find(p->line + p->token[i].at, p->token[i].len);
-    return NULL;
-}
-
-/* ---- what may follow --------------------------------------------------------------------------- */
-
-/* What may stand in the hole; false: nothing that is known. */
-static bool add_hole(const place *p, const hole *h, const char *behind_name) {
-    const hole_kind kind = h->row->kind;
-    if (h->row->words)
-        add_all(p, h->row->words);
+/* What may stand in the hole. A file, where a word may stand too: only what has begun as one. */
+static void add_hole(place *p, const clause *a, unsigned i) {
+    const hole_row *row = a->hole[i].row;
+    const hole_kind kind = row->kind;
+    const bool other = a->hole[0].row->words;
+    p->whole = p->whole || kind == HOLE_FILE || kind == HOLE_CHOICE || kind == HOLE_WORD;
+    if (row->words)
+        add_all(p, row->words);
     else if (kind == HOLE_NAME || kind == HOLE_INPUT)
-        add_knobs(p, behind_name);
+        add_knobs(p, i + 1 < a->holes && a->hole[i + 1].before == '=' ? "=" : "");
     else if (kind == HOLE_EXPR || kind == HOLE_SPAN || kind == HOLE_VALUE)
         add_values(p);
-    else
-        return false;
-    return true;
+    else if (kind == HOLE_FILE && (!other || strcspn(p->line + p->start, "./") < p->cursor - p->start))
+        p->out->files = true;
 }
 
-/* The dimension of the expression before `in`. */
-static bool dim_before(const place *p, dim *d) {
-    size_t first = p->count - 1;
-    int depth = 0;
-    lexer lx;
-    expr e = {0};
-    while (first > 0 && !(depth == 0 && p->token[first - 1].kind == T_COMMA) && !(first == 1 && p->command)) {
-        first--;
-        depth += p->token[first].kind == T_CLOSE ? 1 : p->token[first].kind == T_OPEN ? -1 : 0;
-    }
-    const char *text = p->line + p->token[first].at;
-    lex_start(&lx, text, p->token[p->count - 1].at - p->token[first].at, error_quiet());
-    const bool ok = expr_parse(p->c, &lx, &e) && lx.kind == T_END && expr_dim(p->c, &e, d);
-    expr_free(&e);
-    return ok;
-}
-
-/* ---- arguments --------------------------------------------------------------------------------- */
-
-/* Has another way been gone? */
-static bool is_barred(const place *p, const grammar *f, const clause *of) {
-    for (const clause *a = f->clause; of->group && a < f->clause + f->count; a++)
-        if (a->group == of->group && a->way != of->way && is_said(p, a->name, true))
-            return true;
-    return false;
-}
-
-/* What may still come. first: right behind the command's word, or that of a figure. */
-static void add_items(const place *p, const grammar *f, bool first) {
-    bool awaited = false; /* something must stand first */
+/* Clauses and arguments that may still come; first: right behind what chooses the row, and what stands first.
+ */
+static void add_clauses(place *p, const lexer *lx, const said *s, bool first) {
+    const grammar *f = s->by;
+    const clause *awaited = NULL; /* must stand first */
     for (const clause *a = f->clause; a < f->clause + f->count; a++) {
+        lexer quiet = *lx;
+        quiet.error = error_quiet();
         if (!*a->name && first) {
-            add_hole(p, &a->hole[0], "");
-            awaited = awaited || !a->optional;
-        } else if (a->argument && !is_said(p, a->name, true) && !is_barred(p, f, a)) {
-            add_word(p, a->name, "=");
-        } else if (*a->name && !a->argument && !awaited && !is_said(p, a->name, false)) {
-            add_word(p, a->name, "");
+            add_hole(p, a, 0);
+            awaited = a->optional ? awaited : a;
+        } else if (*a->name && (a->argument || !awaited || (a->group && a->group == awaited->group)) &&
+                   said_may_come(&quiet, s, a)) {
+            add_word(p, a->name, a->argument ? "=" : "");
         }
     }
 }
 
-static bool has_expression(const grammar *f) {
-    for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (a->holes && a->hole[0].row->kind == HOLE_EXPR)
-            return true;
-    return false;
+static hole_kind kind_of(const said *s) {
+    return s->open->of->hole[s->hole].row->kind;
 }
 
-/* After something that may end a value: what goes on. */
-static void add_continuation(const place *p) {
-    const grammar *f = form_of(p);
-    if (f)
-        add_items(p, f, false);
-    if (load_along(p))
-        add_items(p, command_form(load_along(p)), false);
-    if (f && !has_expression(f))
-        return;
-    if (!is_said(p, "in", false))
-        add_word(p, "in", "");
-    if (!is_said(p, "at", false))
-        add_word(p, "at", "");
+/* The dimension of the last expression of a part. */
+static bool dim_in(place *p, lexer own, dim *d) {
+    column columns[EXPRESSIONS];
+    size_t count = 0;
+    own.error = error_quiet();
+    const bool ok = read_expressions(p->sh, &own, columns, EXPRESSIONS, &count) && own.kind == T_END &&
+                    expr_dim(&p->sh->calc, &p->sh->list[count - 1], d);
+    columns_free(columns, count);
+    *p->sh->calc.note = 0;
+    return ok;
 }
 
-/* The dimension that `NAME = NUMBER` wants at the cursor after the number. */
-static bool wanted_dim(const place *p, dim *d) {
-    size_t i = p->count - 1; /* the number */
-    while (i > 0 &&
-           (p->token[i].kind == T_NUMBER || p->token[i].kind == T_MINUS || p->token[i].kind == T_RANGE ||
-            (p->token[i].kind == T_NAME && p->token[i - 1].kind == T_NUMBER))) /* 1 N .. 2 */
-        i--;
-    const hole_row *number =
-        p->command && i == 0 ? grammar_first(command_form(p->command), HOLE_VALUE) : NULL;
-    if (number) {
-        *d = quantity_find(number->noun, strlen(number->noun))->d;
-        return true;
-    }
-    if (i == 0 || !assigns(p->token[i].kind))
+/* The dimension of a number at the end: of the name, or the other side, that it is the value of. */
+static bool wanted_dim(place *p, const lexer *lx, const said *s, dim *d) {
+    const clause *a = s->open->of;
+    const bool own = kind_of(s) == HOLE_VALUE && !s->changed.len;
+    const quantity *q = own ? quantity_find(a->name, strlen(a->name))
+                            : quantity_find(lx->text + s->changed.at, s->changed.len);
+    *d = q ? quantity_dim(q, &p->sh->calc.scene) : a->d;
+    return q || own ||
+           (!s->changed.len && a->hole[s->hole].before == '=' &&
+            dim_in(p, hole_lexer(lx, &s->open->hole[s->hole - 1]), d));
+}
+
+/* Units of the number at the end. No blank between, and there is one alone: the number stays what it is. */
+static void add_units_of_number(place *p, const lexer *lx, const said *s) {
+    dim d = DIM_NONE;
+    const bool known = wanted_dim(p, lx, s, &d);
+    add_units(p, !known, d);
+    if (p->cursor == p->start && p->out->count == 1)
+        candidates_none(p->out);
+}
+
+static void add_next(place *p, const lexer *lx, const said *s);
+
+/* `along cycle ...`: its arguments may follow. False: it takes none. */
+static bool add_load(place *p, lexer own) {
+    said load;
+    const command *c = command_find(own.text + own.at, own.len);
+    own.error = error_quiet();
+    lex_next(&own);
+    if (!c)
         return false;
-    const quantity *q = quantity_find(p->line + p->token[i - 1].at, p->token[i - 1].len);
-    if (q)
-        *d = quantity_dim(q, &p->c->scene);
-    return q != NULL;
+    said_read_some(p->sh, &own, command_form(c), &load);
+    if (said_cut(&own))
+        add_next(p, &own, &load);
+    return true;
+}
+
+/* Behind what may end there. */
+static void add_further(place *p, const lexer *lx, const said *s) {
+    const clause *a = s->open->of;
+    const hole_kind kind = kind_of(s);
+    const char before = s->hole + 1 < a->holes ? a->hole[s->hole + 1].before : 0;
+    const bool loaded = kind == HOLE_LOAD && add_load(p, hole_lexer(lx, &s->open->hole[s->hole]));
+    if (s->end == PART_NUMBER && !loaded && kind != HOLE_COUNT && kind != HOLE_SECONDS)
+        add_units_of_number(p, lx, s);
+    if (!strchr(" \t\n", p->line[p->start - 1])) /* of a number */
+        return;
+    if (a->again && !*a->name)
+        add_hole(p, a, 0);
+    if (before)
+        add_word(p, before == '=' ? "=" : "+-", "");
+    else
+        add_clauses(p, lx, s, false);
+    if (kind == HOLE_EXPR) {
+        add_word(p, "in", "");
+        add_word(p, "at", "");
+    }
+}
+
+/* What may come where the statement has been cut off. */
+static void add_next(place *p, const lexer *lx, const said *s) {
+    if (!s->open) {
+        add_clauses(p, lx, s, s->count == 0);
+    } else if (s->end == PART_EMPTY) {
+        add_hole(p, s->open->of, s->hole);
+    } else if (s->end == PART_VALUE) {
+        add_values(p);
+    } else if (s->end == PART_NAME) {
+        add_knobs(p, "=");
+        if (lx->text[lx->at - 1] == ',') /* or what is next in the list */
+            add_values(p);
+    } else if (s->end == PART_UNIT) {
+        dim d = DIM_NONE;
+        lexer own = hole_lexer(lx, &s->open->hole[s->hole]);
+        own.end -= strlen("in");
+        const bool known = dim_in(p, own, &d);
+        add_units(p, !known, d);
+    } else {
+        add_further(p, lx, s);
+    }
 }
 
 /* ---- where the cursor is ----------------------------------------------------------------------- */
 
-/* The clause whose word the last token is; NULL: none, or the statement's first word. */
-static const clause *last_clause(const place *p, const grammar *f) {
-    for (const clause *a = f ? f->clause : NULL; a && a < f->clause + f->count && p->count > 1; a++)
-        if (!a->argument && *a->name && a->holes && token_is(p, p->count - 1, a->name))
-            return a;
-    return NULL;
-}
-
-/* Does a file name follow the tokens? Where a word of a table may stand too, only what has begun as one. */
-static bool wants_file(const place *p) {
-    const grammar *f = form_of(p);
-    const clause *a = last_clause(p, f);
-    if (!f || p->count == (f->shape ? 2 : 1))
-        return f && grammar_first(f, HOLE_FILE) &&
-               (!f->clause->hole->row->words || strcspn(p->line + p->start, "./") < p->cursor - p->start);
-    return a && a->hole[0].row->kind == HOLE_FILE;
-}
-
-/* `record off`, where it has been begun: the editor completes either words or files. */
-static void add_words_beside_file(const place *p) {
-    const grammar *f = p->cursor > p->start && p->count == 1 ? command_form(p->command) : NULL;
-    for (const clause *a = f ? f->clause : NULL; a && a < f->clause + f->count; a++)
-        if (*a->name && !a->argument)
-            add_word(p, a->name, "");
-}
-
-/* Behind `in` and `at` of an expression, and behind the word of a clause. */
-static bool add_behind_word(const place *p) {
-    const clause *a = last_clause(p, form_of(p));
-    dim d = DIM_NONE;
-    if (a)
-        return add_hole(p, &a->hole[0], a->holes > 1 && a->hole[1].before == '=' ? "=" : "");
-    if (token_is(p, p->count - 1, "at")) {
-        add_knobs(p, "=");
-        return true;
-    }
-    if (!token_is(p, p->count - 1, "in"))
-        return false;
-    const bool known = dim_before(p, &d);
-    add_units(p, !known, d);
-    return true;
-}
-
-static void complete_word(const place *p) {
-    if (p->count == 0) {
+/* Reads the statement up to the word that begins at `start`, and adds what may come there. */
+static void complete_at(place *p, size_t begin, size_t start) {
+    static grammar values; /* printed, or given to names */
+    calc_error error;
+    said s = {.by = grammar_made(&values, "", NULL, "EXPR, ...")};
+    lexer lx;
+    error_clear(&error);
+    lex_start(&lx, p->line + begin, start - begin, &error);
+    lx.cut = true;
+    p->start = p->out->start = start;
+    if (said_cut(&lx)) {
         add_all(p, command_name);
         add_values(p);
         return;
     }
-    const token_kind last = p->token[p->count - 1].kind;
-    dim d = DIM_NONE;
-    if (p->command && (p->count == 1 || last == T_BAR)) {
-        add_items(p, command_form(p->command), true);
-        return;
-    }
-    if (add_behind_word(p))
-        return;
-    if (last == T_NUMBER) {
-        const bool known = wanted_dim(p, &d);
-        const bool begun = p->cursor > p->start;
-        add_units(p, !known, d);
-        if (!begun && p->out->count == 1) /* the number stays what it is */
-            free(p->out->word[--p->out->count]);
-        if (begun || p->token[p->count - 1].at + p->token[p->count - 1].len < p->start)
-            add_continuation(p);
-    } else if (last == T_NAME || last == T_CLOSE || last == T_PERCENT || last == T_STRING) {
-        add_continuation(p);
-    } else {
-        add_values(p);
-    }
+    const command *c = lx.kind == T_NAME ? command_find(lx.text + lx.at, lx.len) : NULL;
+    const grammar *row = c ? command_form(c) : s.by;
+    do { /* figures stand side by side */
+        if (c)
+            lex_next(&lx);
+        error_clear(&error);
+        said_read_some(p->sh, &lx, row, &s);
+    } while (c && lx.kind == T_BAR);
+    if (said_cut(&lx))
+        add_next(p, &lx, &s);
 }
 
 /* Of the statement at the cursor; quote: of an open one, else the cursor. False: it is a comment. */
@@ -372,46 +292,31 @@ static bool word_byte(char c) {
            (unsigned char)c >= 0x80;
 }
 
-/* Behind the last of these bytes. */
-static size_t word_start(const char *line, size_t begin, size_t cursor, const char *parting) {
-    while (cursor > begin && !strchr(parting, line[cursor - 1]))
-        cursor--;
-    return cursor;
-}
-
-void complete(calc *c, const char *line, size_t cursor, candidates *out) {
-    place p = {.c = c, .line = line, .cursor = cursor, .out = out};
+void complete(shell *sh, const char *line, size_t cursor, candidates *out) {
+    place p = {.sh = sh, .line = line, .cursor = cursor, .out = out};
     size_t begin, quote, start = cursor;
     *out = (candidates){.start = cursor};
     if (!find_statement(line, cursor, &begin, &quote))
         return;
-    const bool quoted = quote < cursor;
-    /* names of files and of some tables hold what elsewhere parts words */
-    start = quoted ? quote : word_start(line, begin, cursor, " \t\n");
-    read_tokens(&p, begin, start);
-    if (!quoted && !wants_file(&p))
-        read_tokens(&p, begin, start = word_start(line, begin, cursor, " \t\n,="));
-    p.start = out->start = start + quoted;
-    out->files = wants_file(&p);
-    if (out->files && !quoted)
-        add_words_beside_file(&p);
-    out->files = out->files && out->count == 0;
-    if (out->files || out->count > 0 || quoted)
-        return;
+    while (start > begin && !strchr(" \t\n", line[start - 1]))
+        start--;
     if (begin < cursor && line[begin] == '?') { /* of the prompt: help */
         p.start = out->start = start > begin ? start : begin + 1;
         add_all(&p, help_name);
         return;
     }
-    if (p.count == 1 && p.command)
-        complete_word(&p);
-    if (out->count > 0)
+    const bool quoted = quote < cursor;
+    complete_at(&p, begin, quoted ? quote : start);
+    p.start = out->start += quoted;
+    /* the editor completes either words or files */
+    if (!p.whole || quoted || (out->files && cursor == p.start))
+        candidates_none(out);
+    out->files = out->files && out->count == 0;
+    if (out->files || out->count > 0 || quoted)
         return;
     for (start = cursor; start > begin && word_byte(line[start - 1]);)
         start--;
     while (start < cursor && line[start] >= '0' && line[start] <= '9') /* 20N */
         start++;
-    read_tokens(&p, begin, start);
-    out->start = start;
-    complete_word(&p);
+    complete_at(&p, begin, start);
 }

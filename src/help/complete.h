@@ -3,7 +3,7 @@
 #ifndef HELP_COMPLETE_H
 #define HELP_COMPLETE_H
 
-#include "language/calc.h"
+#include "statement/shell.h"
 
 typedef struct candidates {
     char **word; /* that begin like the word at the cursor; each its own */
@@ -14,7 +14,7 @@ typedef struct candidates {
 
 /* The candidates for the word of `line` that ends at the cursor, which they replace. One that ends in `=` or
  * `(` wants no blank behind it. Out of memory there are fewer. Free with candidates_free. */
-void complete(calc *c, const char *line, size_t cursor, candidates *out);
+void complete(shell *sh, const char *line, size_t cursor, candidates *out);
 void candidates_free(candidates *c);
 
 #endif

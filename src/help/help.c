@@ -216,7 +216,10 @@ static entry figure_entry(size_t i) {
 static void figure_help(FILE *to, size_t i) {
     const figure *f = figure_row(i);
     char text[HELP_TEXT];
-    grammar_usage(figure_form(i), text);
+    if (f->takes)
+        grammar_usage(figure_form(i), text);
+    else
+        snprintf(text, sizeof text, "plot %s RANGE LOOK [to FILE]", f->name);
     fprintf(to, "%s\n  %s\n  %s\n", text, f->title, f->summary);
     if (f->statement) {
         snprintf(text, sizeof text, "as: plot %s", f->statement);

@@ -366,7 +366,7 @@ static const topic topics[] = {
                 "    fret> cycle FA=20 N\n"
                 "    fret> maximize (maximum sxx(x, 0 m, 0 m) along cycle) over x = 0 m .. 1.5*a\n"
                 "    x = 186.626 um\n"
-                "    (maximum sxx(x, 0 m, 0 m) along cycle) = 827.73 MPa\n"
+                "    (maximum sxx(x, 0 m, 0 m) along cycle) = 827.851 MPa\n"
                 "    fret> Ruiz(x) := (maximum qx(abs(x))*slip(abs(x)) along cycle)\n"
                 "    fret> Ruiz(0.9*a)\n"
                 "    Ruiz(0.9*a) = 14.9162 N/m\n"},

@@ -53,7 +53,7 @@ const hole_row holes[] = {
     {.name = "TERMINAL", .kind = HOLE_CHOICE, .noun = "terminal", .words = terminal_name},
     {.name = "LESSON", .kind = HOLE_WORD, .words = script_name},
     {.name = "TOPIC", .kind = HOLE_WORD, .words = help_name},
-    {.name = "FIGURE", .kind = HOLE_WORD, .words = figure_word},
+    {.name = "FIGURE", .kind = HOLE_WORD, .words = figure_word, .form = figure_form},
     {.name = "RANGE", .kind = HOLE_CLAUSES, .words = range_line},
     {.name = "LOOK", .kind = HOLE_CLAUSES, .words = look_line},
     {.name = NULL},

@@ -35,7 +35,7 @@ static bool run_for_live(void *self, const char *line, char **answer) {
 static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
     shell *sh = self;
     candidates found = {.word = NULL};
-    complete(&sh->calc, line, *cursor, &found);
+    complete(sh, line, *cursor, &found);
     if (found.count > 0) {
         size_t same = strlen(found.word[0]);
         for (size_t i = 1; i < found.count; i++)

@@ -179,7 +179,7 @@ static candidates found;
 static char *word_breaks(void) {
     static char breaks[2];
     candidates_free(&found);
-    complete(&completing->calc, rl_line_buffer, (size_t)rl_point, &found);
+    complete(completing, rl_line_buffer, (size_t)rl_point, &found);
     breaks[0] = '\001';
     if (found.start > 0)
         breaks[0] = rl_line_buffer[found.start - 1];

@@ -66,7 +66,9 @@ static bool parse_argument(parsing *g, size_t n) {
     const quantity *q = quantity_find(g->p, len);
     if (!a)
         return false;
+    static const hole_row argument = {.kind = HOLE_VALUE};
     a->argument = true;
+    a->hole[a->holes++].row = &argument;
     a->live = marked && equals[-1] == ':';
     a->increment = marked && equals[-1] == '+';
     g->open = NULL;

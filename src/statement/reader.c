@@ -18,6 +18,11 @@ static size_t word_at(const lexer *lx) {
     return end - lx->at;
 }
 
+static void step_over(lexer *lx, size_t len) {
+    lx->len = len;
+    lex_next(lx);
+}
+
 static const hole_row *first_hole(const clause *a) {
     return a->holes ? a->hole[0].row : NULL;
 }
@@ -150,8 +155,8 @@ static void way_words(const grammar *f, const clause *of, char *buf, size_t size
         }
 }
 
-/* Twice the same, or another way than one that has been gone. */
-static bool may_come(lexer *lx, const said *s, const clause *a) {
+/* Not twice the same, or another way than one that has been gone. */
+bool said_may_come(const lexer *lx, const said *s, const clause *a) {
     char one[80], other[80];
     for (const heard *h = s->list; h < s->list + s->count; h++) {
         if (h->of == a && !a->again)
@@ -166,9 +171,9 @@ static bool may_come(lexer *lx, const said *s, const clause *a) {
     return true;
 }
 
-static heard *add_heard(lexer *lx, said *s, const clause *a) {
+static heard *add_heard(const lexer *lx, said *s, const clause *a) {
     if (s->count == HEARD) {
-        lex_raise(lx, "more than %d clauses", HEARD);
+        calc_raise(lx->error, lx->at, lx->len, "more than %d clauses", HEARD);
         return NULL;
     }
     heard *h = &s->list[s->count++];
@@ -177,6 +182,7 @@ static heard *add_heard(lexer *lx, said *s, const clause *a) {
     h->len = lx->len;
     h->live = NULL;
     h->increment = false;
+    s->open = NULL;
     return h;
 }
 
@@ -226,6 +232,8 @@ static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d)
     return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
 }
 
+static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i);
+
 static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
     const grammar *f = s->by;
     const clause *a = f->clause, *end = a + f->count;
@@ -234,16 +242,18 @@ static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
         a++;
     if (a == end)
         return unknown_argument(lx, f);
-    if (!may_come(lx, s, a))
+    if (!said_may_come(lx, s, a))
         return false;
     if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
         return not_taken(lx, f, a->name, how);
-    heard *h = argument_dim(sh, lx, s, a, &d) ? add_heard(lx, s, a) : NULL;
+    heard *h = lx->cut || argument_dim(sh, lx, s, a, &d) ? add_heard(lx, s, a) : NULL;
     if (!h)
         return false;
     h->increment = how == T_INCREMENT;
     lex_next(lx);
     lex_next(lx);
+    if (lx->cut)
+        return read_hole(sh, lx, s, h, 0);
     if (a->must == CURVED && lex_is(lx, "inf")) { /* of a plane */
         h->v = (value){INFINITY, d};
         h->hole[0] = (span){lx->at, lx->len};
@@ -279,7 +289,7 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
     const size_t len = choice_at(lx);
     h->hole[0] = (span){lx->at, len};
     if (word_among(row->words, lx->text + lx->at, len, &h->choice)) {
-        lex_seek(lx, lx->at + len);
+        step_over(lx, len);
         return true;
     }
     snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + lx->at);
@@ -313,10 +323,13 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
 static bool changes_scene(const lexer *lx) {
     lexer next = *lx;
     next.error = error_quiet();
+    if (!lex_is(lx, "at"))
+        return false;
     lex_next(&next);
-    return lex_is(lx, "at") && next.kind == T_NAME && lex_peek(&next) == T_ASSIGN;
+    return next.kind == T_NAME && lex_peek(&next) == T_ASSIGN;
 }
 
+/* The clause of the word at the cursor, or NULL. */
 static const clause *clause_named(const lexer *lx, const grammar *f) {
     if (changes_scene(lx))
         return NULL;
@@ -324,23 +337,6 @@ static const clause *clause_named(const lexer *lx, const grammar *f) {
         if (!a->argument && *a->name && (lex_is(lx, a->name) || (lx->kind == T_ASSIGN && *a->name == '=')))
             return a;
     return NULL;
-}
-
-/* Does a word follow that begins no clause, and so is a choice? */
-static bool choice_follows(const lexer *lx, const grammar *f) {
-    lexer next = *lx;
-    next.error = error_quiet();
-    lex_next(&next);
-    return next.kind == T_NAME && !clause_named(&next, f);
-}
-
-/* The clause of the word at the cursor, or NULL. Of two of that name one has a choice: `log`, `log x`. */
-static const clause *clause_at(const lexer *lx, const grammar *f) {
-    const clause *found = clause_named(lx, f);
-    for (const clause *a = found ? found + 1 : f->clause + f->count; a < f->clause + f->count; a++)
-        if (!strcmp(a->name, found->name))
-            return choice_follows(lx, f) ? a : found;
-    return found;
 }
 
 /* ---- parts that are found ---------------------------------------------------------------------- */
@@ -371,43 +367,64 @@ static bool is_unit(const lexer *lx, const grammar *f) {
            !clause_near(lx, f);
 }
 
+/* Does an argument of the row begin at the cursor? */
+static bool begins_argument(const lexer *lx, const grammar *f) {
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (a->argument && lex_is(lx, a->name))
+            return at_argument(lx);
+    return false;
+}
+
 /* Skips what stands in the i-th hole of the clause. Only behind an operand can a word of the row begin a
  * clause, which ends the part, as does a name that cannot stand there; a comma may end it too, and an `=`
  * that does not belong to `at`. */
-static void skip_part(lexer *lx, const grammar *f, const clause *a, unsigned i) {
+static void skip_part(lexer *lx, said *s, const clause *a, unsigned i) {
     calc_error *const error = lx->error, *const strange = error_quiet();
+    const grammar *f = s->by;
     const hole_kind kind = a->hole[i].row->kind;
     const bool comma_ends = a->list && *a->name,
                equals_ends = i + 1 < a->holes && a->hole[i + 1].before == '=';
     const bool titled = !*a->name && grammar_first(f, HOLE_WORD); /* it may begin with `map`, or a figure */
     const size_t head = titled ? lx->at + lx->len : 0;
     int depth = 0;
-    bool operand = false, number = false;        /* it ends before the token, and is that */
-    bool whole = false;                          /* or what a unit may follow, too: (1/3) N, pi N */
-    bool word = false;                           /* that of a clause stands for it */
-    bool changing = false;                       /* there has been an `at` */
-    enum { NOTHING, PLACE, NAMED } at = NOTHING; /* where `at` wants a name, and behind that name */
+    bool whole = false;    /* a unit may follow, as a number: (1/3) N, pi N */
+    bool word = false;     /* that of a clause stands for an operand */
+    bool changing = false; /* there has been an `at` */
+    bool named = false;    /* behind the name of `at` */
+    s->end = PART_VALUE;
+    s->changed.len = 0;
     for (lx->error = strange; lx->kind != T_END || strange->raised; lex_next(lx)) {
-        const bool name = lx->kind == T_NAME, joins = operand && (lex_is(lx, "at") || lex_is(lx, "in") ||
-                                                                  (kind == HOLE_SPAN && lex_is(lx, "to")));
-        const clause *next = name ? clause_at(lx, f) : NULL;
+        const bool name = lx->kind == T_NAME, operand = s->end >= PART_NUMBER;
+        const bool in = operand && lex_is(lx, "in"), at = operand && lex_is(lx, "at"),
+                   joins = in || at || (operand && kind == HOLE_SPAN && lex_is(lx, "to"));
+        const clause *next = name ? clause_named(lx, f) : NULL;
         const bool figure = lx->last == head && !(clause_near(lx, f) && lex_peek(lx) != T_END);
         const bool ends = name && operand &&
-                          (next || !(joins || word || figure || kind == HOLE_LOAD ||
-                                     (number && is_unit(lx, f)) || (whole && unit_at(lx))));
+                          (next ||
+                           !(joins || word || figure || kind == HOLE_LOAD ||
+                             (s->end == PART_NUMBER && is_unit(lx, f)) || (whole && unit_at(lx))) ||
+                           (lx->cut && begins_argument(lx, f)));
         if (depth == 0 && (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
-                           (equals_ends && at != NAMED && is_equals(lx)) || ends))
+                           (equals_ends && !named && is_equals(lx)) || ends))
             break;
         error_clear(strange); /* whoever parses the part reports what is no token */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
-        changing = changing || (joins && lex_is(lx, "at"));
-        const bool place = (joins && lex_is(lx, "at")) || (changing && lx->kind == T_COMMA);
-        at = name && at == PLACE ? NAMED : place ? PLACE : NOTHING;
+        changing = changing || at;
+        named = name && s->end == PART_NAME;
         word = next && !operand;
-        number = lx->kind == T_NUMBER;
         whole = lx->kind == T_CLOSE || lex_is(lx, "pi");
-        operand = !joins &&
-                  (name || number || lx->kind == T_CLOSE || lx->kind == T_PERCENT || lx->kind == T_STRING);
+        if (name)
+            s->changed = (span){lx->at, 0};
+        else if (lx->kind == T_ASSIGN)
+            s->changed.len = lx->last - s->changed.at;
+        if (at || (changing && lx->kind == T_COMMA))
+            s->end = PART_NAME;
+        else if (joins)
+            s->end = in ? PART_UNIT : PART_VALUE;
+        else if (lx->kind == T_NUMBER)
+            s->end = PART_NUMBER;
+        else /* an operand */
+            s->end = name || whole || lx->kind == T_PERCENT || lx->kind == T_STRING ? PART_WHOLE : PART_VALUE;
     }
     lx->error = error;
     if (strange->raised) /* it ends at what is no token */
@@ -415,11 +432,11 @@ static void skip_part(lexer *lx, const grammar *f, const clause *a, unsigned i) 
 }
 
 /* One name; of those that stand first several. */
-static bool skip_names(lexer *lx, const said *s, const clause *a) {
+static bool skip_names(lexer *lx, said *s, const clause *a) {
     if (lx->kind != T_NAME)
         return *a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name");
     if (a->list && !*a->name) {
-        skip_part(lx, s->by, a, 0);
+        skip_part(lx, s, a, 0);
         return true;
     }
     lex_next(lx);
@@ -431,19 +448,19 @@ static bool skip_column(lexer *lx, const said *s, span *part) {
     unit unused;
     error_clear(lx->error);
     part->len = lx->kind == T_STRING || lx->kind == T_NUMBER ? lx->len : choice_at(lx);
-    lex_seek(lx, part->at + part->len);
-    if (!unit_at(lx) && (lx->kind != T_NAME || clause_at(lx, s->by)))
+    step_over(lx, part->len);
+    if (!unit_at(lx) && (lx->kind != T_NAME || clause_named(lx, s->by)))
         return part->len > 0 || lex_fail(lx, "expected a column: its name, or its number");
     const bool ok = unit_parse(lx, &unused);
     part->len = lx->last - part->at;
     return ok;
 }
 
-static bool skip_load(lexer *lx, const said *s, const clause *a) {
+static bool skip_load(lexer *lx, said *s, const clause *a) {
     size_t load;
     if (!word_among(a->hole[0].row->words, lx->text + lx->at, lx->len, &load))
         return lex_fail(lx, "along what? program, cycle, step ... or cycle ...");
-    skip_part(lx, s->by, a, 0);
+    skip_part(lx, s, a, 0);
     return true;
 }
 
@@ -492,9 +509,15 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
     const clause *a = h->of;
     const hole *of = &a->hole[i];
     const hole_row *row = of->row;
+    const bool evaluated = row->kind == HOLE_VALUE || row->kind == HOLE_SECONDS || row->kind == HOLE_COUNT;
     bool ok = true;
-    h->hole[i].at = lx->at;
-    switch (row->kind) {
+    h->hole[i] = (span){lx->at, 0};
+    s->open = h;
+    s->hole = i;
+    s->end = said_cut(lx) ? PART_EMPTY : PART_WHOLE;
+    if (s->end == PART_EMPTY)
+        return false;
+    switch (evaluated && lx->cut ? HOLE_EXPR : row->kind) {
     case HOLE_VALUE:
         return skip_name(lx, s->by, row) && read_value(sh, lx, row->noun, h->of->d, h);
     case HOLE_SECONDS:
@@ -526,12 +549,12 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
     case HOLE_WORD: /* which need not be made of tokens */
         error_clear(lx->error);
         h->hole[i].len = word_at(lx);
-        lex_seek(lx, lx->at + h->hole[i].len);
+        step_over(lx, h->hole[i].len);
         return true;
     default:
-        if (row->kind == HOLE_MAYBE && lx->kind == T_NAME && clause_at(lx, s->by))
+        if (row->kind == HOLE_MAYBE && lx->kind == T_NAME && clause_named(lx, s->by))
             break;
-        skip_part(lx, s->by, a, i);
+        skip_part(lx, s, a, i);
         ok = row->kind != HOLE_SPAN || !lacks_end(lx, a, &h->hole[i]);
         break;
     }
@@ -572,12 +595,23 @@ static bool read_holes(shell *sh, lexer *lx, said *s, heard *h) {
 
 /* ---- the statement ----------------------------------------------------------------------------- */
 
+/* Of two clauses of one name the second, whose word the cursor is behind, is meant where its choice follows:
+ * `log`, `log x`. */
+static const clause *with_choice(const lexer *lx, const grammar *f, const clause *a) {
+    for (const clause *b = a + 1; b < f->clause + f->count; b++)
+        if (!strcmp(a->name, b->name) && (said_cut(lx) || (lx->kind == T_NAME && !clause_named(lx, f))))
+            return b;
+    return a;
+}
+
 static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
-    heard *h = may_come(lx, s, a) ? add_heard(lx, s, a) : NULL;
+    const lexer word = *lx;
+    lex_next(lx);
+    a = with_choice(lx, s->by, a);
+    heard *h = said_may_come(&word, s, a) ? add_heard(&word, s, a) : NULL;
     const hole_row *row = first_hole(a);
     if (!h)
         return false;
-    lex_next(lx);
     if (row && row->kind == HOLE_FILE) /* a name need not be made of tokens */
         error_clear(lx->error);
     if (lx->error->raised || !read_holes(sh, lx, s, h))
@@ -596,8 +630,13 @@ static bool read_head(lexer *lx, said *s) {
     const clause *a = s->by->clause;
     const hole_row *row = s->by->count && !*a->name ? first_hole(a) : NULL;
     heard h = {.of = a};
-    if (!row || !row->form || (a->optional && lx->kind == T_END && !lx->error->raised))
+    if (!row || !row->form || said_cut(lx) || (a->optional && lx->kind == T_END && !lx->error->raised))
         return true;
+    if (row->kind == HOLE_WORD) { /* which may begin an expression, too */
+        size_t i;
+        if (lx->kind != T_NAME || !word_among(row->words, lx->text + lx->at, lx->len, &i) || !row->form(i))
+            return true;
+    }
     if (!read_choice(lx, row, &h))
         return false;
     s->row = h.choice;
@@ -617,7 +656,7 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
     while (a + 1 < end && !*a[1].name) /* any expression may stand where a word may */
         a++;
     const hole_row *row = a < end && !*a->name ? first_hole(a) : NULL;
-    if (!row || begins_clause(lx, clause_at(lx, s->by), row->kind) ||
+    if (!row || said_cut(lx) || begins_clause(lx, clause_named(lx, s->by), row->kind) ||
         (a->optional && lx->kind == T_END && !lx->error->raised))
         return true;
     if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || at_argument(lx)))
@@ -640,6 +679,7 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
     out->by = f;
     out->wakes = false;
     out->count = 0;
+    out->open = NULL;
     if (!read_head(lx, out) || !read_first(sh, lx, out))
         return false;
     f = out->by;
@@ -649,13 +689,17 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
         if ((how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) && !lacks_name(lx, f)) {
             if (!read_argument(sh, lx, out, how))
                 return false;
-        } else if (!(a = clause_at(lx, f))) {
+        } else if (!(a = clause_named(lx, f))) {
             break;
         } else if (!read_clause(sh, lx, out, a)) {
             return false;
         }
     }
-    return !lx->error->raised && said_wake(sh, lx, out);
+    return !lx->error->raised && (lx->cut || said_wake(sh, lx, out));
+}
+
+bool said_cut(const lexer *lx) {
+    return lx->cut && lx->kind == T_END && (lx->at == lx->end || strchr(" \t\r\n", lx->text[lx->at]));
 }
 
 static bool misspelt(lexer *lx, const said *s) {

@@ -26,6 +26,16 @@ typedef struct heard {
     size_t choice;
 } heard;
 
+/* How what stands in a hole ends: what follows. */
+typedef enum part_end {
+    PART_EMPTY,  /* all of it */
+    PART_VALUE,  /* a value, as behind + */
+    PART_NAME,   /* a name, behind `at` */
+    PART_UNIT,   /* a unit, behind `in` */
+    PART_NUMBER, /* nothing, or the unit of a number */
+    PART_WHOLE   /* nothing */
+} part_end;
+
 enum { HEARD = 40, FILE_NAME = 4096 };
 typedef struct said {
     const grammar *by; /* of the row, or of the word that stands first, where that has its own */
@@ -34,12 +44,20 @@ typedef struct said {
     size_t names; /* of the session, before */
     unsigned count;
     heard list[HEARD]; /* in their order */
+    const heard *open; /* the last of them, where it has a hole: that hole, and how it ends */
+    unsigned hole;
+    part_end end;
+    span changed; /* the NAME of `NAME =` whose value it ends with; len 0: none */
 } said;
 
 /* All to the end of the statement, the cursor behind the command word. */
 bool said_read(shell *sh, lexer *lx, const grammar *f, said *out);
-/* The same as far as the row goes, and the end behind it: no comma, no word misspelt. */
+/* The same as far as the row goes, and the end behind it: no comma, no word misspelt. Of a statement that is
+ * cut nothing is evaluated, and `out` tells where it ends if said_cut(lx), whatever comes back. */
 bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out);
+bool said_cut(const lexer *lx);
+/* May the clause come, or come again, behind those that have been said? Else an error says why not. */
+bool said_may_come(const lexer *lx, const said *s, const clause *a);
 bool said_end(lexer *lx, const said *s);
 /* What is live goes, unless it has been taken over, and what became known. */
 void said_drop(shell *sh, said *s);

@@ -37,6 +37,7 @@ typedef struct lexer {
     bool list;   /* the value that is read may be one of several, parted by commas */
     bool header; /* the text is a unit of a header, where `in` is the inch */
     bool part;   /* of a statement that goes on: what is missing at its end has a place */
+    bool cut;    /* the text ends where someone is typing: it is read as far as it goes */
     calc_error *error;
 } lexer;
 

@@ -49,10 +49,10 @@ OFFERED = (
     ("dW(3 N) in ", "uJ nJ J", "mm"), ("breadth in ", "um mm", "J"), ("(breadth) in ", "um mm", "J"), ("2*a in ", "um mm", "N"),
     ("dW, breadth in ", "um mm", "J"), ("dW(3 N)*2 in ", "uJ mJ", "um"),
     ("plot Fx against ", "dx W breadth", "table"), 
-    ("plot loop log x ", "points title", "log"), ('plot loop title "a b" ', "points to", "title"), ("press FN=20k", "kN kgf", "um"), ("press FN=20", "N kN kgf", "um"), ("press FN=20", "lbf", "steps"),
+    ("plot loop log x ", "points title log", "FA="), ('plot loop title "a b" ', "points to", "mu"), ("press FN=20k", "kN kgf", "um"), ("press FN=20", "N kN kgf", "um"), ("press FN=20", "lbf", "steps"),
     ("?", "press plot theory", "fricti"), ("undo ", "", "to"), 
     ("friction 0.4 ", "", "mm"), ("nix in ", "um N", None), ("F_A*breadth in ", "um N", None), ("a, 2*breadth, 2*breadth in ", "um mm", "J"),
-    ("1 + 1; ", "press plot breadth", None), ("undo 3 ", "um N", None), ("table 3 ", "um N", None), ("press FN=100 N; ", "step cycle", None), ("2 \u00b5", "", "um"), ("x over ", "", "gap1.csv"), ("reset all ", "", "press"),
+    ("1 + 1; ", "press plot breadth", None), ("table 3 ", "um N", None), ("press FN=100 N; ", "step cycle", None), ("2 \u00b5", "", "um"), ("x over ", "", "gap1.csv"), ("reset all ", "", "press"),
     ("?set fo", "format", "fricti"), ("a + breadth in ", "um mm", "N"), ("maximize 2*dW in ", "uJ", "um"), ("table a, breadth in ", "um mm", "J"), ("table breadth in ", "um mm", "J"),
     ("plot a for FN = 1 N .. 2 N log x ", "points title", None),
     ("uncertainty breadth ", "with in at samples seed", "along"), ("uncertainty breadth in ", "um mm", "J"),
@@ -60,15 +60,19 @@ OFFERED = (
     ("solve mu for ", "dW a breadth", "FN="), ("solve mu for breadth = 3 mm ", "from", "with"),
     ("solve mu for breadth = 3 mm from ", "a breadth", "to"), ("maximize dWd(", "a breadth", "over"),
     ("maximize breadth ", "over in at", "for"), ("maximize breadth over ", "FN= wobble=", "gap1.csv"),
+    ("plot accuracy ", "FA= dxA= within", "against"), ("table a for k = 0 .. 1 ", "for along with", "press"), ("record ", "gap1.csv", "off"),
+    ("solve FN for a = 2 ", "um from", "N"), ("step Fx=3 ", "N steps dz=", "um"), ("cycle FA=2 N times 3 ", "steps FNA=", "um"),
+    ("help set ", "format press", None), ("set plot terminal ", "dumb block", "slide"), ("plot a log ", "x xy", "z"),
+    ("export jenkins 3 ", "to FA=", "um"), ("k = 0.5, c0 = 1 ", "mm um", "N"), ("table dW along cycle FA=2 ", "N times log", "um"),
     ("fit mu ", "for along to", "steps"), ("fit mu for ", "a breadth", "FN="),
     ("fit mu along gap", "gap1.csv gap2.csv", None), ("fit mu for breadth = 2*a to gap", "gap1.csv gap2.csv", None),
 )
 # typed, and nothing goes on there
-ENDED = ("friction 0.4", "friction 0.4 ", "nu = 0.3", "nu = 0.3 ", "set digits 3", "geometry file gap1.csv smooth ", "undo ", "reset all ", "x over ", "friction 0.4 zebr", "2 \u00b5", "# FN", "set digits 3 f")
+ENDED = ("undo 3 ", "friction 0.4", "friction 0.4 ", "nu = 0.3", "nu = 0.3 ", "set digits 3", "geometry file gap1.csv smooth ", "undo ", "reset all ", "x over ", "friction 0.4 zebr", "2 \u00b5", "# FN", "set digits 3 f")
 # typed, and the one way that it goes on
 DONE = (
     ("explain a a", "t "), ("explain a at k=0 c", "onditioning "), ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("1 + " * 140 + "breadt", "h "), ("geometry file gap1.csv s", "mooth "), ("second ri", "gid "),
-    ("step dx=1 u", "m "), ("geometry flat-r", "ounded "), ("record o", "ff "), ("x = 3*kap", "pa "), ("?apr", "opos "),
+    ("step dx=1 u", "m "), ("table a for FN ", "="), ("uncertainty a with mu ", "+- "), ("geometry flat-r", "ounded "), ("record o", "ff "), ("x = 3*kap", "pa "), ("?apr", "opos "),
     ("reset ", "all "), ("geometry file gap1.csv h", "eight "), ("loop gap1.csv us", "ing "),
     ("geometry file gap1.csv smo", "oth "), ("1; fric", "tion "), ("dW at m", "u="), ("wobbl", "e"), ("1;  fric", "tion "),
     ("?the", "ory "), ("wobbly(2) in ", "% "),
