@@ -105,11 +105,7 @@ static bool assign(shell *sh, lexer *lx) {
 
 /* An unknown word that help knows, alone or before another: the error names the page. */
 static bool told_of(lexer *lx, const char *word, token_kind after) {
-    lexer next = *lx;
-    next.error = error_quiet();
-    lex_next(&next);
-    if ((after != T_NAME && after != T_NUMBER && after != T_END) || lex_is(&next, "in") ||
-        lex_is(&next, "at"))
+    if (after != T_NAME && after != T_NUMBER && after != T_END)
         return false;
     const char *where = suggest(word, quantity_name) ? NULL : help_where(word);
     return where && !lex_fail(lx, "unknown name '%s'; try: %s %s", word, where, word);
