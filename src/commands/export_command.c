@@ -313,7 +313,12 @@ static bool export_jenkins(shell *sh, lexer *lx, said *all) {
 
 /* ---- the command ------------------------------------------------------------------------------- */
 
-static const export_model exported[] = {
+static const struct {
+    const char *name;
+    const char *takes; /* behind the name, see grammar.h */
+    const char *summary;
+    bool (*write)(shell *sh, lexer *lx, said *all);
+} exported[] = {
     {"jenkins", "N:1000 to FILE.csv|json|h [FA=20 N]", "parallel springs in line with sliders",
      export_jenkins},
     {"harmonic", "to FILE.csv|json for NAME = LO .. HI [steps N:1000000] [log]",
@@ -323,17 +328,15 @@ static const export_model exported[] = {
 };
 enum { EXPORTED = sizeof exported / sizeof *exported };
 
-const export_model *export_row(size_t i) {
-    return i < EXPORTED ? &exported[i] : NULL;
-}
-
 const char *export_name(size_t i) {
     return i < EXPORTED ? exported[i].name : NULL;
 }
 
 const grammar *export_form(size_t i) {
     static grammar lines[EXPORTED];
-    return grammar_made(&lines[i], "export", exported[i].name, exported[i].takes);
+    return i < EXPORTED
+               ? grammar_made(&lines[i], "export", exported[i].name, exported[i].takes, exported[i].summary)
+               : NULL;
 }
 
 bool do_export(shell *sh, lexer *lx, const command *self) {

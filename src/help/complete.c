@@ -249,7 +249,7 @@ static void add_next(place *p, const lexer *lx, const said *s) {
 static void complete_at(place *p, size_t begin, size_t start) {
     static grammar values; /* printed, or given to names */
     calc_error error;
-    said s = {.by = grammar_made(&values, "", NULL, "EXPR, ...")};
+    said s = {.by = grammar_made(&values, "", NULL, "EXPR, ...", NULL)};
     lexer lx;
     error_clear(&error);
     lex_start(&lx, p->line + begin, start - begin, &error);

@@ -48,7 +48,8 @@ static const char *set_in(const char *plain, char *buf, size_t size) {
     return buf;
 }
 
-void explain_formula(const page *p, const quantity *q, bool call) {
+/* With the title. */
+static void explain_formula(const page *p, const quantity *q, bool call) {
     const formula *f = quantity_formula(q, p->sh->calc.now, call);
     char set[512], line[600];
     explain_title(p, q);

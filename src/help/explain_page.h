@@ -36,8 +36,6 @@ bool explain_had(const page *p, bool ok, const calc_error *why);
  * NULL. */
 void explain_value(const page *p, const char *name, size_t len, value v, const char *row);
 void explain_title(const page *p, const quantity *q);
-/* With the title. */
-void explain_formula(const page *p, const quantity *q, bool call);
 /* What the value is good to, as a part of what. */
 void explain_error(const page *p, double good, const char *of);
 /* name: what is moved. */

@@ -119,7 +119,7 @@ static entry command_entry(size_t i) {
 }
 
 /* What a row takes, with the clauses that it has in common with others, and what it is. */
-static void usage_help(FILE *to, const grammar *f, const char *summary) {
+static void usage_help(FILE *to, const grammar *f) {
     const hole_row *row;
     char usage[GRAMMAR_USAGE], text[GRAMMAR_USAGE + 16];
     grammar_usage(f, usage);
@@ -133,13 +133,25 @@ static void usage_help(FILE *to, const grammar *f, const char *summary) {
         help_wrapped(to, text, 6, 8);
     }
     fputs("  ", to);
-    help_wrapped(to, summary, 2, 2);
+    help_wrapped(to, f->summary, 2, 2);
+}
+
+/* What may follow the words that choose a row of their own. */
+static void choices_help(FILE *to, const grammar *f) {
+    const hole_row *row = grammar_first(f, HOLE_CHOICE);
+    char usage[GRAMMAR_USAGE];
+    for (size_t i = 0; row && row->form && (f = row->form(i)); i++) {
+        grammar_usage(f, usage);
+        fprintf(to, "%s    %s\n        ", i ? "" : "\n", usage);
+        help_wrapped(to, f->summary, 8, 8);
+    }
 }
 
 /* Ends with the example: the command's own text, else what its table prints. */
 static void command_help(FILE *to, size_t i) {
     const command *c = command_row(i);
-    usage_help(to, command_form(c), c->summary);
+    usage_help(to, command_form(c));
+    choices_help(to, command_form(c));
     if (c->print) {
         putc('\n', to);
         c->print(to);
@@ -154,7 +166,7 @@ static entry setting_entry(size_t i) {
 }
 
 static void setting_help(FILE *to, size_t i) {
-    usage_help(to, setting_form(i), setting_row(i)->summary);
+    usage_help(to, setting_form(i));
     fprintf(to, "\n%s", setting_row(i)->example);
 }
 
@@ -188,7 +200,7 @@ static entry geometry_entry(size_t i) {
 
 static void geometry_help(FILE *to, size_t i) {
     const geometry *g = geometry_row(i);
-    usage_help(to, geometry_form(i), g->meaning);
+    usage_help(to, geometry_form(i));
     for (input in = IN_N; in < INPUTS; in++)
         if (g->allowed & INPUT_BIT(in))
             fprintf(to, "    %-10s  %s\n", quantity_of_input(in)->name, quantity_of_input(in)->title);
@@ -309,13 +321,7 @@ const char *help_name(size_t i) {
 }
 
 void help_settings(FILE *to) {
-    const setting *row;
-    char usage[GRAMMAR_USAGE];
-    for (size_t i = 0; (row = setting_row(i)); i++) {
-        grammar_usage(setting_form(i), usage);
-        fprintf(to, "    %s\n        ", usage);
-        help_wrapped(to, row->summary, 8, 8);
-    }
+    choices_help(to, command_form(command_find("set", strlen("set"))));
 }
 
 /* ---- help -------------------------------------------------------------------------------------- */

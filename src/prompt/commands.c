@@ -67,23 +67,6 @@ static void presets_list(FILE *to) {
         fprintf(to, "    %-17s E0=%.10g GPa nu=%.10g\n", p->name, p->E0 / 1e9, p->nu);
 }
 
-static void geometry_list(FILE *to) {
-    char usage[GRAMMAR_USAGE];
-    for (size_t i = 0; geometry_row(i); i++) {
-        grammar_usage(geometry_form(i), usage);
-        fprintf(to, "    %s\n        %s\n", usage, geometry_row(i)->meaning);
-    }
-    fputs("\n    fret> geometry cone angle=45 deg\n    fret> slope\n    slope = 1\n", to);
-}
-
-static void models_list(FILE *to) {
-    char usage[GRAMMAR_USAGE];
-    for (size_t i = 0; export_row(i); i++) {
-        grammar_usage(export_form(i), usage);
-        fprintf(to, "    %s\n        %s\n", usage, export_row(i)->summary);
-    }
-}
-
 static void figures_list(FILE *to) {
     const figure *f;
     for (size_t i = 0; (f = figure_row(i)); i++)
@@ -140,9 +123,11 @@ const command commands[] = {
      .group = "the bodies",
      .keywords = "gap shape indenter sphere cone",
      .changes = true,
-     .print = geometry_list,
      .takes = "SHAPE ...",
-     .summary = "the gap between the bodies"},
+     .summary = "the gap between the bodies",
+     .help = "    fret> geometry cone angle=45 deg\n"
+             "    fret> slope\n"
+             "    slope = 1\n"},
     {.name = "friction",
      .run = do_friction,
      .group = "the bodies",
@@ -525,7 +510,6 @@ const command commands[] = {
      .group = "backwards",
      .keywords =
          "jenkins masing iwan elements dynamics damper model springs harmonic balance stiffness branches",
-     .print = models_list,
      .takes = "MODEL ...",
      .summary = "the contact for a dynamics code: Jenkins elements, its first harmonic, or its loop",
      .help = "Jenkins elements are chosen to minimise the worst error of the energy per cycle\n"
@@ -612,7 +596,6 @@ const command commands[] = {
      .run = do_set,
      .group = "the session",
      .keywords = "options",
-     .print = help_settings,
      .takes = "[SETTING ...]",
      .summary = "settings",
      .help = "One setting a statement. `set timing on` shows the time of each statement and\n"

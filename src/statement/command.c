@@ -39,13 +39,15 @@ const hole_row *hole_at(size_t i) {
 
 enum { COMMANDS = 48, SHAPES = 16 };
 
-const grammar *grammar_made(grammar *f, const char *name, const char *shape, const char *takes) {
+const grammar *grammar_made(grammar *f, const char *name, const char *shape, const char *takes,
+                            const char *summary) {
     const char *at;
     if (f->takes)
         return f;
     f->command = name;
     f->shape = shape;
     f->takes = takes;
+    f->summary = summary;
     const bool ok = grammar_parse(f, all_holes, &at);
     assert(ok); /* unreached: a test parses every row */
     (void)ok;
@@ -54,12 +56,13 @@ const grammar *grammar_made(grammar *f, const char *name, const char *shape, con
 
 const grammar *command_form(const command *c) {
     static grammar forms[COMMANDS];
-    return grammar_made(&forms[c - all], c->name, NULL, c->takes);
+    return grammar_made(&forms[c - all], c->name, NULL, c->takes, c->summary);
 }
 
 const grammar *geometry_form(size_t i) {
     static grammar forms[SHAPES];
-    return grammar_made(&forms[i], "geometry", geometry_row(i)->name, geometry_row(i)->takes);
+    const geometry *g = geometry_row(i);
+    return g ? grammar_made(&forms[i], "geometry", g->name, g->takes, g->meaning) : NULL;
 }
 
 bool argument_word(const lexer *lx) {

@@ -68,7 +68,7 @@ typedef struct clause {
 enum { CLAUSES = 32 };
 typedef struct grammar {
     const char *command, *shape; /* "geometry", "sphere"; shape may be NULL */
-    const char *takes;
+    const char *takes, *summary;
     unsigned count;
     clause clause[CLAUSES];
 } grammar;

@@ -202,7 +202,7 @@ const char *setting_name(size_t i) {
 
 const grammar *setting_form(size_t i) {
     static grammar forms[SETTINGS];
-    return grammar_made(&forms[i], "set", rows[i].name, rows[i].takes);
+    return i < SETTINGS ? grammar_made(&forms[i], "set", rows[i].name, rows[i].takes, rows[i].summary) : NULL;
 }
 
 static int *held(settings *set, const setting *row) {

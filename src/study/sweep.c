@@ -103,7 +103,8 @@ static bool take_row(state *st, size_t row, long double x, const value v[], cons
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
-long double sweep_value(const sweep *s, const sweep_range *r, long double part) {
+/* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */
+static long double value_at(const sweep *s, const sweep_range *r, long double part) {
     return r->listed ? r->list[lroundl(part * (long double)(r->listed - 1))]
                      : points_place(r->lo, r->hi, s->log, part);
 }
@@ -114,8 +115,8 @@ static long double row_of(const sweep_rows *at, size_t row) {
 }
 
 static long double place(const state *st, size_t row) {
-    return sweep_value(st->s, &st->range,
-                       st->part ? st->part[row] : (long double)(st->first + row) / (long double)st->s->steps);
+    return value_at(st->s, &st->range,
+                    st->part ? st->part[row] : (long double)(st->first + row) / (long double)st->s->steps);
 }
 
 static void give_swept(void *context, size_t row, long double x[]) {
@@ -153,7 +154,7 @@ static bool evaluate_rows(void *context, const long double *part, size_t rows, l
 
 static bool give_part(void *context, long double part, const long double *values) {
     state *st = context;
-    return st->job->row(st->job->context, st->s, st->curve, sweep_value(st->s, &st->range, part), values);
+    return st->job->row(st->job->context, st->s, st->curve, value_at(st->s, &st->range, part), values);
 }
 
 /* The unit of the range may differ from curve to curve. A name must have a value of it here too, where rows
@@ -260,7 +261,7 @@ static bool run_curve(state *st) {
     return ok;
 }
 
-bool sweep_part(const sweep *s, sweep_job *job) {
+static bool run_curves(const sweep *s, sweep_job *job) {
     const size_t curves = s->curves ? s->curves : 1;
     state st = {.s = s, .job = job, .row = malloc(job->count * sizeof *st.row)};
     bool ok = st.row || calc_no_memory(job->error);
@@ -270,7 +271,7 @@ bool sweep_part(const sweep *s, sweep_job *job) {
     return ok;
 }
 
-bool sweep_begin(const sweep *s, sweep_job *job, size_t rows) {
+static bool open_sweep(const sweep *s, sweep_job *job, size_t rows) {
     size_t count = 0;
     error_clear(&job->missing);
     job->values = job->before = 0;
@@ -287,7 +288,7 @@ bool sweep_begin(const sweep *s, sweep_job *job, size_t rows) {
     return ok;
 }
 
-bool sweep_end(sweep_job *job, bool ok) {
+static bool close_sweep(sweep_job *job, bool ok) {
     points_close(&job->p);
     if (!ok || job->values > 0 || job->from > 0 || job->to < job->before)
         return ok;
@@ -296,8 +297,8 @@ bool sweep_end(sweep_job *job, bool ok) {
 }
 
 bool sweep_run(const sweep *s, sweep_job *job) {
-    const bool ok = sweep_begin(s, job, sweep_length(s)) && sweep_part(s, job);
-    return sweep_end(job, ok);
+    const bool ok = open_sweep(s, job, sweep_length(s)) && run_curves(s, job);
+    return close_sweep(job, ok);
 }
 
 /* ---- over two names ---------------------------------------------------------------------------- */
@@ -310,12 +311,12 @@ bool grid_run(const grid *g, sweep_job *job) {
     s.with = g->b.var;
     s.with.d = ends.d;
     s.curves = 1;
-    bool ok = sweep_begin(&s, job, (g->a.steps + 1) * (g->b.steps + 1));
+    bool ok = open_sweep(&s, job, (g->a.steps + 1) * (g->b.steps + 1));
     for (size_t j = 0; j <= g->b.steps && ok; j++) {
-        s.value[0] = sweep_value(&g->b, &ends, (long double)j / (long double)g->b.steps);
-        ok = sweep_part(&s, job);
+        s.value[0] = value_at(&g->b, &ends, (long double)j / (long double)g->b.steps);
+        ok = run_curves(&s, job);
     }
-    return sweep_end(job, ok);
+    return close_sweep(job, ok);
 }
 
 static bool keep(void *context, const sweep *s, size_t curve, long double x, const long double *values) {

@@ -75,13 +75,6 @@ size_t sweep_length(const sweep *s);
  * without any value, of which all rows are wanted. */
 bool sweep_run(const sweep *s, sweep_job *job);
 
-/* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */
-long double sweep_value(const sweep *s, const sweep_range *r, long double part);
-/* The same for several sweeps over the same names, of so many rows in all: their parts between begin and end.
- */
-bool sweep_begin(const sweep *s, sweep_job *job, size_t rows);
-bool sweep_part(const sweep *s, sweep_job *job);
-bool sweep_end(sweep_job *job, bool ok);
 /* Appends the load of a range to the program of a trial; `from` gets where it begins. */
 bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error);
 
