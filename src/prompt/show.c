@@ -354,7 +354,7 @@ bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
     writer w = {c, to, false};
     settle(c);
     if (whole && !c->scene.automatic)
-        setting_show(SETTING_MODEL, c, set, to);
+        setting_show(setting_find("model"), c, set, to);
     write_material(&w);
     write_second(&w);
     write_geometry(&w);

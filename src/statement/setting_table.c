@@ -121,81 +121,89 @@ const settings settings_initial = {.digits = 6};
 /* ---- the table --------------------------------------------------------------------------------- */
 
 static const setting rows[] = {
-    [SETTING_FORMAT] = {.name = "format",
-                        .takes = "text | csv | json",
-                        .summary = "how answers and tables are written; JSON: an object a line",
-                        .example = "    fret> set format csv\n"
-                                   "    fret> pi, 1 mm\n"
-                                   "    pi,1 mm [m]\n"
-                                   "    3.1415926535897931,0.001\n"
-                                   "    fret> set format json\n"
-                                   "    fret> 1 mm\n"
-                                   "    {\"name\":\"1 mm\",\"value\":0.001,\"unit\":\"m\"}\n",
-                        .at = offsetof(settings, format)},
-    [SETTING_DIGITS] = {.name = "digits",
-                        .takes = "N:17",
-                        .summary = "significant digits of numbers as text, 1 to 17",
-                        .example = "    fret> set digits 12\n"
-                                   "    fret> pi\n"
-                                   "    pi = 3.14159265359\n",
-                        .at = offsetof(settings, digits)},
-    [SETTING_REPORT] = {.name = "report",
-                        .takes = "auto | off | on",
-                        .summary = "what press, step and cycle tell of themselves; auto: at the prompt",
-                        .example = "    fret> set report on\n"
-                                   "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
-                                   "      FN = 100 N, a = 186.626 um, dz = 3.48291 um\n",
-                        .at = offsetof(settings, report)},
-    [SETTING_TIMING] = {.name = "timing",
-                        .takes = "off | on",
-                        .summary = "the time of each statement, and the models that answered",
-                        .example = "    fret> set timing on\n"
-                                   "    fret> pi\n"
-                                   "    pi = 3.14159\n"
-                                   "    time: 0.000241 ms\n",
-                        .at = offsetof(settings, timing)},
-    [SETTING_PAGER] = {.name = "pager",
-                       .takes = "auto | off | on",
-                       .summary = "show text by $PAGER; auto: what the terminal is too low for",
-                       .example = "    fret> set pager off\n",
-                       .at = offsetof(settings, pager)},
-    [SETTING_MODEL] = {.name = "model",
-                       .takes = "auto | closed | memory | springs N:10000000",
-                       .summary = "what answers for tangential loads; auto: the cheapest exact one",
-                       .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press "
-                                  "FN=100 N; cycle FA=20 N\n"
-                                  "    fret> dW\n"
-                                  "    dW = 1.90646 uJ\n"
-                                  "    fret> set model springs 100\n"
-                                  "    fret> dW\n"
-                                  "    dW = 1.90687 uJ\n",
-                       .apply = set_model,
-                       .show = show_model},
-    [SETTING_PLOT] = {.name = "plot",
-                      .takes = "SIZE | auto | terminal TERMINAL | caption SWITCH | slide | column",
-                      .summary = "size of plots in the terminal, such as 80x24, and how they are drawn "
-                                 "there: auto, dumb, block or sixel; caption on: the scene below figures; "
-                                 "pictures for a slide or the column of a paper",
-                      .example = "    fret> set plot 64x18\n",
-                      .apply = set_plot,
-                      .show = show_plot,
-                      .differs = has_plot},
-    [SETTING_CORES] =
-        {.name = "cores",
-         .takes = "N:64 | auto",
-         .summary =
-             "processes that long tables, maps, fits and samples are shared among; auto: one for each core",
-         .example = "    fret> set cores 1\n",
-         .apply = set_cores,
-         .show = show_cores,
-         .differs = has_cores},
+    {.name = "format",
+     .takes = "text | csv | json",
+     .summary = "how answers and tables are written; JSON: an object a line",
+     .example = "    fret> set format csv\n"
+                "    fret> pi, 1 mm\n"
+                "    pi,1 mm [m]\n"
+                "    3.1415926535897931,0.001\n"
+                "    fret> set format json\n"
+                "    fret> 1 mm\n"
+                "    {\"name\":\"1 mm\",\"value\":0.001,\"unit\":\"m\"}\n",
+     .at = offsetof(settings, format)},
+    {.name = "digits",
+     .takes = "N:17",
+     .summary = "significant digits of numbers as text, 1 to 17",
+     .example = "    fret> set digits 12\n"
+                "    fret> pi\n"
+                "    pi = 3.14159265359\n",
+     .at = offsetof(settings, digits)},
+    {.name = "report",
+     .takes = "auto | off | on",
+     .summary = "what press, step and cycle tell of themselves; auto: at the prompt",
+     .example = "    fret> set report on\n"
+                "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
+                "      FN = 100 N, a = 186.626 um, dz = 3.48291 um\n",
+     .at = offsetof(settings, report)},
+    {.name = "timing",
+     .takes = "off | on",
+     .summary = "the time of each statement, and the models that answered",
+     .example = "    fret> set timing on\n"
+                "    fret> pi\n"
+                "    pi = 3.14159\n"
+                "    time: 0.000241 ms\n",
+     .at = offsetof(settings, timing)},
+    {.name = "pager",
+     .takes = "auto | off | on",
+     .summary = "show text by $PAGER; auto: what the terminal is too low for",
+     .example = "    fret> set pager off\n",
+     .at = offsetof(settings, pager)},
+    {.name = "model",
+     .takes = "auto | closed | memory | springs N:10000000",
+     .summary = "what answers for tangential loads; auto: the cheapest exact one",
+     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press "
+                "FN=100 N; cycle FA=20 N\n"
+                "    fret> dW\n"
+                "    dW = 1.90646 uJ\n"
+                "    fret> set model springs 100\n"
+                "    fret> dW\n"
+                "    dW = 1.90687 uJ\n",
+     .apply = set_model,
+     .show = show_model},
+    {.name = "plot",
+     .takes = "SIZE | auto | terminal TERMINAL | caption SWITCH | slide | column",
+     .summary = "size of plots in the terminal, such as 80x24, and how they are drawn "
+                "there: auto, dumb, block or sixel; caption on: the scene below figures; "
+                "pictures for a slide or the column of a paper",
+     .example = "    fret> set plot 64x18\n",
+     .apply = set_plot,
+     .show = show_plot,
+     .differs = has_plot},
+    {.name = "cores",
+     .takes = "N:64 | auto",
+     .summary =
+         "processes that long tables, maps, fits and samples are shared among; auto: one for each core",
+     .example = "    fret> set cores 1\n",
+     .apply = set_cores,
+     .show = show_cores,
+     .differs = has_cores},
 };
+enum { SETTINGS = sizeof rows / sizeof *rows };
+
 const setting *setting_row(size_t i) {
     return i < SETTINGS ? &rows[i] : NULL;
 }
 
 const char *setting_name(size_t i) {
     return i < SETTINGS ? rows[i].name : NULL;
+}
+
+size_t setting_find(const char *name) {
+    size_t i = 0;
+    while (strcmp(rows[i].name, name) != 0)
+        i++;
+    return i;
 }
 
 /* ---- by the table ------------------------------------------------------------------------------ */
@@ -219,7 +227,7 @@ bool setting_apply(shell *sh, lexer *lx, const said *all) {
 }
 
 bool setting_format(settings *set, const char *word) {
-    const grammar *f = setting_form(SETTING_FORMAT);
+    const grammar *f = setting_form(setting_find("format"));
     const clause *a = grammar_clause(f, word);
     if (a)
         set->format = (int)(a - f->clause);

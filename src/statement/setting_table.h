@@ -17,22 +17,11 @@ typedef struct setting {
     bool (*differs)(const calc *c, const settings *set); /* from how it begins; NULL: not to be written */
 } setting;
 
-typedef enum setting_id {
-    SETTING_FORMAT,
-    SETTING_DIGITS,
-    SETTING_REPORT,
-    SETTING_TIMING,
-    SETTING_PAGER,
-    SETTING_MODEL,
-    SETTING_PLOT,
-    SETTING_CORES,
-    SETTINGS
-} setting_id;
-
 extern const settings settings_initial;
 
 const setting *setting_row(size_t i); /* NULL after the last */
 const char *setting_name(size_t i);
+size_t setting_find(const char *name); /* there is such a row */
 const grammar *setting_form(size_t i);
 const char *terminal_name(size_t i);
 const char *switch_name(size_t i);

@@ -75,8 +75,8 @@ static void lists(void) {
 
 /* The row of the word that stands first; words up to blanks. */
 static void heads(void) {
-    CHECK(reads("set plot 80x24") && all.row == SETTING_PLOT && has("", 0, "80x24", NULL));
-    CHECK(reads("set cores 4") && all.row == SETTING_CORES && all.list[0].count == 4);
+    CHECK(reads("set plot 80x24") && all.row == setting_find("plot") && has("", 0, "80x24", NULL));
+    CHECK(reads("set cores 4") && all.row == setting_find("cores") && all.list[0].count == 4);
     CHECK(reads("set") && all.by->shape == NULL && all.count == 0);
     CHECK(reads("geometry flat-cone b=1 mm slope=0.1") && !strcmp(all.by->shape, "flat-cone"));
     CHECK(reads("apropos (x \"y z") && all.count == 3 && has("", 1, "\"y", NULL));
