@@ -333,10 +333,8 @@ const char *export_name(size_t i) {
 }
 
 const grammar *export_form(size_t i) {
-    static grammar lines[EXPORTED];
-    return i < EXPORTED
-               ? grammar_made(&lines[i], "export", exported[i].name, exported[i].takes, exported[i].summary)
-               : NULL;
+    return i < EXPORTED ? grammar_made("export", exported[i].name, exported[i].takes, exported[i].summary)
+                        : NULL;
 }
 
 bool do_export(shell *sh, lexer *lx, const command *self) {

@@ -84,9 +84,8 @@ const figure *figure_find(const char *name, size_t len) {
 }
 
 const grammar *figure_form(size_t i) {
-    static grammar forms[FIGURES];
     return i < FIGURES && figures[i].takes
-               ? grammar_made(&forms[i], "plot", figures[i].name, figures[i].takes, figures[i].title)
+               ? grammar_made("plot", figures[i].name, figures[i].takes, figures[i].title)
                : NULL;
 }
 

@@ -247,9 +247,9 @@ static void add_next(place *p, const lexer *lx, const said *s) {
 
 /* Reads the statement up to the word that begins at `start`, and adds what may come there. */
 static void complete_at(place *p, size_t begin, size_t start) {
-    static grammar values; /* printed, or given to names */
     calc_error error;
-    said s = {.by = grammar_made(&values, "", NULL, "EXPR, ...", NULL)};
+    static const char values[] = "EXPR, ..."; /* printed, or given to names */
+    said s = {.by = grammar_made("", NULL, values, "")};
     lexer lx;
     error_clear(&error);
     lex_start(&lx, p->line + begin, start - begin, &error);

@@ -267,6 +267,8 @@ static const shape shapes[] = {
                         .sampled = true},
 };
 
+enum { SHAPES = sizeof shapes / sizeof *shapes };
+
 static const shape *shape_of(const fret_gap *gap) {
     return &shapes[gap->kind];
 }
@@ -288,8 +290,8 @@ static fret_status check_powers(const fret_gap *gap) {
 
 /* What a caller has left out, before anything is looked up by it. */
 static fret_status check_kind(const fret_gap *gap) {
-    if ((unsigned)gap->kind > FRET_GAP_FLAT)
-        return fret_fail(FRET_OUTSIDE, "kind", (double)gap->kind, FRET_GAP_FLAT);
+    if ((unsigned)gap->kind >= SHAPES)
+        return fret_fail(FRET_OUTSIDE, "kind", (double)gap->kind, SHAPES - 1);
     const shape *s = shape_of(gap);
     const int most = s->closed ? 1 : FRET_GAP_TERMS;
     if (s->powers && (gap->terms < 1 || gap->terms > most))

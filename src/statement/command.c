@@ -37,32 +37,33 @@ const hole_row *hole_at(size_t i) {
 
 /* ---- what they take ---------------------------------------------------------------------------- */
 
-enum { COMMANDS = 48, SHAPES = 16 };
+enum { ROWS = 128, COMMANDS = 64 };
 
-const grammar *grammar_made(grammar *f, const char *name, const char *shape, const char *takes,
-                            const char *summary) {
+const grammar *grammar_made(const char *name, const char *shape, const char *takes, const char *summary) {
+    static grammar made[ROWS];
+    static size_t rows;
     const char *at;
-    if (f->takes)
-        return f;
-    f->command = name;
-    f->shape = shape;
-    f->takes = takes;
-    f->summary = summary;
-    const bool ok = grammar_parse(f, all_holes, &at);
+    for (size_t i = 0; i < rows; i++)
+        if (made[i].takes == takes && made[i].command == name && made[i].shape == shape)
+            return &made[i];
+    made[rows] = (grammar){.command = name, .shape = shape, .takes = takes, .summary = summary};
+    const bool ok = grammar_parse(&made[rows], all_holes, &at) && rows + 1 < ROWS;
     assert(ok); /* unreached: a test parses every row */
     (void)ok;
-    return f;
+    return &made[rows++];
 }
 
 const grammar *command_form(const command *c) {
-    static grammar forms[COMMANDS];
-    return grammar_made(&forms[c - all], c->name, NULL, c->takes, c->summary);
+    static const grammar *forms[COMMANDS]; /* asked for by every statement */
+    const grammar **f = &forms[c - all];
+    if (!*f)
+        *f = grammar_made(c->name, NULL, c->takes, c->summary);
+    return *f;
 }
 
 const grammar *geometry_form(size_t i) {
-    static grammar forms[SHAPES];
     const geometry *g = geometry_row(i);
-    return g ? grammar_made(&forms[i], "geometry", g->name, g->takes, g->meaning) : NULL;
+    return g ? grammar_made("geometry", g->name, g->takes, g->meaning) : NULL;
 }
 
 bool argument_word(const lexer *lx) {

@@ -33,8 +33,7 @@ const hole_row *hole_at(size_t i); /* likewise */
 const grammar *command_form(const command *c);
 const grammar *geometry_form(size_t i);
 /* Parsed where it is wanted first. */
-const grammar *grammar_made(grammar *f, const char *name, const char *shape, const char *takes,
-                            const char *summary);
+const grammar *grammar_made(const char *name, const char *shape, const char *takes, const char *summary);
 /* "step Fx=20 N ...", as who types it is told. */
 static inline void command_usage(const command *c, char buf[GRAMMAR_USAGE]) {
     grammar_usage(command_form(c), buf);

@@ -209,8 +209,7 @@ size_t setting_find(const char *name) {
 /* ---- by the table ------------------------------------------------------------------------------ */
 
 const grammar *setting_form(size_t i) {
-    static grammar forms[SETTINGS];
-    return i < SETTINGS ? grammar_made(&forms[i], "set", rows[i].name, rows[i].takes, rows[i].summary) : NULL;
+    return i < SETTINGS ? grammar_made("set", rows[i].name, rows[i].takes, rows[i].summary) : NULL;
 }
 
 static int *held(settings *set, const setting *row) {
