@@ -2,6 +2,7 @@
 #include "unit.h"
 
 #define unit calc_unit /* the other one is at work here */
+#include "help/complete.h"
 #include "statement/command.h"
 #include "statement/setting_table.h"
 #undef unit
@@ -135,6 +136,65 @@ static void errors(void) {
     CHECK(fails("accuracy within 4000", "the seconds must be a positive number"));
 }
 
+/* Where a line that someone is typing ends. */
+static bool stops(const char *text, const char *name, unsigned at, part_end end, const char *changed) {
+    error_clear(&wrong);
+    lex_start(&lx, text, strlen(text), &wrong);
+    lx.cut = true;
+    const command *c = command_find(text, strcspn(text, " "));
+    lex_next(&lx);
+    said_read_some(&sh, &lx, command_form(c), &all);
+    const bool open = name != NULL,
+               ok = said_cut(&lx) && (all.open != NULL) == open &&
+                    (!open || (!strcmp(all.open->of->name, name) && all.hole == at && all.end == end));
+    if (!ok || !changed)
+        return ok;
+    return all.changed.len == strlen(changed) && !strncmp(text + all.changed.at, changed, all.changed.len);
+}
+
+static void typing(void) {
+    const size_t names_before = sh.calc.names.count;
+    CHECK(stops("step", NULL, 0, PART_EMPTY, NULL) && all.count == 0);
+    CHECK(stops("step Fx=", "Fx", 0, PART_EMPTY, NULL) && stops("step Fx=3 ", "Fx", 0, PART_NUMBER, NULL));
+    CHECK(stops("step Fx=3 dz=(2 ", "dz", 0, PART_NUMBER, NULL) && all.count == 2);
+    CHECK(stops("cycle FA=2 N times 3 FNA=1 N steps", "steps", 0, PART_EMPTY, NULL));
+    CHECK(stops("table a, dW at k=0, mu = 0.", "", 0, PART_NUMBER, "mu"));
+    CHECK(stops("uncertainty a, dW at", "", 0, PART_NAME, NULL) &&
+          stops("table a in ", "", 0, PART_UNIT, NULL));
+    CHECK(stops("table nix*", "", 0, PART_VALUE, NULL) && stops("table a log", NULL, 0, PART_EMPTY, NULL));
+    CHECK(stops("table a for x", "for", 0, PART_WHOLE, NULL) &&
+          stops("table a for x =", "for", 1, PART_EMPTY, NULL));
+    CHECK(stops("table a for x = 1 N .. ", "for", 1, PART_VALUE, NULL));
+    CHECK(stops("plot a log", "log", 0, PART_EMPTY, NULL) &&
+          stops("plot a log x", "log", 0, PART_WHOLE, NULL));
+    CHECK(stops("geometry sphere", NULL, 0, PART_EMPTY, NULL) && !strcmp(all.by->shape, "sphere"));
+    CHECK(stops("plot accuracy within", "within", 0, PART_EMPTY, NULL));
+    CHECK(!stops("step Fx=3 N Fx=", "Fx", 0, PART_EMPTY, NULL) &&
+          !stops("friction 0.4 zebra", NULL, 0, PART_EMPTY, NULL));
+    CHECK(sh.calc.names.count == names_before); /* nothing has become known */
+}
+
+/* Of every place in the examples of help: what is offered goes on with what stands there. */
+static void offers(void) {
+    const command *c;
+    candidates found;
+    for (size_t i = 0; (c = command_row(i)); i++)
+        for (const char *line = c->help; line && (line = strstr(line, "fret> "));
+             line += strcspn(line, "\n")) {
+            char text[400];
+            line += strlen("fret> ");
+            snprintf(text, sizeof text, "%.*s", (int)strcspn(line, "\n"), line);
+            for (size_t n = 0; n <= strlen(text); n++) {
+                complete(&sh, text, n, &found);
+                bool ok = found.start <= n && !(found.files && found.count);
+                for (size_t k = 0; k < found.count; k++)
+                    ok = ok && !strncmp(found.word[k], text + found.start, n - found.start);
+                candidates_free(&found);
+                CHECK(ok && !*sh.calc.note);
+            }
+        }
+}
+
 int main(int argc, char **argv) {
     unit_start("reader", argc, argv);
     command_use(commands, holes);
@@ -145,6 +205,8 @@ int main(int argc, char **argv) {
     CASE(names());
     CASE(arguments());
     CASE(errors());
+    CASE(typing());
+    CASE(offers());
     shell_free(&sh);
     return unit_finish();
 }
