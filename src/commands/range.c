@@ -47,35 +47,32 @@ static bool read_bound(calc *c, lexer *lx, const knob *var, bounds *b, long doub
     return value_dim(lx, var->text, at, len, v, b->d);
 }
 
-bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out) {
-    bounds b = {.known = false};
-    if (!read_bound(c, lx, var, &b, &out->lo))
-        return false;
+static bool read_other_end(calc *c, lexer *lx, const knob *var, const char *word, bounds *b,
+                           sweep_range *out) {
     if (word ? !lex_is(lx, word) : lx->kind != T_RANGE)
         return word ? lex_fail(lx, "expected %s and the other end of the range", word)
                     : lex_fail(lx, "expected .. between the two ends of the sweep");
     lex_next(lx);
-    const bool ok = read_bound(c, lx, var, &b, &out->hi);
-    out->d = b.d;
+    const bool ok = read_bound(c, lx, var, b, &out->hi);
+    out->d = b->d;
     return ok;
+}
+
+bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out) {
+    bounds b = {.known = false};
+    return read_bound(c, lx, var, &b, &out->lo) && read_other_end(c, lx, var, word, &b, out);
 }
 
 /* The same, or v1, v2, ...: no `..` stands there then. */
 static bool read_interval_or_list(calc *c, lexer *lx, const knob *var, sweep_range *out) {
     bounds b = {.known = false};
-    lexer ahead = *lx;
-    ahead.error = error_quiet();
-    while (ahead.kind != T_END && ahead.kind != T_RANGE && ahead.kind != T_COMMA)
-        lex_next(&ahead);
-    const bool list = ahead.kind == T_COMMA;
-    while (ahead.kind != T_END && ahead.kind != T_RANGE)
-        lex_next(&ahead);
-    if (!list || ahead.kind == T_RANGE)
-        return range_read_interval(c, lx, var, NULL, out);
+    lexer comma = *lx; /* the first, where there is one */
     lx->list = true;
     for (out->listed = 0; out->listed == 0 || lx->kind == T_COMMA;) {
         if (out->listed == SWEEP_LISTED)
             return lex_fail(lx, "more than %d values", SWEEP_LISTED);
+        if (out->listed == 1)
+            comma = *lx;
         if (out->listed)
             lex_next(lx);
         if (!read_bound(c, lx, var, &b, &out->list[out->listed++]))
@@ -84,7 +81,12 @@ static bool read_interval_or_list(calc *c, lexer *lx, const knob *var, sweep_ran
     lx->list = false;
     out->d = b.d;
     out->lo = out->list[0];
-    return true;
+    if (out->listed > 1 && lx->kind != T_RANGE)
+        return true;
+    if (out->listed > 1) /* 1,5 .. 3 */
+        return lex_one_value(&comma) && read_other_end(c, &comma, var, NULL, &b, out);
+    out->listed = 0;
+    return read_other_end(c, lx, var, NULL, &b, out);
 }
 
 /* The range where a curve sees it. */

@@ -261,14 +261,18 @@ static bool search_one(search *s, line *l, optimise_end *end) {
 /* ---- several names ----------------------------------------------------------------------------- */
 
 /* The ends of the ranges do not stop a simplex in the angles u = sin^2. */
-static double gsl_angles(const gsl_vector *v, void *context) {
-    search *s = context;
-    double u[N] = {0};
+static void parts_of(const search *s, const gsl_vector *angles, double u[N]) {
     size_t next = 0;
     for (size_t i = 0; i < s->of->count; i++) {
-        const double sine = s->fixed[i] ? 0 : sin(gsl_vector_get(v, next++));
+        const double sine = s->fixed[i] ? 0 : sin(gsl_vector_get(angles, next++));
         u[i] = s->fixed[i] ? s->u[i] : sine * sine;
     }
+}
+
+static double gsl_angles(const gsl_vector *v, void *context) {
+    search *s = context;
+    double u[N];
+    parts_of(s, v, u);
     const long double f = at_parts(s, u);
     return isnan(f) ? DBL_MAX : (double)f;
 }
@@ -291,11 +295,7 @@ static bool simplex(search *s, size_t free, double step, double size) {
                 break;
         }
         double u[N];
-        next = 0;
-        for (size_t i = 0; i < s->of->count; i++) {
-            const double sine = s->fixed[i] ? 0 : sin(gsl_vector_get(gsl_multimin_fminimizer_x(m), next++));
-            u[i] = s->fixed[i] ? s->u[i] : sine * sine;
-        }
+        parts_of(s, gsl_multimin_fminimizer_x(m), u);
         if (!s->p.error->raised)
             better(s, u, at_parts(s, u));
     }
