@@ -17,7 +17,7 @@ CFLAGS_ALL := -std=c11 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE -D_DARWIN_C_S
 	-Iinclude -Isrc -DFRET_VERSION='"$(VERSION)"' $(CFLAGS)
 # READLINE=no: a prompt without editing and history
 READLINE  ?= yes
-# GSL=no: without solve, maximize, minimize, fit, uncertainty and smooth
+# GSL=no: without maximize, minimize, fit, uncertainty and smooth
 GSL       ?= yes
 # LIVE=no: no full-screen mode
 LIVE      ?= yes
@@ -27,8 +27,8 @@ LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas)
 LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,$(CURSES))
 
 # what is left out with GSL=no, and without
-BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,ask solve optimise fit branches uncertainty smooth nonnegative)) \
-	src/commands/study_commands.c src/commands/data_commands.c,src/commands/study_none.c)
+BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,optimise fit branches uncertainty smooth nonnegative)) \
+	src/commands/data_commands.c,src/commands/study_none.c)
 CORE  := $(wildcard src/number/*.c src/law/*.c src/history/*.c src/field/*.c src/wear/*.c src/arrays/*.c)
 ABOVE := text scene language study plot statement commands help prompt
 PROG  := $(filter-out src/prompt/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \

@@ -14,6 +14,8 @@
 #include "study/loop.h"
 #include "study/uncertainty.h"
 
+const char study_library[] = "";
+
 /* As `ans`. */
 static void answered(shell *sh, long double v, dim d) {
     sh->calc.ans = (value){v, d};

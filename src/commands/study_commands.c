@@ -9,8 +9,6 @@
 #include "study/optimise.h"
 #include "study/solve.h"
 
-const char study_library[] = "";
-
 /* ---- what they share --------------------------------------------------------------------------- */
 
 /* Answers as printed values are, and remembered as `ans`. */

@@ -5,7 +5,7 @@
 
 #include "statement/command.h"
 
-/* study_commands.c, data_commands.c; without GSL study_none.c */
+/* study_commands.c; data_commands.c, or without GSL study_none.c */
 command_run do_solve, do_maximize, do_minimize, do_fit, do_uncertainty;
 /* export_command.c, loop_command.c */
 command_run do_export, do_loop;

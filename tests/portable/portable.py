@@ -136,10 +136,12 @@ def plain_prompt(tests):
 
 def without_library(tests):
     """Where GSL is left out, what needs it says so."""
-    for statement, name in (("solve FN for a = 1 mm", "solve"), ("geometry file gap.csv smooth", "smooth")):
+    for statement, name in (("maximize x*(1-x) over x = 0 .. 1", "maximize"), ("geometry file gap.csv smooth", "smooth")):
         done = tests.run("-c", statement)
         tests.check(name + " without GSL", "error: %s needs GSL, which this program was built without" % name in done.stderr and
                     done.returncode == 1, tests.report(done))
+    done = tests.run("-c", "solve x for x^2 = 4 from 1 to 3")
+    tests.check("solve does without GSL", done.stdout == "x = 2\n", tests.report(done))
 
 
 def threads(tests):
