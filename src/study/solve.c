@@ -11,8 +11,8 @@
 #include "study/points.h"
 
 /* Intervals of the scan, and of the one where sides that jump or swing want more of them; halvings to an edge
- * of what the scene allows. */
-enum { SCAN = 24, FINE = 8 * SCAN, EDGE = 60, ROOTS = 48, LISTED = 12 };
+ * of what the scene allows; evaluations of the method, where a root of high order would take many more. */
+enum { SCAN = 24, FINE = 8 * SCAN, EDGE = 60, METHOD = 100, ROOTS = 48, LISTED = 12 };
 
 typedef struct place {
     double x, f; /* f: NaN where there is no value */
@@ -319,14 +319,15 @@ static bool no_root(search *s, calc_error *error) {
 
 typedef struct sought {
     search *s;
-    double part; /* of x: places that lie closer are one; of those that are the same double, 0 */
-    double at;   /* asked last */
-    bool lost;   /* no value there */
+    double part;  /* of x: places that lie closer are one; of those that are the same double, 0 */
+    double at;    /* asked last */
+    unsigned end; /* evaluations: where they are that many, 0 */
+    bool lost;    /* no value there */
 } sought;
 
 static fret_real difference_there(fret_real x, fret_real *slope, void *context) {
     sought *t = context;
-    const bool again = fabs((double)x - t->at) <= t->part * fabs((double)x);
+    const bool again = fabs((double)x - t->at) <= t->part * fabs((double)x) || t->s->p.evaluations >= t->end;
     (void)slope;
     t->at = (double)x;
     const double f = again ? 0 : difference(t->s, t->at);
@@ -337,7 +338,7 @@ static fret_real difference_there(fret_real x, fret_real *slope, void *context) 
 /* To the last digit; rough: to six. */
 static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *error) {
     const place a = s->root[i], b = s->other[i];
-    sought t = {.s = s, .part = rough ? 1e-7 : 0, .at = (double)NAN};
+    sought t = {.s = s, .part = rough ? 1e-7 : 0, .at = (double)NAN, .end = s->p.evaluations + METHOD};
     *x = a.x;
     if (a.x == b.x)
         return true;
