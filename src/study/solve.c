@@ -216,15 +216,21 @@ static bool go_nearer(search *s, place a, place b, place c) {
     }
     s->side = b.f > 0 ? 1 : -1;
     s->dip = b;
-    fret_least(side_distance, s, fmin(a.x, c.x), fmax(a.x, c.x), b.x, 1e-9L);
+    const double lo = fmin(a.x, c.x), hi = fmax(a.x, c.x), part = 1e-5, apart = part * (hi - lo),
+                 far = fmin(fabs(a.f), fabs(c.f));
+    fret_least(side_distance, s, lo, hi, b.x, part);
     b = s->dip;
+    if (b.f * s->side <= 1e-8 * far) { /* they may touch, which half of the digits tell */
+        fret_least(side_distance, s, fmax(b.x - apart, lo), fmin(b.x + apart, hi), b.x, 1e-4L);
+        b = s->dip;
+    }
     if (s->p.error->raised)
         return false;
     const double left = b.f * s->side; /* not NaN: it is the least that has been met */
     if (left < 0) {
         add_bracket(s, a, b);
         add_bracket(s, b, c);
-    } else if (left <= touching * fmin(fabs(a.f), fabs(c.f))) {
+    } else if (left <= touching * far) {
         s->touches = true;
         add_bracket(s, b, b);
     }
