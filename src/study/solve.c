@@ -41,12 +41,10 @@ typedef struct search {
     double jump; /* where the sides jump past each other, one such place */
 } search;
 
-/* left - right. NaN: no value there, or the question has ended. */
-static double difference(search *s, double at) {
+/* left - right. NaN: the question has ended. */
+static double apart(search *s, const value v[2]) {
     const expr *right = &s->sides[1];
-    const long double x = at;
-    value v[2];
-    if (!points_at(&s->p, &x, v) || !points_keeps(&s->p, 0, v[0].d, &s->d, &s->known))
+    if (!points_keeps(&s->p, 0, v[0].d, &s->d, &s->known))
         return (double)NAN;
     /* a bare 0 has any dimension */
     if (!dim_equal(v[1].d, s->d) && !(v[1].v == 0 && dim_equal(v[1].d, DIM_NONE))) {
@@ -57,6 +55,13 @@ static double difference(search *s, double at) {
         return (double)NAN;
     }
     return (double)(v[0].v - v[1].v);
+}
+
+/* NaN: no value there, too. */
+static double difference(search *s, double at) {
+    const long double x = at;
+    value v[2];
+    return points_at(&s->p, &x, v) ? apart(s, v) : (double)NAN;
 }
 
 static double middle(const search *s, double a, double b) {
@@ -107,16 +112,29 @@ static bool choose_range(search *s, calc_error *error) {
     return true;
 }
 
+static void give_place(void *context, size_t i, long double x[]) {
+    search *s = context;
+    s->at[i].x = (double)points_place(s->lo, s->hi, s->ratios, (long double)i / s->places);
+    *x = s->at[i].x;
+}
+
+static bool take_place(void *context, size_t i, const long double x[], const value v[],
+                       const calc_error *why) {
+    search *s = context;
+    (void)x;
+    s->at[i].f = why ? (double)NAN : apart(s, v);
+    return true;
+}
+
 static bool scan(search *s) {
     enum { TURNS = 3 }; /* more than those of a cubic */
     bool equal = true;
     unsigned turns = 0;
+    if (!points_go(&s->p, &(points_run){
+                              .count = s->places + 1, .give = give_place, .take = take_place, .context = s}))
+        return false;
     for (unsigned i = 0; i <= s->places; i++) {
-        place *p = &s->at[i];
-        p->x = (double)points_place(s->lo, s->hi, s->ratios, (long double)i / s->places);
-        p->f = difference(s, p->x);
-        if (s->p.error->raised)
-            return false;
+        const place *p = &s->at[i];
         if (p->f == 0)
             add_bracket(s, *p, *p);
         else if (i && opposite(p->f, p[-1].f))
