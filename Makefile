@@ -27,10 +27,10 @@ LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas)
 LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,$(CURSES))
 
 # what is left out with GSL=no, and without
-BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,optimise fit branches uncertainty smooth nonnegative)) \
-	src/commands/data_commands.c,src/commands/study_none.c)
+BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,optimise fit uncertainty smooth nonnegative)) \
+	src/measured/branches.c src/commands/fit_command.c,src/commands/study_none.c)
 CORE  := $(wildcard src/number/*.c src/law/*.c src/history/*.c src/field/*.c src/wear/*.c src/arrays/*.c)
-ABOVE := text scene language study plot statement commands help prompt
+ABOVE := text measured scene language study plot statement commands help prompt
 PROG  := $(filter-out src/prompt/prompt_$(if $(filter no,$(READLINE)),readline,plain).c $(BACK), \
 	$(wildcard $(ABOVE:%=src/%/*.c))) \
 	$(if $(filter no,$(LIVE)),src/live/none.c,$(filter-out src/live/none.c,$(wildcard src/live/*.c)))
@@ -117,7 +117,7 @@ $(B)/fret.pc: FORCE
 		'$(PREFIX)' '$(LIBDIR)' '$(VERSION)' '$(LIBS_CORE)' > $@
 
 # Tests see what is not public too; those of rooms above the mechanics take these objects one by one.
-OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard $(patsubst %,src/%/*.c,text scene language study plot))))
+OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard $(patsubst %,src/%/*.c,text measured scene language study plot))))
 $(B)/tests/%: $(B)/tests/unit/%.o $(call OBJ,$(CORE)) $(OUTER)
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(LIBS_GSL) $(LIBS_CORE)
 # the rows of all commands are in the whole program

@@ -17,6 +17,8 @@ typedef struct figure {
     const char *roles;
     const char *takes; /* behind its name; NULL: a range and looks */
     bool (*build)(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
+    bool (*below)(shell *sh, lexer *lx, said *all, plot_panel *p,
+                  const looks *l); /* a second panel, or NULL */
 } figure;
 
 const figure *figure_row(size_t i); /* NULL after the last */
@@ -25,7 +27,9 @@ const grammar *figure_form(size_t i); /* NULL: that of plot */
 const char *figure_word(size_t i);    /* what a figure may begin with: these, and map */
 const figure *figure_find(const char *name, size_t len);
 
-/* figures that are no sweep */
+/* figures that are no sweep; the last two of fit_command.c, without GSL study_none.c */
 bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
+bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
+bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
 
 #endif

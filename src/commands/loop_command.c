@@ -7,7 +7,7 @@
 #include "commands/study_commands.h"
 #include "statement/answer.h"
 #include "statement/target.h"
-#include "study/loop.h"
+#include "measured/loop.h"
 
 /* What is told of a cycle, in the order of its table; the flag at the end is 1 or 0 there. */
 static const struct {

@@ -616,8 +616,15 @@ static bool draw_panel(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *
         return draw_named(&job, lx, &as->said);
     if (!looks_read(sh, lx, &as->said, p, &l))
         return false;
-    if (as->figure)
-        return as->figure->build(sh, lx, &as->said, p, &l);
+    if (as->figure) {
+        if (!as->figure->build(sh, lx, &as->said, p, &l) || !as->figure->below)
+            return !lx->error->raised;
+        p = plot_panel_add(f, lx->error);
+        if (!p)
+            return calc_place(lx->error, as->at, 1);
+        p->below = true;
+        return as->figure->below(sh, lx, &as->said, p, &l);
+    }
     lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
     size_t own;
     if (lex_is(&first, "map") && lex_peek(&first) == T_END && !names_find(&sh->calc.names, "map", 3, &own))

@@ -10,7 +10,7 @@
 #include "scene/presets.h"
 #include "statement/answer.h"
 #include "statement/command.h"
-#include "study/apex.h"
+#include "measured/apex.h"
 #include "study/smooth.h"
 
 /* ---- gathering --------------------------------------------------------------------------------- */

@@ -1,13 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Questions that go backwards: solve, maximize, minimize. They leave the scene as it is. */
+/* Questions that go backwards: solve, maximize, minimize, uncertainty. They leave the scene as it is. */
 #include "commands/study_commands.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "commands/expressions.h"
 #include "commands/range.h"
+#include "statement/progress.h"
+#include "statement/target.h"
 #include "study/optimise.h"
 #include "study/solve.h"
+#include "study/uncertainty.h"
 
 /* ---- what they share --------------------------------------------------------------------------- */
 
@@ -207,4 +212,245 @@ bool do_maximize(shell *sh, lexer *lx, const command *self) {
 
 bool do_minimize(shell *sh, lexer *lx, const command *self) {
     return optimum(sh, lx, self, false);
+}
+
+/* ---- uncertainty ------------------------------------------------------------------------------- */
+
+/* `+- 0.02`, `+- 5 %`: a percentage is a part of the value. */
+static bool read_deviation(shell *sh, const lexer *of, const span *part, const knob *k, double *out) {
+    lexer own = hole_lexer(of, part), *lx = &own;
+    value v;
+    double now = 0;
+    const size_t at = lx->at;
+    if (!expr_value_as(&sh->calc, lx, &k->d, &v))
+        return false;
+    if (lx->text[lx->last - 1] == '%') {
+        if (!ask_present(&sh->calc, k, &now))
+            return ask_lacks(&sh->calc, k, "", "", lx->error) || calc_place(lx->error, at, lx->last - at);
+        v = (value){v.v * fabs(now), k->d};
+    }
+    *out = (double)v.v;
+    return value_dim(lx, k->text, at, lx->last - at, v, k->d) &&
+           (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "a deviation must be positive")) && at_end(lx);
+}
+
+static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_question *q) {
+    const heard *h, *samples = said_of(all, "samples", 0), *seed = said_of(all, "seed", 0);
+    for (size_t i = 0; (h = said_of(all, "with", i)); i++) {
+        knob *k = &q->name[q->count];
+        const span *name = &h->hole[0];
+        lexer own = hole_lexer(lx, name);
+        if (q->count == UNCERTAIN_NAMES)
+            return lex_fail(&own, "more than %d inputs", UNCERTAIN_NAMES);
+        if (!knob_known(&sh->calc, &own, k))
+            return false;
+        if (ask_repeats(q->name, q->count + 1))
+            return calc_fail(lx->error, name->at, name->len, "%s is given twice", k->text);
+        if (!read_deviation(sh, lx, &h->hole[1], k, &q->deviation[q->count++]))
+            return false;
+    }
+    if (samples)
+        q->samples = samples->count;
+    if (seed)
+        q->seed = seed->count;
+    return true;
+}
+
+/* ---- uncertainty: samples of a share, and of a file that has them all -------------------------- */
+
+enum { SAMPLES_COLUMNS = UNCERTAIN_VALUES + 1 };
+
+typedef struct samples_job {
+    answer a;
+    bool begun, goes_on;
+    const uncertainty_answer *of;
+    column columns[SAMPLES_COLUMNS];
+    size_t count, rows, all;
+} samples_job;
+
+/* Values are in SI, whatever unit they are asked in: what is read again is the same. Their names are of a
+ * kind that a file of columns can have, and their number comes last: what has been cut off lacks it. */
+static bool begin_samples(samples_job *job) {
+    char name[CSV_NAME];
+    bool ok = true;
+    for (size_t k = 0; k < job->count && ok; k++) {
+        snprintf(name, sizeof name, "v%zu", k + 1);
+        ok = column_si(&job->columns[k], name, job->of->value[k].d);
+    }
+    ok = ok && column_si(&job->columns[job->count], "sample", DIM_NONE);
+    if (job->goes_on)
+        answer_goes_on(&job->a, job->columns, job->count + 1);
+    return ok && (job->goes_on || answer_columns(&job->a, "samples", job->columns, job->count + 1));
+}
+
+static bool give_sample(void *context, size_t sample, const value v[]) {
+    samples_job *job = context;
+    long double row[SAMPLES_COLUMNS];
+    job->a.lost = job->a.lost || (!job->begun && !begin_samples(job));
+    job->begun = true;
+    if (job->a.lost)
+        return false;
+    for (size_t k = 0; k < job->count; k++)
+        row[k] = v[k].v;
+    row[job->count] = (long double)(sample + 1);
+    answer_row(&job->a, row);
+    progress_part((double)++job->rows / (double)job->all);
+    return !ferror(job->a.to); /* the end tells of it */
+}
+
+static bool share_samples(shell *sh, uncertainty_question *q, uncertainty_answer *a, calc_error *error) {
+    target to = {.to = sh->out, .format = sh->set.format};
+    samples_job job = {.of = a, .count = q->expressions};
+    if (!target_share(sh, &to, q->samples, &q->from, &q->to, error))
+        return false;
+    q->take = give_sample;
+    q->context = &job;
+    job.all = q->to - q->from;
+    job.goes_on = target_goes_on(sh, &to);
+    answer_begin_as(&job.a, &sh->set, to.to, to.format);
+    const bool ok = uncertainty(q, a, error);
+    progress_wipe();
+    if (!answer_end(&job.a, ok))
+        calc_no_memory(error);
+    if (ok && a->missing.raised)
+        shell_note(sh, "some samples lack a value: %s", a->missing.text);
+    columns_free(job.columns, SAMPLES_COLUMNS);
+    return target_close(sh, NULL, &to, ok && !error->raised);
+}
+
+/* All samples are there, in their order, and every value, or that there is none. */
+static bool take_given(csv *file, uncertainty_question *q, const csv_values *given[], const double *values[],
+                       calc_error *error) {
+    const csv_values *number = csv_column(file, "sample", error);
+    if (!number)
+        return false;
+    if (file->columns != q->expressions + 1)
+        return calc_fail(error, 0, 0, "%.200s holds no samples of %zu values", file->path, q->expressions);
+    for (size_t i = 0; i < file->rows || i < q->samples; i++)
+        if (i >= file->rows || i >= q->samples || number->v[i] != (double)(i + 1))
+            return calc_fail(
+                error, 0, 0,
+                "%.200s:%zu: expected sample %zu of %u: the file takes all shares, in their order",
+                file->path, file->row[i < file->rows ? i : file->rows - 1].line, i + 1, q->samples);
+    for (size_t k = 0; k < q->expressions; k++) {
+        char name[CSV_NAME];
+        snprintf(name, sizeof name, "v%zu", k + 1);
+        given[k] = csv_column(file, name, error);
+        if (!given[k])
+            return false;
+        values[k] = given[k]->v;
+    }
+    q->given = values;
+    return true;
+}
+
+static bool sum_given(const lexer *lx, uncertainty_question *q, uncertainty_answer *a, const heard *from) {
+    const csv_values *given[UNCERTAIN_VALUES];
+    const double *values[UNCERTAIN_VALUES];
+    char name[FILE_NAME], is[128], has[128];
+    csv file = {0};
+    bool ok =
+        hole_file(lx, &from->hole[0], name) &&
+        ((csv_read(name, &shell_stop, &file, lx->error) && take_given(&file, q, given, values, lx->error)) ||
+         heard_place(lx->error, from)) &&
+        uncertainty(q, a, lx->error);
+    for (size_t k = 0; k < q->expressions && ok; k++) {
+        dim_describe(a->value[k].d, is, sizeof is);
+        dim_describe(given[k]->d, has, sizeof has);
+        ok = dim_equal(a->value[k].d, given[k]->d) ||
+             calc_fail(lx->error, q->e[k].at, q->e[k].len, "this is %s, and %s of %.200s is %s", is,
+                       given[k]->name, name, has);
+    }
+    csv_free(&file);
+    return ok;
+}
+
+/* ---- uncertainty: what is said ----------------------------------------------------------------- */
+
+static void report_uncertain(answer *out, const uncertainty_question *q, const uncertain *u,
+                             const column *c) {
+    answer_estimate(out, c, &(estimate){.v = u->v, .deviation = u->deviation});
+    answer_event(out, "uncertainty");
+    answer_string(out, "of", c->name);
+    answer_number(out, "deviation", u->deviation);
+    answer_group(out, "shares");
+    for (size_t i = 0; i < q->count; i++)
+        answer_share(out, q->name[i].text, u->share[i]);
+    answer_up(out);
+    answer_group(out, "Monte Carlo");
+    answer_number(out, "mean", u->mean);
+    answer_number(out, "deviation", u->spread);
+    answer_number(out, "samples", u->samples);
+    answer_flag(out, "differs", u->differs);
+    answer_up(out);
+    answer_done(out);
+}
+
+/* Where samples say something else, and where they say nothing. */
+static void remark_uncertain(shell *sh, answer *out, const uncertainty_question *q, const uncertain *u,
+                             const column *c, const char *missing) {
+    column sampled = *c;
+    char name[] = "Monte Carlo";
+    sampled.name = name;
+    if (u->differs && !answer_beside(out, &sampled, &(estimate){.v = u->mean, .deviation = u->spread})) {
+        char mean[CALC_VALUE_TEXT], spread[CALC_VALUE_TEXT];
+        calc_value_text(u->d, u->mean, mean);
+        calc_value_text(u->d, u->spread, spread);
+        shell_note(sh, "the Monte Carlo says something else of %s: mean %s, deviation %s", c->name, mean,
+                   spread);
+    }
+    if (u->samples < q->samples)
+        shell_note(sh, "%u of %u samples of %s %s no value: %s", q->samples - u->samples, q->samples, c->name,
+                   q->samples - u->samples > 1 ? "have" : "has", q->given ? "the file has none" : missing);
+}
+
+static bool print_uncertain(shell *sh, const uncertainty_question *q, const uncertainty_answer *a,
+                            column *columns, calc_error *error) {
+    const uncertain *last = &a->value[q->expressions - 1];
+    answer out;
+    for (size_t k = 0; k < q->expressions; k++) {
+        const uncertain *u = &a->value[k];
+        if (!column_fits(&q->e[k], &columns[k], (value){u->v, u->d}, error) ||
+            !column_fits(&q->e[k], &columns[k], (value){u->deviation, u->d}, error))
+            return false;
+    }
+    answer_begin(&out, &sh->set, sh->out);
+    for (size_t k = 0; k < q->expressions; k++) {
+        report_uncertain(&out, q, &a->value[k], &columns[k]);
+        remark_uncertain(sh, &out, q, &a->value[k], &columns[k], a->missing.text);
+    }
+    if (!answer_end(&out, true))
+        return calc_no_memory(error);
+    sh->calc.ans = (value){last->v, last->d};
+    sh->calc.has_ans = true;
+    if (sh->set.timing)
+        shell_say(sh, "uncertainty: differences of sixth order and %u samples (seed %u), %u evaluations",
+                  q->samples, q->seed, a->evaluations);
+    return true;
+}
+
+/* A swinging normal force takes a thousand times as long. */
+static unsigned usual_samples(shell *sh) {
+    const load_reach *reach = &(load_reach){.swings = false};
+    scene_reach(&sh->calc.scene, &reach, error_quiet());
+    return reach->swings ? 200 : 10000;
+}
+
+bool do_uncertainty(shell *sh, lexer *lx, const command *self) {
+    uncertainty_question q = {.c = &sh->calc, .e = sh->list, .samples = usual_samples(sh), .seed = 1};
+    uncertainty_answer *a = calloc(1, sizeof *a);
+    column columns[UNCERTAIN_VALUES];
+    said all;
+    bool ok = (a || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all);
+    ok = ok && read_expressions_in(sh, lx, &all.list[0].hole[0], columns, UNCERTAIN_VALUES, &q.expressions);
+    ok = ok && read_uncertain(sh, lx, &all, &q);
+    const heard *from = ok ? said_of(&all, "from", 0) : NULL;
+    if (ok && sh->share.of && !from)
+        ok = share_samples(sh, &q, a, lx->error);
+    else
+        ok = ok && (from ? sum_given(lx, &q, a, from) : uncertainty(&q, a, lx->error)) &&
+             print_uncertain(sh, &q, a, columns, lx->error);
+    columns_free(columns, q.expressions);
+    free(a);
+    return ok;
 }

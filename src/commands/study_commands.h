@@ -5,8 +5,10 @@
 
 #include "statement/command.h"
 
-/* study_commands.c; data_commands.c, or without GSL study_none.c */
+/* study_commands.c; fit_command.c, or without GSL study_none.c */
 command_run do_solve, do_maximize, do_minimize, do_fit, do_uncertainty;
+/* What `plot fit` shows. */
+void fit_forget(shell *sh);
 /* export_command.c, loop_command.c */
 command_run do_export, do_loop;
 

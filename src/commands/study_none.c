@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where GSL is left out, in place of data_commands.c, optimise.c and smooth.c. */
+/* Where GSL is left out, in place of fit_command.c, optimise.c, uncertainty.c and smooth.c. */
+#include "commands/figures.h"
 #include "commands/study_commands.h"
 #include "study/optimise.h"
 #include "study/smooth.h"
+#include "study/uncertainty.h"
 
 const char study_library[] = " (without GSL: no maximize, minimize, fit, uncertainty, smooth)";
 
@@ -15,9 +17,22 @@ bool do_fit(shell *sh, lexer *lx, const command *self) {
     return without(self->name, lx->error);
 }
 
-bool do_uncertainty(shell *sh, lexer *lx, const command *self) {
+void fit_forget(shell *sh) {
     (void)sh;
-    return without(self->name, lx->error);
+}
+
+bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+    (void)sh, (void)all, (void)p, (void)l;
+    return without("fit", lx->error);
+}
+
+bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+    return figure_fit(sh, lx, all, p, l);
+}
+
+bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, calc_error *error) {
+    (void)question, (void)out;
+    return without("uncertainty", error);
 }
 
 bool optimise(const optimise_question *question, optimise_answer *out, calc_error *error) {

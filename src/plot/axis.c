@@ -120,6 +120,13 @@ bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis 
            limits("y", y, e->y, p->ylo, p->yhi, airy, error);
 }
 
+size_t plot_columns(const plot_figure *f) {
+    size_t n = 0;
+    for (size_t i = 0; i < f->count; i++)
+        n += !f->panel[i]->below;
+    return n;
+}
+
 double plot_step(double least) {
     double power = pow(10, floor(log10(least)));
     static const double steps[] = {1, 2, 5};

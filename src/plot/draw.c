@@ -304,7 +304,7 @@ static bool show_drawn(const plot_run *r, const scripted *s, calc_error *error) 
 
 static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error *error) {
     plot_run r;
-    plot_pages pages = plot_pages_for(t, reel->frame[0].count, reel->count > 1);
+    plot_pages pages = plot_pages_for(t, &reel->frame[0], reel->count > 1);
     scripted s = {.reel = reel, .target = t, .pages = &pages};
     if (pages.braille)
         return play(NULL, &s, error);

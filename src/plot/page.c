@@ -9,12 +9,14 @@
 
 #include "text/characters.h"
 
-plot_pages plot_pages_for(const plot_target *t, size_t panels, bool one_screen) {
-    int w = t->columns ? t->columns : 79, h = t->rows ? t->rows : 24, n = (int)panels;
-    bool beside = n == 1 || w / n >= 50;
+enum { LEAST_ROWS = 8 };
+
+plot_pages plot_pages_for(const plot_target *t, const plot_figure *f, bool one_screen) {
+    int w = t->columns ? t->columns : 79, h = t->rows ? t->rows : 24, n = (int)f->count;
+    bool beside = n == 1 || (w / n >= 50 && plot_columns(f) == f->count);
     plot_pages p = {beside ? w / n : w, beside || !one_screen ? h : h / n, beside, t->terminal == PLOT_BLOCK};
     p.columns = p.columns < 30 ? 30 : p.columns;
-    p.rows = p.rows < 8 ? 8 : p.rows;
+    p.rows = p.rows < LEAST_ROWS ? LEAST_ROWS : p.rows;
     return p;
 }
 
@@ -425,7 +427,7 @@ bool page_make(plot_page *g, const plot_panel *panel, const plot_extents *extent
                      .form = target->unicode ? PLOT_UNICODE : PLOT_ASCII,
                      .braille = pages->braille,
                      .columns = pages->columns,
-                     .rows = pages->rows};
+                     .rows = panel->below ? (pages->rows + LEAST_ROWS) / 2 : pages->rows};
     if (!plot_axes(panel, extent, false, &x, &y, error))
         return false;
     put_in_order(g);

@@ -94,6 +94,7 @@ typedef struct plot_panel {
     bool key_off;
     bool points; /* marked on the lines */
     bool airy;   /* room around the points along x, too; else curves that are graphs over x fill its axis */
+    bool below;  /* the panel before it, and lower than that; else beside it */
     plot_map map;
     plot_word word[PLOT_WORDS];
     size_t words;

@@ -9,7 +9,7 @@
 
 #include "text/characters.h"
 
-enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, LEVELS = 9 };
+enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, HIGHER = 840, LEVELS = 9 };
 
 /* ---- kinds -------------------------------------------------------------------------------------- */
 
@@ -209,7 +209,10 @@ typedef struct scribe {
     const plot_kind *kind;
     double scale; /* of points against the usual size */
     double text;  /* and against that of the picture */
-    size_t frame, panel, panels;
+    size_t frame, panel;
+    size_t panels, column; /* beside each other; which of them */
+    bool parted, below;    /* it has one below it, or is such a one; */
+    bool stacked;          /* one of them has */
     const char *caption;
     double foot; /* its part of the height */
     bool lost;   /* a text found no memory */
@@ -289,13 +292,19 @@ static void set_key(scribe *s, const plot_panel *p) {
                 s->kind->form == PLOT_TEX ? "2.5" : "1.2", key_columns(s, longest));
 }
 
+/* Its part of the picture, where the layout of them side by side does not tell. */
+static void set_place(const scribe *s) {
+    const double lower = 0.36, high = 1 - s->foot, from = s->parted ? lower : 0, to = s->below ? lower : 1;
+    if (s->caption || s->stacked)
+        fprintf(s->to, "set origin %.6g,%.6g\nset size %.6g,%.6g\n", (double)s->column / (double)s->panels,
+                s->foot + from * high, 1 / (double)s->panels, (to - from) * high);
+}
+
 /* The lines below all panels, which keep to what is above it. */
 static void set_caption(scribe *s) {
     double line = 0, lines = 0.5;
     if (!s->caption)
         return;
-    fprintf(s->to, "set origin %.6g,%.6g\nset size %.6g,%.6g\n", (double)s->panel / (double)s->panels,
-            s->foot, 1 / (double)s->panels, 1 - s->foot);
     for (const char *p = s->caption; *p; p++)
         lines += *p == '\n';
     for (const char *p = s->caption, *end; !s->panel && (end = strchr(p, '\n')); p = end + 1) {
@@ -309,19 +318,27 @@ static void set_caption(scribe *s) {
     }
 }
 
-/* Panels side by side stand on one line and are of one height, whatever titles and keys they have. */
+/* Panels side by side stand on one line and are of one height, whatever titles and keys they have; one below
+ * another is as wide. */
 static void set_margins(scribe *s, const plot_figure *f) {
     size_t rows = 0;
     bool titled = false;
     for (size_t i = 0; i < f->count; i++) {
         const plot_panel *p = f->panel[i];
+        if (p->below != s->below)
+            continue;
         size_t longest, entries = p->map.nx ? 0 : key_entries(s, p, &longest);
         const size_t columns = entries ? (size_t)key_columns(s, longest) : 1,
                      needed = (entries + columns - 1) / columns;
         rows = needed > rows ? needed : rows;
         titled |= p->title && *p->title;
     }
-    fprintf(s->to, "set lmargin\nset rmargin\n");
+    if (s->parted || s->below)
+        fprintf(s->to, "set lmargin at screen %.4g\nset rmargin at screen %.4g\n",
+                ((double)s->column + 0.13 * s->text) / (double)s->panels,
+                ((double)s->column + 0.97) / (double)s->panels);
+    else
+        fputs("set lmargin\nset rmargin\n", s->to);
     const double room = s->kind->form == PLOT_TEX ? 2.5 : 0.8; /* between the label of x and the key */
     if (f->count > 1)
         fprintf(s->to, "set tmargin %s\nset bmargin %.3g\n", titled ? "3" : "1.5",
@@ -357,10 +374,13 @@ static void draw_marked(scribe *s, const plot_panel *p, size_t at) {
 static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
     const plot_series *c = p->series[at];
     size_t style = plot_style_of(p, at);
-    fprintf(s->to, "$data%zu_%zu_%zu using 1:2%s with ", s->frame, s->panel, at,
-            deep    ? ":(0)"
-            : c->y2 ? ":3"
-                    : "");
+    if (c->count)
+        fprintf(s->to, "$data%zu_%zu_%zu using 1:2%s with ", s->frame, s->panel, at,
+                deep    ? ":(0)"
+                : c->y2 ? ":3"
+                        : "");
+    else /* in the key alone */
+        fputs("NaN with ", s->to);
     switch (c->role) {
     case PLOT_CURVE:
         if (is_marked(p, at) && !deep)
@@ -478,7 +498,7 @@ static int tic_columns(const plot_axis *a, double step) {
 
 /* Contours on a light ground, with their values on them. */
 static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const plot_axis *y) {
-    double level[LEVELS], part = 1.0 / (double)s->panels, from = (double)s->panel * part;
+    double level[LEVELS], part = 1.0 / (double)s->panels, from = (double)s->column * part;
     const bool narrow = s->panels > 1 || s->kind->form == PLOT_TEX;
     const double step = plot_step((y->hi - y->lo) / 10),
                  column = s->text * (narrow ? 0.016 : 0.0127), /* of the panel */
@@ -531,16 +551,19 @@ static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, c
         fputs("set format '%h'\n", s->to);
     set_margins(s, f);
     set_text(s, "title", p->title);
-    set_text(s, "xlabel", p->xlabel);
+    set_text(s, "xlabel", s->parted ? NULL : p->xlabel);
     set_text(s, "ylabel", p->ylabel);
     set_axis(s, 'x', &x);
     set_axis(s, 'y', &y);
     fputs("set border lw 1.2\nset ylabel offset 0,0\nset tics front\nset mxtics\nset mytics\n", s->to);
+    if (s->below && !y.log)
+        fprintf(s->to, "set ytics %.9g\nset mytics 1\n", plot_step((y.hi - y.lo) / 5));
     if (!p->map.nx)
         fputs("set grid back lt 1 lc rgb '#e6e6e6' lw 1\n", s->to);
     if (!p->map.nx && !x.log && !y.log)
         fputs("set xzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\nset yzeroaxis lt 1 lc rgb '#a0a0a0' lw 1\n", s->to);
     set_key(s, p);
+    set_place(s);
     set_caption(s);
     for (size_t i = 0; i < p->words; i++) {
         fputs("set label ", s->to);
@@ -562,11 +585,14 @@ bool plot_stopped(const plot_target *t) {
 
 bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, const plot_target *t,
                         calc_error *error) {
-    size_t panels = reel->frame[0].count;
+    size_t panels = plot_columns(&reel->frame[0]);
+    const bool lower = panels < reel->frame[0].count;
     double w = t->width     ? t->width
                : panels > 1 ? (double)panels * (double)BESIDE
                             : (double)WIDTH,
-           h = t->height ? t->height : HEIGHT;
+           h = t->height ? t->height
+               : lower   ? HIGHER
+                         : HEIGHT;
     /* texts keep their part of a panel */
     double scale = fmin(w / (double)panels / (panels > 1 ? BESIDE : WIDTH), h / (double)HEIGHT);
     const double text = t->text > 0 ? t->text : 1;
@@ -592,15 +618,20 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
         if (plot_stopped(t))
             return calc_interrupted(error);
         if (f->count > 1)
-            fprintf(to, "set multiplot layout 1,%zu\n", f->count);
-        for (size_t i = 0; i < f->count; i++) {
+            fprintf(to, "set multiplot layout 1,%zu\n", lower ? f->count : panels);
+        for (size_t i = 0, column = 0; i < f->count; i++) {
+            column += i && !f->panel[i]->below;
             scribe s = {.to = to,
                         .kind = kind,
                         .scale = scale,
                         .text = text,
                         .frame = n,
                         .panel = i,
-                        .panels = f->count,
+                        .panels = panels,
+                        .column = column,
+                        .parted = i + 1 < f->count && f->panel[i + 1]->below,
+                        .below = f->panel[i]->below,
+                        .stacked = lower,
                         .caption = t->caption,
                         .foot = foot / h};
             if (!draw_panel(&s, f, &reel->extent[i], error))

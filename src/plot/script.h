@@ -43,6 +43,9 @@ size_t plot_log_tics(const plot_axis *a, double at[PLOT_TICS]);
 /* At most `room` levels for contours of z, in rising order. */
 size_t plot_levels(const plot_map *m, double *level, size_t room);
 
+/* Panels beside each other, those below others left out. */
+size_t plot_columns(const plot_figure *f);
+
 /* ---- script.c: pictures ------------------------------------------------------------------------- */
 
 /* Points are left out only where a line is straight: on terminals whose lines end on whole pixels, a curve of
@@ -98,7 +101,7 @@ typedef struct plot_pages {
     bool braille;
 } plot_pages;
 
-plot_pages plot_pages_for(const plot_target *target, size_t panels, bool one_screen);
+plot_pages plot_pages_for(const plot_target *target, const plot_figure *f, bool one_screen);
 /* A page of gnuplot for each panel of each frame; not of braille. */
 bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
                       calc_error *error);

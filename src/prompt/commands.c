@@ -435,7 +435,7 @@ const command commands[] = {
              "names them. A note says where the residuals of a loop are no noise but go\n"
              "together, by a drift or an offset: fit d0 and F0, or take that off the file.\n"
              "The present values are one start of many; a row before contact, FN(dz) of dz <\n"
-             "0, is one without load.\n\n"
+             "0, is one without load. `plot fit` draws the last fit, and what is left over.\n\n"
              "    $ cat depth.csv\n"
              "    force [N],depth [um]\n"
              "    20,1.21\n"

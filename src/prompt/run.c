@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "commands/expressions.h"
+#include "commands/study_commands.h"
 #include "help/help.h"
 #include "statement/command.h"
 #include "statement/cursor.h"
@@ -27,6 +28,7 @@ void shell_init(shell *sh, FILE *out, FILE *err) {
 void shell_free(shell *sh) {
     record_end(sh, false);
     typed_forget(sh);
+    fit_forget(sh);
     calc_free(&sh->calc);
     for (size_t i = 0; i < EXPRESSIONS; i++)
         expr_free(&sh->list[i]);

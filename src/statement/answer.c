@@ -42,13 +42,13 @@ bool answer_values(const settings *set, FILE *to, const column *columns, const l
     return answer_end(&a, true);
 }
 
-void answer_estimate(answer *a, const column *c, long double si, long double deviation) {
-    a->form->estimate(a, c, si, deviation);
+void answer_estimate(answer *a, const column *c, const estimate *e) {
+    a->form->estimate(a, c, e);
 }
 
-bool answer_beside(answer *a, const column *c, long double si, long double deviation) {
+bool answer_beside(answer *a, const column *c, const estimate *e) {
     if (a->form->beside)
-        a->form->beside(a, c, si, deviation);
+        a->form->beside(a, c, e);
     return a->form->beside != NULL;
 }
 

@@ -21,12 +21,13 @@ bool answer_is_data(const settings *set);
 void answer_value(answer *a, const column *c, long double si);
 /* Such values and no more: an answer of its own. False: out of memory. */
 bool answer_values(const settings *set, FILE *to, const column *columns, const long double *si, size_t count);
-/* `name = value unit +- deviation unit`. In JSON the deviation belongs to the event. */
-void answer_estimate(answer *a, const column *c, long double si, long double deviation);
+/* `name = value unit +- deviation unit`. In JSON the deviation and the ends of an interval belong to the
+ * event. */
+void answer_estimate(answer *a, const column *c, const estimate *e);
 
 /* The last value again, as computed another way: for readers, to compare. False: the form has no place for
  * it. */
-bool answer_beside(answer *a, const column *c, long double si, long double deviation);
+bool answer_beside(answer *a, const column *c, const estimate *e);
 
 /* ---- events: what a command reports ---- */
 

@@ -92,10 +92,14 @@ static void put_csv_value(answer *a, const column *c, long double si) {
     wait_for_row(a, c->name, "", c, si);
 }
 
-static void put_csv_estimate(answer *a, const column *c, long double si, long double deviation) {
+static void put_csv_estimate(answer *a, const column *c, const estimate *e) {
     a->waiting.estimate = a->waiting.count;
-    wait_for_row(a, c->name, "", c, si);
-    wait_for_row(a, c->name, "deviation", c, deviation);
+    wait_for_row(a, c->name, "", c, e->v);
+    wait_for_row(a, c->name, "deviation", c, e->deviation);
+    if (e->uneven) {
+        wait_for_row(a, c->name, "lower", c, e->v - e->below);
+        wait_for_row(a, c->name, "upper", c, e->v + e->above);
+    }
 }
 
 static void put_member(answer *a, const char *name, const answer_cell *c) {

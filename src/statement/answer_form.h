@@ -76,8 +76,8 @@ typedef struct answer_form {
     bool data; /* every line is one for programs */
     int words; /* the first layout that shows what is for readers alone */
     void (*value)(answer *a, const column *c, long double si);
-    void (*estimate)(answer *a, const column *c, long double si, long double deviation);
-    void (*beside)(answer *a, const column *c, long double si, long double deviation);
+    void (*estimate)(answer *a, const column *c, const estimate *e);
+    void (*beside)(answer *a, const column *c, const estimate *e);
     void (*open)(answer *a, const char *kind, const char *text);
     void (*close)(answer *a);
     void (*member)(answer *a, const char *name, const answer_cell *c);

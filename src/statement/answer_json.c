@@ -116,9 +116,8 @@ static void put_json_value(answer *a, const column *c, long double si) {
     end_line(a);
 }
 
-static void put_json_estimate(answer *a, const column *c, long double si, long double deviation) {
-    (void)deviation;
-    put_json_value(a, c, si);
+static void put_json_estimate(answer *a, const column *c, const estimate *e) {
+    put_json_value(a, c, e->v);
 }
 
 /* The units come first, once: rows have but numbers. */

@@ -16,20 +16,15 @@ static void put_text_value(answer *a, const column *c, long double si) {
     fprintf(a->to, "%s = %s%s%s\n", c->name, number, *unit_text ? " " : "", unit_text);
 }
 
-/* Both in the unit of the value. */
-static void put_text_estimate(answer *a, const column *c, long double si, long double deviation) {
-    char unit_text[COLUMN_UNIT], value_text[NUMBER_TEXT], deviation_text[NUMBER_TEXT];
-    const long double scale = column_unit(c, si, a->set->digits, unit_text);
-    number_text(value_text, a->set->digits, (double)(si / scale));
-    number_text(deviation_text, 3, (double)(deviation / scale));
-    const char *blank = *unit_text ? " " : "";
-    fprintf(a->to, "%s = %s%s%s +- %s%s%s\n", c->name, value_text, blank, unit_text, deviation_text, blank,
-            unit_text);
+static void put_text_estimate(answer *a, const column *c, const estimate *e) {
+    char text[ESTIMATE_TEXT];
+    format_estimate(c, a->set->digits, e, text);
+    fprintf(a->to, "%s = %s\n", c->name, text);
 }
 
-static void put_beside(answer *a, const column *c, long double si, long double deviation) {
+static void put_beside(answer *a, const column *c, const estimate *e) {
     fputs("    ", a->to);
-    put_text_estimate(a, c, si, deviation);
+    put_text_estimate(a, c, e);
 }
 
 /* ---- events ------------------------------------------------------------------------------------ */

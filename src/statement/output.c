@@ -137,6 +137,19 @@ void format_row(const settings *set, value v, const char *row, char *buf, size_t
     snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
 }
 
+void format_estimate(const column *c, int digits, const estimate *e, char text[ESTIMATE_TEXT]) {
+    char unit_text[COLUMN_UNIT], number[3][NUMBER_TEXT];
+    const long double scale = column_unit(c, e->v, digits, unit_text);
+    number_text(number[0], digits, (double)(e->v / scale));
+    number_text(number[1], 3, (double)((e->uneven ? e->below : e->deviation) / scale));
+    number_text(number[2], 3, (double)(e->above / scale));
+    const char *blank = *unit_text ? " " : "";
+    int n = snprintf(text, ESTIMATE_TEXT, "%s%s%s %s%s%s%s", number[0], blank, unit_text,
+                     e->uneven ? "(-" : "+- ", number[1], blank, unit_text);
+    if (e->uneven)
+        snprintf(text + n, ESTIMATE_TEXT - (size_t)n, ", +%s%s%s)", number[2], blank, unit_text);
+}
+
 void format_exact(value v, char *buf, size_t size) {
     enum { LEAST = 6 };
     char unit_text[COLUMN_UNIT], number[NUMBER_TEXT];

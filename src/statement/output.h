@@ -41,6 +41,16 @@ long double column_unit(const column *c, long double v, int digits, char unit_te
 /* A value with a unit chosen for it, as text; or in the unit of a row, if it has one. */
 void format_value(const settings *set, value v, char *buf, size_t size);
 void format_row(const settings *set, value v, const char *row, char *buf, size_t size);
+/* A value and its standard error; where the interval is another one, how far down and up that goes. */
+typedef struct estimate {
+    long double v, deviation;
+    bool uneven;
+    long double below, above; /* may be infinite */
+} estimate;
+
+/* `0.62 GPa +- 0.01 GPa`, or `0.62 GPa (-0.01 GPa, +inf)`: all in the unit of the value. */
+enum { ESTIMATE_TEXT = 3 * (NUMBER_TEXT + COLUMN_UNIT) };
+void format_estimate(const column *c, int digits, const estimate *e, char text[ESTIMATE_TEXT]);
 /* The same with as many digits as reading it back takes. */
 void format_exact(value v, char *buf, size_t size);
 /* A text on one line, what does not show escaped: see text/characters.h. Line ends become blanks. */

@@ -52,6 +52,7 @@ typedef struct shell {
     bool (*write_scene)(calc *c, const settings *set, FILE *to, bool whole);
     side_by_side compared;  /* by live */
     int nesting;            /* of `source` and `replay` */
+    struct fitted *fitted;  /* the last fit, for its figure; or NULL */
     expr list[EXPRESSIONS]; /* of a print, table or plot statement, reused */
 } shell;
 

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/branches.h"
+#include "measured/branches.h"
 #include "study/points.h"
 
 /* Where a trial point has no value its residuals are this large: the step is taken back. */
@@ -43,6 +43,7 @@ typedef struct state {
     bool twice;
     size_t bad_row;   /* the last one without a value; NO_ROW: it was not a row's fault */
     double *residual; /* as they are computed */
+    fit_points *kept; /* NULL, or where the sides of equations go, too */
     double *above, *below;
     gsl_vector *beside;       /* where these are */
     gsl_matrix *J;            /* used up by what is asked of it */
@@ -87,6 +88,10 @@ static bool take_sides(void *context, size_t row, const long double x[], const v
                          wants, is);
     }
     to->out[row * s->stride] = (double)(v[0].v - v[1].v);
+    if (s->kept) {
+        s->kept->left[row] = (double)v[0].v;
+        s->kept->right[row] = (double)v[1].v;
+    }
     s->largest = fmax(s->largest, (double)fmaxl(fabsl(v[0].v), fabsl(v[1].v)));
     return true;
 }
@@ -740,6 +745,36 @@ static bool run_fit(state *s, gsl_multifit_nlinear_workspace *w, gsl_vector *q, 
     return false;
 }
 
+void fit_points_free(fit_points *p) {
+    free(p->left);
+    *p = (fit_points){.nodes = 0};
+}
+
+/* Once more at the answer. */
+static bool keep_points(state *s, const gsl_vector *q, fit_points *p, calc_error *error) {
+    const size_t n = s->of->rows;
+    p->nodes = s->loop.noisy ? branches_nodes(&s->loop) : 0;
+    p->left = malloc((3 * n + 2 * p->nodes) * sizeof *p->left);
+    if (!p->left)
+        return calc_no_memory(error);
+    p->right = p->left + n;
+    p->residual = p->right + n;
+    p->x = p->residual + n;
+    p->y = p->x + p->nodes;
+    for (size_t i = 0; i < 2 * p->nodes; i++) /* a last branch without rows is not gone through */
+        p->x[i] = (double)NAN;
+    s->kept = p;
+    s->loop.x = p->nodes ? p->x : NULL;
+    s->loop.F = p->y;
+    const bool ok = residuals(s, q, s->residual);
+    memcpy(p->residual, s->residual, n * sizeof *p->residual);
+    for (size_t i = 0; i < n && !s->of->left; i++) {
+        p->left[i] = s->of->loop.Fx[i];
+        p->right[i] = p->left[i] - p->residual[i];
+    }
+    return ok;
+}
+
 static bool begin_points(state *s, calc_error *error) {
     static const size_t passes = 10; /* a fit goes through the rows more often than that */
     const fit_question *of = s->of;
@@ -798,6 +833,7 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     s.residual = malloc(3 * n * sizeof *s.residual);
     bool ok = w && q && s.beside && s.J && s.residual;
     ok = ok ? run_fit(&s, w, q, out, error) : calc_no_memory(error);
+    ok = ok && (!question->points || keep_points(&s, q, question->points, error));
     if (w)
         gsl_multifit_nlinear_free(w);
     gsl_vector_free(q);

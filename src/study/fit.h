@@ -18,6 +18,13 @@ typedef struct fit_loop {
     bool closed;               /* one cycle of many: it begins in its midst */
 } fit_loop;
 
+/* What a fit is drawn from, in SI: both sides at each row, what is left over, and the curve of a loop. */
+typedef struct fit_points {
+    double *left, *right, *residual; /* residual: in units of the noise, where both columns have it */
+    size_t nodes;                    /* of the curve; 0: it goes through the rows */
+    double *x, *y;
+} fit_points;
+
 typedef struct fit_question {
     calc *c;
     knob name[FIT_NAMES];
@@ -29,6 +36,7 @@ typedef struct fit_question {
     const column_knob *column; /* no more than FIT_COLUMNS, borrowed */
     size_t columns;
     fit_loop loop;
+    fit_points *points; /* wanted, to be freed; or NULL */
 } fit_question;
 
 typedef struct fit_answer {
@@ -52,5 +60,6 @@ typedef struct fit_answer {
 const char *fit_instead(const char *a,
                         const char *b); /* what to measure that tells two names apart, or NULL */
 bool fit(const fit_question *question, fit_answer *out, calc_error *error);
+void fit_points_free(fit_points *p);
 
 #endif

@@ -633,7 +633,58 @@ def units(tests):
     tests.check("no load is needed", done.returncode == 0 and done.stdout.startswith("x^2 = 4 +- 0.4\n"), tests.report(done))
 
 
+def drawn(path):
+    """Panels of a kept figure: lists of series, each a list of points."""
+    panels, points = {}, None
+    with open(path, encoding="utf-8") as f:
+        for line in f:
+            begun = re.match(r"\$data0_(\d+)_(\d+) <<", line)
+            if begun:
+                points = panels.setdefault(int(begun.group(1)), {}).setdefault(int(begun.group(2)), [])
+            elif line.startswith("END"):
+                points = None
+            elif points is not None and line.strip():
+                points.append(tuple(map(float, line.split())))
+    return [[series for _, series in sorted(panel.items())] for _, panel in sorted(panels.items())]
+
+
+def figure(tests):
+    """Points, the curve of the fitted values, what is left over below, and the values with their errors in the key."""
+    done = tests.run("-c", "plot fit")
+    tests.check("plot fit: none yet", done.returncode == 1 and "there is no fit yet: fit INPUT, ... along FILE.csv" in done.stderr, tests.report(done))
+    mu, E0, noise = 0.62, 210e9, random.Random(1)
+    path = [2e-6 * math.sin(2 * math.pi * i / 200) for i in range(251)]
+    rows = [(d * 1e6 + noise.gauss(0, 0.01), f + noise.gauss(0, 0.5)) for d, f in zip(path, loop(mu, E0, path))]
+    name, to = write(tests, "shown.csv", "dx [um],Fx [N]", rows), os.path.join(tests.dir, "shown")
+    values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along %s; material steel; reset; plot fit to %s.gp; plot fit to %s.png" % (name, to, to))
+    (points, curve, key), (over,) = drawn(to + ".gp")
+    tests.check("plot fit: points and residuals", len(points) == len(over) == event["rows"] == 251 and all(
+        abs(p[0] - r[0]) < 1e-6 and abs(p[1] - r[1]) < 1e-6 and p[0] == o[0] for p, r, o in zip(points, rows, over))
+                and abs(math.sqrt(sum(o[1] ** 2 for o in over) / 251) / event["rms"] - 1) < 0.02 and not key, tests.report(done))
+    ours = loop(values["mu"], values["E0"], [x * 1e-6 for x, _ in curve])
+    tests.check("plot fit: the curve", len(curve) > 100 and max(abs(F - f) for (_, F), f in zip(curve, ours)) < 0.05, str(curve[:9]))
+    with open(to + ".gp", encoding="utf-8") as f:
+        text = f.read()
+    tests.check("plot fit: the key", "= %.6g +- %.3g" % (values["mu"], event["deviation"]["mu"]) in text and "of the noise" in text and
+                "= %.6g GPa +- %.3g GPa" % (values["E0"] / 1e9, event["deviation"]["E0"] / 1e9) in text, text[-3000:])
+    tests.check("plot fit: a picture", os.path.getsize(to + ".png") > 20000, tests.report(done))
+    done = tests.run("-c", SETUP % (210, 0.4) + "; fit mu, E0 along %s; plot fit | fit title \"again\"" % name)
+    tests.check("plot fit: in the terminal", done.stdout.count("shown.csv") == 2 == done.stdout.count("left over: rms = "), tests.report(done))
+    noisy = write(tests, "depths.csv", "force [N],depth [um]", [(80, 3.09), (20, 1.21), (120, 4.09), (50, 2.28)])
+    values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit E0 for depth = dz(force) to %s; plot fit to %s.gp" % (noisy, to))
+    (points, curve), (over,) = drawn(to + ".gp")
+    cN = values["E0"] / (2 * (1 - NU ** 2))
+    tests.check("plot fit: an equation", [p[0] for p in curve] == [20, 50, 80, 120] and all(
+        abs(depth - (3 * F / (4 * cN) / math.sqrt(R)) ** (2 / 3) * 1e6) < 1e-6 for F, depth in curve) and
+        [p[0] for p in points] == [o[0] for o in over] == [80, 20, 120, 50], str((points, curve, over)))
+    several = write(tests, "several.csv", "u,v,w", [(1, 1, 2.1), (2, 1, 2.9), (1, 3, 4.2), (4, 1, 5)])
+    done = tests.run("-c", "x = 1; fit x for w = x*(u + v) to %s; plot fit to %s.gp; plot fit" % (several, to))
+    (points, curve), _ = drawn(to + ".gp")
+    tests.check("plot fit: over rows", [p[0] for p in points] == [1, 2, 3, 4] and "row" in done.stdout, tests.report(done))
+
+
 def run(tests):
+    figure(tests)
     columns(tests)
     wide_ranges(tests)
     units(tests)

@@ -95,17 +95,22 @@ static void plain(void) {
 }
 
 static void page_sizes(void) {
+    plot_panel above = {.count = 0}, lower = {.below = true};
+    const plot_figure one = {1, {&above}}, two = {2, {&above, &above}}, stacked = {2, {&above, &lower}};
     plot_target t = {.columns = 20, .rows = 5};
-    plot_pages p = plot_pages_for(&t, 1, true);
+    plot_pages p = plot_pages_for(&t, &one, true);
     CHECK(p.columns == 30 && p.rows == 8);
     t = (plot_target){.columns = 90, .rows = 30};
-    p = plot_pages_for(&t, 2, true);
+    p = plot_pages_for(&t, &two, true);
     CHECK(!p.beside && p.columns == 90 && p.rows == 15);
-    p = plot_pages_for(&t, 2, false);
+    p = plot_pages_for(&t, &two, false);
     CHECK(!p.beside && p.columns == 90 && p.rows == 30);
     t.columns = 100;
-    p = plot_pages_for(&t, 2, true);
+    p = plot_pages_for(&t, &two, true);
     CHECK(p.beside && p.columns == 50 && p.rows == 30);
+    p = plot_pages_for(&t, &stacked, false);
+    CHECK(!p.beside && p.columns == 100 && p.rows == 30);
+    CHECK(plot_columns(&two) == 2 && plot_columns(&stacked) == 1);
 }
 
 /* Whatever the bytes: no control character, quote or newline leaves the quoting. */

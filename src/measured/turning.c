@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Noise by differences, turning points by a threshold, levels by parabolas. */
-#include "study/turning.h"
+#include "measured/turning.h"
 
 #include <math.h>
 #include <stdlib.h>

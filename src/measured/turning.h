@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where a measured column turns, above its noise. Knows numbers alone. */
-#ifndef STUDY_TURNING_H
-#define STUDY_TURNING_H
+#ifndef MEASURED_TURNING_H
+#define MEASURED_TURNING_H
 
 #include "text/error.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where a measured profile is its own mirror image. Knows numbers alone. */
-#ifndef STUDY_APEX_H
-#define STUDY_APEX_H
+#ifndef MEASURED_APEX_H
+#define MEASURED_APEX_H
 
 #include "text/error.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A measured loop with noise in both columns, as branches between turning points: how far each row is from
  * the curve of a model, across it, in units of the two noises. Knows numbers, and the model by a function. */
-#ifndef STUDY_BRANCHES_H
-#define STUDY_BRANCHES_H
+#ifndef MEASURED_BRANCHES_H
+#define MEASURED_BRANCHES_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -26,6 +26,7 @@ typedef struct branches {
     size_t *first;  /* row of each branch, of which there is one more; and their end */
     double *turn;   /* of them, as they are tried */
     double *across; /* of each row: its distance; then of each turning point */
+    double *x, *F;  /* NULL, or room for branches_nodes: the curve, as it is gone through */
     /* private */
     bool up;      /* the first of them; the others follow in turn */
     double end;   /* of the last */
@@ -37,6 +38,7 @@ typedef struct branches {
 bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, calc_error *error);
 void branches_free(branches *b);
 
+size_t branches_nodes(const branches *b);
 /* Rows of the first branches, which tell as much as a glance needs. */
 size_t branches_glance(const branches *b);
 /* Distances of all rows from the curve at the present turning points; of every n-th row, n > 1: of the first

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a measured hysteresis loop says of itself, cycle by cycle. Knows numbers alone. */
-#ifndef STUDY_LOOP_H
-#define STUDY_LOOP_H
+#ifndef MEASURED_LOOP_H
+#define MEASURED_LOOP_H
 
 #include "text/error.h"
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Turning points, a table of the curve to each branch, and feet of perpendiculars on it. */
-#include "study/branches.h"
+#include "measured/branches.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/turning.h"
+#include "measured/turning.h"
 
 enum { NODES = 97 }; /* of a branch, closer where it begins */
 
@@ -198,6 +198,10 @@ static bool run_branch(const branches *b, size_t branch, table *t, branches_step
         if (!step(context, from + place(i) * (to - from), b->normal ? b->load[branch * NODES + i] : 0,
                   &t->x[i], &t->F[i]))
             return false;
+    for (size_t i = 0; i < NODES && b->x; i++) {
+        b->x[branch * NODES + i] = t->x[i];
+        b->F[branch * NODES + i] = t->F[i];
+    }
     bend(t);
     return true;
 }
@@ -254,6 +258,10 @@ static bool run_before(const branches *b, branches_step *step, void *context) {
         if (!step(context, b->turn[i], b->normal ? b->load[i * NODES + NODES - 1] : 0, &x, &F))
             return false;
     return true;
+}
+
+size_t branches_nodes(const branches *b) {
+    return (b->turns + 1) * NODES;
 }
 
 enum { GLANCE = 6 };

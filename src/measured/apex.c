@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The least asymmetry, over a grid of places and then between two of them. */
-#include "study/apex.h"
+#include "measured/apex.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Turning points part the rows into cycles; each is measured by itself. */
-#include "study/loop.h"
+#include "measured/loop.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "study/turning.h"
+#include "measured/turning.h"
 
 typedef struct measured {
     const double *x, *F;
