@@ -8,8 +8,9 @@
 #include "commands/expressions.h"
 #include "commands/figures.h"
 #include "commands/study_commands.h"
-#include "study/fit.h"
 #include "measured/loop.h"
+#include "study/determined.h"
+#include "study/fit.h"
 
 const char study_library[] = "";
 
@@ -193,7 +194,7 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
                          a->correlation[i][j]);
             if (fabs(a->correlation[i][j]) <= 0.99)
                 continue;
-            const char *instead = fit_instead(q->name[i].text, q->name[j].text);
+            const char *instead = determined_instead(q->name[i].text, q->name[j].text);
             shell_note(sh, "the data hardly tell %s and %s apart%s%s", q->name[i].text, q->name[j].text,
                        instead ? ": " : "", instead ? instead : "");
         }

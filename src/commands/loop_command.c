@@ -5,9 +5,9 @@
 
 #include "commands/columns.h"
 #include "commands/study_commands.h"
+#include "measured/loop.h"
 #include "statement/answer.h"
 #include "statement/target.h"
-#include "measured/loop.h"
 
 /* What is told of a cycle, in the order of its table; the flag at the end is 1 or 0 there. */
 static const struct {

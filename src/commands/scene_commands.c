@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "commands/columns.h"
+#include "measured/apex.h"
 #include "number/real.h"
 #include "scene/presets.h"
 #include "statement/answer.h"
 #include "statement/command.h"
-#include "measured/apex.h"
 #include "study/smooth.h"
 
 /* ---- gathering --------------------------------------------------------------------------------- */

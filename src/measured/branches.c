@@ -58,21 +58,32 @@ static void find_levels(branches *b, const size_t *at) {
         const size_t from = i ? (at[i - 1] + at[i]) / 2 : at[i] / 2,
                      to = i + 1 < b->turns ? (at[i] + at[i + 1]) / 2 : (at[i] + last) / 2;
         b->level[i] = turning_level(b->dx, at[i], from, to, b->noise_dx, true);
+        b->force[i] = turning_level(b->Fx, at[i], from, at[i], b->noise_Fx, false);
         b->first[i + 1] = at[i] > 0 ? crest(b, at[i], from, to) + 1 : 0;
     }
     b->first[0] = 0;
     b->first[b->turns + 1] = b->rows;
-    memcpy(b->turn, b->level, b->turns * sizeof *b->turn);
+    branches_begin(b);
+}
+
+/* Where the contact is. */
+static double contact(const branches *b, double dx, double Fx) {
+    return dx - b->d0 - b->compliance * (Fx - b->F0);
+}
+
+void branches_begin(branches *b) {
+    for (size_t i = 0; i < b->turns; i++)
+        b->turn[i] = contact(b, b->level[i], b->force[i]);
 }
 
 /* ---- branches ---------------------------------------------------------------------------------- */
 
 static double begin_of(const branches *b, size_t branch) {
-    return branch ? b->turn[branch - 1] : b->twice && b->turns ? b->turn[b->turns - 1] : b->rest;
+    return branch ? b->turn[branch - 1] : b->twice && b->turns ? b->turn[b->turns - 1] : 0;
 }
 
 static double end_of(const branches *b, size_t branch) {
-    return branch < b->turns ? b->turn[branch] : b->end;
+    return branch < b->turns ? b->turn[branch] : contact(b, b->end, b->end_force);
 }
 
 static bool goes_up(const branches *b, size_t branch) {
@@ -84,10 +95,11 @@ static void find_ends(branches *b) {
     const size_t begin = b->first[b->turns], last = b->rows - 1;
     b->up = (b->turns ? b->turn[0] : b->dx[last]) > begin_of(b, 0);
     const bool up = goes_up(b, b->turns);
-    b->end = b->turns ? b->turn[b->turns - 1] : 0;
+    size_t at = begin < b->rows ? begin : last;
     for (size_t i = begin; i < b->rows; i++)
-        b->end = up ? fmax(b->end, b->dx[i]) : fmin(b->end, b->dx[i]);
-    b->end += (up ? 4 : -4) * b->noise_dx;
+        at = (up ? b->dx[i] > b->dx[at] : b->dx[i] < b->dx[at]) ? i : at;
+    b->end = b->dx[at] + (up ? 4 : -4) * b->noise_dx;
+    b->end_force = b->Fx[at];
 }
 
 /* Of nodes along a branch: they are closer where it begins and bends most. */
@@ -114,7 +126,7 @@ static bool find_loads(branches *b, calc_error *error) {
         double *load = b->load + k * NODES, sum[NODES] = {0}, count[NODES] = {0}, before = b->normal[0];
         const double from = begin_of(b, k), width = end_of(b, k) - from;
         for (size_t i = b->first[k]; i < b->first[k + 1] && !constant; i++) {
-            const double at = fmin(node_at((b->dx[i] - from) / width), NODES - 1);
+            const double at = fmin(node_at((contact(b, b->dx[i], b->Fx[i]) - from) / width), NODES - 1);
             const size_t node = (size_t)(at >= 0 ? round(at) : 0);
             sum[node] += b->normal[i];
             count[node]++;
@@ -147,13 +159,15 @@ bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, ca
     b->noise_Fx = fmax(b->noise_Fx, 1e-6 * height);
     b->noisy = noise_dx > 0 ||
                (b->noise_dx > 1e-4 * b->range && b->noise_dx / b->range > 0.02 * b->noise_Fx / height);
-    b->memory = malloc((3 * b->turns + n + (b->turns + 1) * NODES) * sizeof *b->memory);
+    b->memory = malloc((4 * b->turns + 2 * n + (b->turns + 1) * NODES) * sizeof *b->memory);
     if (!b->memory)
         return free(at), calc_no_memory(error);
     b->level = b->memory;
-    b->turn = b->level + b->turns;
+    b->force = b->level + b->turns;
+    b->turn = b->force + b->turns;
     b->across = b->turn + b->turns;
-    b->load = b->across + n + b->turns;
+    b->foot = b->across + n + b->turns;
+    b->load = b->foot + n;
     find_levels(b, at);
     free(at);
     find_ends(b);
@@ -169,8 +183,15 @@ void branches_free(branches *b) {
 
 /* ---- the curve of a branch --------------------------------------------------------------------- */
 
+/* A piece between two nodes: a cubic in s = 0..1, and the second derivative, which is linear. */
+typedef struct piece {
+    double x, by; /* where it begins; 1/length */
+    double F[4], bend, more;
+} piece;
+
 typedef struct table {
-    double x[NODES], F[NODES], slope[NODES], bend[NODES];
+    double x[NODES], F[NODES], slope[NODES], way;
+    piece piece[NODES - 1];
 } table;
 
 /* The slope at b of the parabola through three points, one after the other. */
@@ -180,16 +201,24 @@ static double slope_at(const double *x, const double *F, size_t a, size_t b, siz
     return left + part * (right - left);
 }
 
+static double bend_at(const table *t, size_t i) {
+    const size_t at = i < 1 ? 1 : i > NODES - 2 ? NODES - 2 : i;
+    return (t->slope[at + 1] - t->slope[at - 1]) / (t->x[at + 1] - t->x[at - 1]);
+}
+
 static void bend(table *t) {
     const size_t last = NODES - 1;
     for (size_t i = 1; i < last; i++)
         t->slope[i] = slope_at(t->x, t->F, i - 1, i, i + 1);
     t->slope[0] = 2 * (t->F[1] - t->F[0]) / (t->x[1] - t->x[0]) - t->slope[1];
     t->slope[last] = 2 * (t->F[last] - t->F[last - 1]) / (t->x[last] - t->x[last - 1]) - t->slope[last - 1];
-    for (size_t i = 1; i < last; i++)
-        t->bend[i] = (t->slope[i + 1] - t->slope[i - 1]) / (t->x[i + 1] - t->x[i - 1]);
-    t->bend[0] = t->bend[1];
-    t->bend[last] = t->bend[last - 1];
+    t->way = t->x[last] - t->x[0];
+    for (size_t i = 0; i < last; i++) {
+        const double h = t->x[i + 1] - t->x[i], rise = t->F[i + 1] - t->F[i], a = h * t->slope[i] - rise,
+                     c = h * t->slope[i + 1] - rise, from = bend_at(t, i);
+        t->piece[i] =
+            (piece){t->x[i], 1 / h, {t->F[i], rise + a, -2 * a - c, a + c}, from, bend_at(t, i + 1) - from};
+    }
 }
 
 static bool run_branch(const branches *b, size_t branch, table *t, branches_step *step, void *context) {
@@ -206,49 +235,51 @@ static bool run_branch(const branches *b, size_t branch, table *t, branches_step
     return true;
 }
 
+/* second: derivative of the slope, which jumps at nodes; bend: the like that is even. */
 typedef struct point {
-    double F, slope, bend;
+    double F, slope, second, bend;
 } point;
 
-/* Cubic pieces; straight on beyond both ends. */
+/* Straight on beyond both ends. */
 static point curve(const table *t, double x) {
     const size_t last = NODES - 1;
-    const double way = t->x[last] - t->x[0], part = (x - t->x[0]) / way;
+    const double part = (x - t->x[0]) / t->way;
     if (!(part > 0 && part < 1)) {
         const size_t end = part > 0 ? last : 0;
-        return (point){t->F[end] + t->slope[end] * (x - t->x[end]), t->slope[end], 0};
+        return (point){t->F[end] + t->slope[end] * (x - t->x[end]), t->slope[end], 0, 0};
     }
-    size_t lo = (size_t)node_at(part);
-    lo = lo < last ? lo : last - 1;
-    while (lo > 0 && (t->x[lo] - t->x[0]) / way > part)
-        lo--;
-    while (lo + 2 < NODES && (t->x[lo + 1] - t->x[0]) / way <= part)
-        lo++;
-    const size_t hi = lo + 1;
-    const double h = t->x[hi] - t->x[lo], s = (x - t->x[lo]) / h, rise = (t->F[hi] - t->F[lo]) / h,
-                 a = t->slope[lo] - rise, c = t->slope[hi] - rise;
-    return (point){t->F[lo] + h * (s * rise + s * (1 - s) * ((1 - s) * a - s * c)),
-                   rise + (1 - s) * (1 - 3 * s) * a + s * (3 * s - 2) * c,
-                   (1 - s) * t->bend[lo] + s * t->bend[hi]};
+    size_t at = (size_t)node_at(part);
+    at = at < last ? at : last - 1;
+    while (at > 0 && (t->piece[at].x - x) * t->way > 0)
+        at--;
+    while (at + 1 < last && (t->piece[at + 1].x - x) * t->way <= 0)
+        at++;
+    const piece *p = &t->piece[at];
+    const double s = (x - p->x) * p->by;
+    return (point){p->F[0] + s * (p->F[1] + s * (p->F[2] + s * p->F[3])),
+                   (p->F[1] + s * (2 * p->F[2] + s * 3 * p->F[3])) * p->by,
+                   (2 * p->F[2] + s * 6 * p->F[3]) * p->by * p->by, p->bend + s * p->more};
 }
 
-/* From the foot of the perpendicular, by the method of Gauss and Newton. */
-static double across(const branches *b, const table *t, double x, double F) {
+/* From the foot of the perpendicular, by Newton's method: one step is enough where the curve has hardly
+ * moved.
+ */
+static double across(const branches *b, const table *t, double x, double F, double *foot) {
     enum { STEPS = 8 };
-    const double sx = b->noisy ? b->noise_dx : 0, sF = b->noise_Fx;
-    double foot = x;
-    point at = curve(t, foot);
+    const double sx = b->noisy ? b->noise_dx : 0, sF = b->noise_Fx, unit = sx / sF;
+    point at = curve(t, *foot);
     for (int i = 0; i < STEPS && sx > 0; i++) {
-        const double steep = at.slope * sx / sF, off = (x - foot) / sx + steep * (F - at.F) / sF,
-                     by = off / (1 + steep * steep) * sx;
-        foot += by;
-        at = curve(t, foot);
+        const double steep = at.slope * unit, flat = 1 + steep * steep,
+                     by = ((x - *foot) + steep * (F - at.F) * unit) /
+                          fmax(flat - at.second * (F - at.F) * unit * unit, 0.5 * flat);
+        *foot += by;
+        at = curve(t, *foot);
         if (fabs(by) < 1e-6 * sx)
             break;
     }
-    const double steep = at.slope * sx / sF, along = sqrt(1 + steep * steep),
-                 bent = at.bend * sx * sx / sF / (along * along * along);
-    return ((F - at.F) - at.slope * (x - foot)) / sF / along + fmax(-0.5, fmin(0.5, bent / 2));
+    const double steep = at.slope * unit, along = sqrt(1 + steep * steep),
+                 bent = at.bend * sx * unit / (along * along * along);
+    return ((F - at.F) - at.slope * (x - *foot)) / sF / along + fmax(-0.5, fmin(0.5, bent / 2));
 }
 
 /* Those that a closed loop has come through before it begins. */
@@ -282,8 +313,11 @@ bool branches_across(branches *b, size_t n, branches_step *step, void *context) 
             return false;
         if (k < b->turns && b->noisy)
             b->across[b->rows + k] = (b->level[k] - t.x[NODES - 1]) / b->noise_dx;
-        for (size_t i = (b->first[k] + n - 1) / n * n; i < b->first[k + 1]; i += n)
-            b->across[i] = across(b, &t, b->dx[i], b->Fx[i]);
+        for (size_t i = (b->first[k] + n - 1) / n * n; i < b->first[k + 1]; i += n) {
+            double foot = b->warm ? b->foot[i] : b->dx[i];
+            b->across[i] = across(b, &t, b->dx[i], b->Fx[i], &foot);
+            b->foot[i] = b->warm ? b->foot[i] : foot;
+        }
     }
     return true;
 }

@@ -230,13 +230,22 @@ def moved_starts(tests):
     for start in (0.05, 0.4, 2):
         values, event, done = answers(tests, SETUP % (210, start) + "; fit mu for Ed = dW(Q) to " + name)
         tests.check("fit: losses from mu = %g" % start, event and abs(values["mu"] / 0.7 - 1) < 1e-6, tests.report(done))
+    zeros = write(tests, "zeros.csv", "u,y", ((1, 0), (2, 0), (3, 0)))
+    values, event, done = answers(tests, "s = -1; fit s for y = log(s*u) to " + zeros)
+    tests.check("fit: a start of the wrong sign", event and abs(values["s"] * 6 ** (1 / 3) - 1) < 1e-6, tests.report(done))
+    noise = random.Random(2)
+    name = write(tests, "wave.csv", "t,y", [(0.1 * i, 2 * math.sin(0.3 * i) + noise.gauss(0, 0.1)) for i in range(100)])
+    for w in (1, 2, 3, 3.3, 6, 10):  # all but two of them have a least of their own beside them
+        values, event, done = answers(tests, "q = 1; w = %g; fit q, w for y = q*sin(w*t) to %s" % (w, name))
+        tests.check("fit: the least of several, from w = %g" % w, event and all(
+            abs(values[n] - true) < 2 * event["deviation"][n] for n, true in (("q", 2), ("w", 3))), tests.report(done))
     noise = random.Random(3)
     cN = 210e9 / (2 * (1 - NU ** 2))
     rows = [(h + noise.gauss(0, 0.002), (4 / 3 * cN * math.sqrt(R) * max(h - 0.4, 0) ** 1.5 * 1e-9) + noise.gauss(0, 0.2))
             for h in (0.04 * i for i in range(80))]
     name = write(tests, "indented.csv", "Depth [um],Load [N]", rows)
     first = None
-    for h0 in (0, 0.5, 3, -3):
+    for h0 in (0, 0.5, 3, -3, 10):
         for E in (0.21, 100, 210e3):
             values, event, done = answers(tests, SETUP % (E, 0.4) + "; h0 = %g um; fit E0, h0 for Load = FN(Depth - h0) to %s" % (h0, name))
             first = first or values
@@ -528,7 +537,7 @@ def refusals(tests):
              "for y = 15 + max(s - 1, (1 - s)/10) + x1*sin(u*w) + x2*cos(u*w) + x3*sin(2*u*w) + x4*cos(2*u*w) + x5*sin(3*u*w) "
              "+ x6*cos(3*u*w) + x7*sin(4*u*w) to {waves}", "the fit does not settle"),
             ("s = 1; fit s for y = u + 0*s to {exact}", "the data do not determine s: nothing in them depends on it"),
-            ("s = -1; fit s for y = log(s*u) to {zero}", "log is not defined there (row 1 of the data)"),
+            ("s = -1; fit s for y = log(-s^2*u) to {zero}", "log is not defined there (row 1 of the data)"),
             ("s = 1; fit s for y = s*u/(u - 2) to {exact}", "division by zero (row 2 of the data)"),
             ("s = 1; fit s for y/(u - 2) = s to {exact}", "division by zero (row 2 of the data)"),
             (scene + "fit E0 for depth = dz(force) to {neg}", "FN = -3 N must not be negative (row 2 of the data)"),

@@ -1,0 +1,458 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rows as equations, as steps of a loop, or as distances from its branches. */
+#include "study/residuals.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double apart = 1e-5; /* of the two places of a difference, as a part of q */
+
+double residuals_unknown(const residuals *r, size_t i) {
+    return r->ratio[i] ? r->start[i] * exp(r->q[i] - 1) : r->start[i] + r->scale[i] * (r->q[i] - 1);
+}
+
+/* ---- equations --------------------------------------------------------------------------------- */
+
+typedef struct sides {
+    residuals *r;
+    double *out; /* left - right of all rows */
+} sides;
+
+static size_t step_of(const residuals *r) {
+    return r->stride ? r->stride : 1;
+}
+
+static void give_data(void *context, size_t row, long double x[]) {
+    const residuals *r = ((const sides *)context)->r;
+    const fit_question *of = r->of;
+    for (size_t i = 0; i < of->count; i++)
+        x[i] = r->x[i];
+    for (size_t j = 0; j < of->columns; j++)
+        x[of->count + j] = of->column[j].v[row * step_of(r)];
+}
+
+static bool take_sides(void *context, size_t row, const long double x[], const value v[],
+                       const calc_error *why) {
+    const sides *to = context;
+    residuals *r = to->r;
+    (void)x;
+    r->bad_row = row * step_of(r);
+    if (why || !points_keeps(&r->p, 0, v[0].d, &r->d, &r->known))
+        return false;
+    if (!dim_equal(v[1].d, r->d)) {
+        const expr *right = &r->sides[1];
+        char is[128], wants[128];
+        dim_describe(r->d, wants, sizeof wants);
+        dim_describe(v[1].d, is, sizeof is);
+        return calc_fail(r->p.error, right->at, right->len, "the left side is %s, the right side is %s",
+                         wants, is);
+    }
+    to->out[r->bad_row] = (double)(v[0].v - v[1].v);
+    if (r->kept) {
+        r->kept->left[row] = (double)v[0].v;
+        r->kept->right[row] = (double)v[1].v;
+    }
+    r->largest = fmax(r->largest, (double)fmaxl(fabsl(v[0].v), fabsl(v[1].v)));
+    return true;
+}
+
+static bool equations(residuals *r, double *out) {
+    sides to = {r, out};
+    return points_go(&r->p, &(points_run){.count = (r->of->rows - 1) / step_of(r) + 1,
+                                          .give = give_data,
+                                          .take = take_sides,
+                                          .context = &to});
+}
+
+/* ---- loops ------------------------------------------------------------------------------------- */
+
+/* The press that everything begins with. */
+static bool press_of(residuals *r, load_step *out, calc_error *error) {
+    scene *tried = &r->p.t->scene;
+    const fit_loop *loop = &r->of->loop;
+    long double imposed;
+    *out = (load_step){.kind = LOAD_PRESS, .normal = BY_FORCE};
+    if (loop->normal) {
+        out->normal = (unsigned char)loop->normal_by;
+        out->normal_value = r->loop.noisy ? r->loop.load[0] : loop->normal[0];
+        return true;
+    }
+    if (!tried->end.steps)
+        return calc_fail(error, 0, 0, "there is no load yet: press first (press FN=100 N)");
+    *out = tried->program->steps[0];
+    if (!scene_get(tried, press_input((load_by)out->normal), &imposed, error))
+        return false;
+    out->normal_value = (double)imposed;
+    return true;
+}
+
+/* A step to a displacement of the contact or of the rig. */
+static fret_status step_to(const residuals *r, runner *run, unsigned char by, double to, double normal,
+                           fret_state *now) {
+    const fit_loop *loop = &r->of->loop;
+    load_item item = {.step = {.kind = LOAD_STEP, .tangential = by, .tangential_value = to}};
+    if (loop->normal) {
+        item.step.normal = (unsigned char)loop->normal_by;
+        item.step.normal_value = normal;
+    }
+    const fret_status st = run_item(run, &item);
+    engine_forces(&run->engine, now);
+    return st;
+}
+
+static fret_status run_rows(residuals *r, runner *run, double *out) {
+    const fit_loop *loop = &r->of->loop;
+    fret_status st = {.code = FRET_OK};
+    fret_state now;
+    for (size_t pass = 0; pass < 1u + r->twice; pass++)
+        for (size_t i = 0; i < r->of->rows && !st.code; i++) {
+            r->bad_row = i;
+            st = step_to(r, run, loop->rig ? BY_RIG : BY_DISPLACEMENT, loop->dx[i] - r->d0,
+                         loop->normal ? loop->normal[i] : 0, &now);
+            out[i] = loop->Fx[i] - r->F0 - (double)now.Fx;
+        }
+    return st;
+}
+
+typedef struct way {
+    residuals *r;
+    runner *run;
+    fret_status status;
+} way;
+
+/* By the displacement of the contact, which tells what the rig reads: not the other way round. */
+static bool step_branch(void *context, double dx, double normal, double *x, double *F) {
+    way *w = context;
+    fret_state now;
+    w->status = step_to(w->r, w->run, BY_DISPLACEMENT, dx, normal, &now);
+    *x = dx + w->r->loop.compliance * (double)now.Fx + w->r->d0;
+    *F = (double)now.Fx + w->r->F0;
+    return !w->status.code;
+}
+
+static fret_status run_branches(residuals *r, runner *run, double *out) {
+    way w = {.r = r, .run = run, .status = {.code = FRET_OK}};
+    r->bad_row = NO_ROW;
+    if (r->stride)
+        branches_begin(&r->loop);
+    branches_across(&r->loop, step_of(r), step_branch, &w);
+    memcpy(out, r->loop.across, r->count * sizeof *out);
+    return w.status;
+}
+
+static bool read_rig(residuals *r, scene *tried, calc_error *error) {
+    static const input of[] = {IN_K_RIG, IN_D0, IN_F0};
+    double *const to[] = {&r->K_rig, &r->d0, &r->F0};
+    for (size_t i = 0; i < 3; i++) {
+        long double v;
+        if (!scene_get(tried, of[i], &v, error))
+            return false;
+        *to[i] = (double)v;
+    }
+    r->loop.compliance = 1 / r->K_rig;
+    r->loop.d0 = r->d0;
+    r->loop.F0 = r->F0;
+    return true;
+}
+
+static bool loop_run(residuals *r, double *out) {
+    scene *tried = &r->p.t->scene;
+    load_view view = {.in = &tried->in, .stop = r->of->c->scene.stop};
+    runner run = {.load = &view};
+    load_item press = {.extra = {0}};
+    calc_error error;
+    error_clear(&error);
+    r->bad_row = NO_ROW;
+    if (!points_set(&r->p, r->x))
+        return false;
+    tried->used |= ASKED_TANGENTIAL;
+    if (!scene_normal(tried, &view.normal, &error) || !scene_friction(tried, &view.mu, &error) ||
+        !press_of(r, &press.step, &error) || (r->of->loop.rig && !read_rig(r, tried, &error)))
+        return points_failed(&r->p, &error);
+    view.K_rig = r->K_rig;
+    fret_status st = engine_make(&run.engine, MODEL_MEMORY, view.normal, view.mu, 0, 0);
+    if (!st.code)
+        st = run_item(&run, &press);
+    if (!st.code)
+        st = r->loop.noisy || r->stride ? run_branches(r, &run, out) : run_rows(r, &run, out);
+    engine_end(&run.engine);
+    r->d = r->loop.noisy ? DIM_NONE : DIM_FORCE;
+    r->known = true;
+    if (!r->p.error->raised && !calc_status(&error, &st))
+        points_failed(&r->p, &error);
+    return !st.code && !r->p.error->raised;
+}
+
+/* ---- of all ------------------------------------------------------------------------------------ */
+
+bool residuals_at(residuals *r, double *out) {
+    const size_t names = r->of->count;
+    for (size_t i = 0; i < names; i++)
+        r->x[i] = residuals_unknown(r, i);
+    for (size_t i = names; i < r->unknowns && !r->stride; i++)
+        r->loop.turn[i - names] = residuals_unknown(r, i);
+    memcpy(r->now, r->q, sizeof r->now);
+    r->evaluations++;
+    if (r->stride)
+        memset(out, 0, r->count * sizeof *out);
+    return r->of->left ? equations(r, out) : loop_run(r, out);
+}
+
+/* ---- slopes ------------------------------------------------------------------------------------ */
+
+/* A turning point is felt from the end of the branch that it ends until the next but one wipes it out: in the
+ * rows of these branches and in the levels that they come to. The last one of a closed loop, which comes
+ * before all, is felt everywhere, as names are: these are columns of their own, in front. */
+enum { FELT = 4, WIDEST = FIT_NAMES + 1 + FELT };
+
+static size_t banded(const residuals *r) {
+    const size_t turns = r->unknowns - r->of->count;
+    return turns - (r->twice && turns > 0);
+}
+
+static size_t dense(const residuals *r) {
+    return r->unknowns - banded(r);
+}
+
+static size_t width(const residuals *r) {
+    return dense(r) + (banded(r) ? FELT : 0);
+}
+
+/* The unknown of a column in front. */
+static size_t dense_unknown(const residuals *r, size_t column) {
+    return column < r->of->count ? column : r->unknowns - 1;
+}
+
+/* Rows that the same unknowns are felt in: those of a branch, or the level of a turning point. */
+typedef struct block {
+    size_t begin, end;
+    size_t turn; /* the latest turning point that is felt, from 1; 0: none */
+} block;
+
+static size_t block_count(const residuals *r) {
+    const size_t turns = r->unknowns - r->of->count;
+    return turns ? 2 * turns + 1 : 1;
+}
+
+static block block_at(const residuals *r, size_t i) {
+    const size_t turns = r->unknowns - r->of->count, rows = r->of->rows;
+    if (!turns)
+        return (block){0, rows, 0};
+    return i <= turns ? (block){r->loop.first[i], r->loop.first[i + 1], i + 1}
+                      : (block){rows + i - turns - 1, rows + i - turns, i - turns};
+}
+
+/* The unknown of each column in the rows of a block, as a place among those that vary; or none. */
+static void unknowns_of(const residuals *r, const block *b, size_t *place) {
+    size_t at[UNKNOWNS];
+    const size_t fronts = dense(r), n = width(r);
+    for (size_t i = 0; i < r->unknowns; i++)
+        at[i] = NO_ROW;
+    for (size_t i = 0; i < r->frees; i++)
+        at[r->free[i]] = i;
+    for (size_t i = 0; i < n; i++) {
+        const size_t back = i - fronts; /* turns before the latest */
+        if (i < fronts)
+            place[i] = at[dense_unknown(r, i)];
+        else
+            place[i] = back < b->turn && b->turn - back <= banded(r) ? at[r->of->count + b->turn - 1 - back]
+                                                                     : NO_ROW;
+    }
+}
+
+static bool at_moved(residuals *r, size_t first, size_t every, size_t end, double by, double *out) {
+    double kept[UNKNOWNS];
+    memcpy(kept, r->q, sizeof kept);
+    for (size_t i = first; i < end; i += every)
+        r->q[i] += by;
+    const bool ok = residuals_at(r, out);
+    memcpy(r->q, kept, sizeof kept);
+    return ok;
+}
+
+static void no_slope(const residuals *r, size_t i) {
+    char at[ASK_TEXT] = "a turning point";
+    if (i < r->of->count)
+        ask_text(&r->of->name[i], residuals_unknown(r, i), at);
+    calc_fail(r->p.error, 0, 0, "no value close beside %s, for the derivative: %s", at, r->p.none.text);
+}
+
+/* Differences about q; at the end of the scene, where one of the two has no value, from q to the other. In
+ * r->above. */
+static bool differences(residuals *r, size_t first, size_t every, size_t end) {
+    const double h = ask_step(apart / 2, r->q[first], 1);
+    double hi = h, lo = -h;
+    const bool above = at_moved(r, first, every, end, hi, r->above),
+               below = at_moved(r, first, every, end, lo, r->below);
+    if (!above && !below)
+        no_slope(r, first);
+    if (!above)
+        at_moved(r, first, every, end, hi = 0, r->above);
+    if (!below)
+        at_moved(r, first, every, end, lo = 0, r->below);
+    for (size_t row = 0; row < r->count; row++)
+        r->above[row] = (r->above[row] - r->below[row]) / (hi - lo);
+    return !r->p.error->raised;
+}
+
+/* Of those in front one by one; of turning points far from each other at once. */
+bool residuals_slopes(residuals *r) {
+    const size_t n = width(r), fronts = dense(r), names = r->of->count;
+    if (r->has_slopes && !memcmp(r->sloped, r->q, sizeof r->q))
+        return true;
+    if (memcmp(r->now, r->q, sizeof r->q) && !residuals_at(r, r->above) && r->p.error->raised)
+        return false;
+    memcpy(r->sloped, r->q, sizeof r->q);
+    r->has_slopes = false;
+    r->loop.warm = true;
+    for (size_t column = 0; column < n && !r->p.error->raised; column++) {
+        const size_t comb = column - fronts;
+        if (column < fronts)
+            differences(r, dense_unknown(r, column), 1, dense_unknown(r, column) + 1);
+        else if (comb < banded(r))
+            differences(r, names + comb, FELT, names + banded(r));
+        for (size_t i = 0; i < block_count(r); i++) {
+            const block b = block_at(r, i);
+            /* the latest turn of this comb */
+            const size_t back = b.turn ? (b.turn - 1 + FELT - comb % FELT) % FELT : 0,
+                         to = column < fronts ? column : fronts + back;
+            for (size_t row = b.begin; row < b.end; row++)
+                r->slopes[row * n + to] = r->above[row];
+        }
+    }
+    r->loop.warm = false;
+    memcpy(r->now, r->q, sizeof r->now);
+    r->has_slopes = !r->p.error->raised;
+    return r->has_slopes;
+}
+
+void residuals_products(const residuals *r, const gsl_vector *u, gsl_vector *v, gsl_matrix *N) {
+    const size_t n = width(r);
+    size_t place[WIDEST];
+    double sum[WIDEST], square[WIDEST * WIDEST];
+    if (v)
+        gsl_vector_set_zero(v);
+    if (N)
+        gsl_matrix_set_zero(N);
+    for (size_t k = 0; k < block_count(r); k++) {
+        const block b = block_at(r, k);
+        unknowns_of(r, &b, place);
+        memset(sum, 0, n * sizeof *sum);
+        memset(square, 0, n * n * sizeof *square);
+        for (size_t row = b.begin; row < b.end; row++) {
+            const double *slope = r->slopes + row * n, left = v ? gsl_vector_get(u, row) : 0;
+            for (size_t i = 0; i < n; i++) {
+                sum[i] += slope[i] * left;
+                for (size_t j = 0; j <= i && N; j++)
+                    square[i * n + j] += slope[i] * slope[j];
+            }
+        }
+        for (size_t i = 0; i < n; i++) {
+            if (place[i] == NO_ROW)
+                continue;
+            if (v)
+                *gsl_vector_ptr(v, place[i]) += sum[i] / r->unit;
+            for (size_t j = 0; j <= i && N; j++) {
+                if (place[j] == NO_ROW)
+                    continue;
+                const double more = square[i * n + j] / (r->unit * r->unit);
+                *gsl_matrix_ptr(N, place[i], place[j]) += more;
+                if (i != j)
+                    *gsl_matrix_ptr(N, place[j], place[i]) += more;
+            }
+        }
+    }
+}
+
+void residuals_along(const residuals *r, const gsl_vector *u, gsl_vector *v) {
+    const size_t n = width(r);
+    size_t place[WIDEST];
+    for (size_t k = 0; k < block_count(r); k++) {
+        const block b = block_at(r, k);
+        unknowns_of(r, &b, place);
+        for (size_t row = b.begin; row < b.end; row++) {
+            double sum = 0;
+            for (size_t i = 0; i < n; i++)
+                sum += place[i] == NO_ROW ? 0 : r->slopes[row * n + i] * gsl_vector_get(u, place[i]);
+            gsl_vector_set(v, row, sum / r->unit);
+        }
+    }
+}
+
+/* ---- opening ----------------------------------------------------------------------------------- */
+
+/* A loop that begins in its midst came from somewhere: its own last period. */
+static bool begins_midway(const fit_question *of) {
+    const fit_loop *l = &of->loop;
+    double dx = 0, Fx = 0;
+    for (size_t i = 0; i < of->rows; i++) {
+        dx = fmax(dx, fabs(l->dx[i]));
+        Fx = fmax(Fx, fabs(l->Fx[i]));
+    }
+    const bool at_rest = fabs(l->dx[0]) < 0.05 * dx && fabs(l->Fx[0]) < 0.05 * Fx;
+    const size_t last = of->rows - 1;
+    return !at_rest && fabs(l->dx[last] - l->dx[0]) < 0.1 * dx && fabs(l->Fx[last] - l->Fx[0]) < 0.2 * Fx;
+}
+
+static bool open_points(residuals *r, calc_error *error) {
+    static const size_t passes = 10; /* a fit goes through the rows more often than that */
+    const fit_question *of = r->of;
+    for (size_t i = 0; i < of->count; i++)
+        r->knobs[i] = of->name[i];
+    for (size_t j = 0; j < of->columns; j++)
+        r->knobs[of->count + j] = of->column[j].name;
+    if (of->left) {
+        r->sides[0] = *of->left;
+        r->sides[1] = *of->right;
+    }
+    const size_t columns = of->left ? of->columns : 0;
+    const bool ok =
+        points_open(&r->p, of->c, r->knobs, of->count + columns, r->sides, of->left ? 2 : 0, error);
+    if (ok)
+        r->p.t->scene.gaps = true;
+    r->p.all = passes * of->rows;
+    return ok;
+}
+
+static bool open_loop(residuals *r, calc_error *error) {
+    const fit_question *of = r->of;
+    const fit_loop *loop = &of->loop;
+    r->loop = (branches){.rows = of->rows, .dx = loop->dx, .Fx = loop->Fx, .normal = loop->normal};
+    r->twice = loop->closed || begins_midway(of);
+    if ((loop->rig && !read_rig(r, &r->p.t->scene, error)) ||
+        !branches_find(&r->loop, loop->noise_dx, loop->noise_Fx, r->twice, error))
+        return false;
+    if (r->loop.noisy) {
+        r->unknowns += r->loop.turns;
+        r->count += r->loop.turns;
+    }
+    return r->unknowns - of->count <= FIT_TURNS ||
+           calc_fail(error, 0, 0,
+                     "dx turns %zu times: more than %d turning points with noise are not fitted at once",
+                     r->loop.turns, FIT_TURNS);
+}
+
+bool residuals_open(residuals *r, const fit_question *of, calc_error *error) {
+    *r = (residuals){.of = of, .unknowns = of->count, .count = of->rows, .unit = 1};
+    if (!open_points(r, error) || (!of->left && !open_loop(r, error)))
+        return false;
+    for (size_t i = 0; i < r->unknowns; i++) {
+        r->q[i] = 1;
+        r->free[r->frees++] = i;
+    }
+    r->memory = malloc((3 + width(r)) * r->count * sizeof *r->memory);
+    r->out = r->memory;
+    if (!r->memory)
+        return calc_no_memory(error);
+    r->above = r->out + r->count;
+    r->below = r->above + r->count;
+    r->slopes = r->below + r->count;
+    return true;
+}
+
+void residuals_close(residuals *r) {
+    free(r->memory);
+    branches_free(&r->loop);
+    points_close(&r->p);
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is left over of measured rows at trial values of the unknowns, and its slopes. The unknowns are the
+ * names of a fit and, of a loop with noise in both columns, its turning points behind them. */
+#ifndef STUDY_RESIDUALS_H
+#define STUDY_RESIDUALS_H
+
+#include <gsl/gsl_matrix.h>
+
+#include "measured/branches.h"
+#include "study/fit_question.h"
+
+enum { FIT_TURNS = 64, UNKNOWNS = FIT_NAMES + FIT_TURNS };
+#define NO_ROW ((size_t)-1)
+
+typedef struct residuals {
+    const fit_question *of;
+    points p;
+    size_t unknowns, count; /* count: of rows, and behind them turning points as measured */
+    /* The unknowns in numbers q near 1: start exp(q-1), or start + scale (q-1). */
+    double q[UNKNOWNS], start[UNKNOWNS], scale[UNKNOWNS];
+    bool ratio[UNKNOWNS];
+    size_t free[UNKNOWNS], frees; /* those that vary; others keep their q */
+    double unit;                  /* of what is handed to a solver */
+    double largest;               /* side of the equations computed so far */
+    dim d;
+    size_t bad_row; /* the last one without a value; NO_ROW: it was not a row's fault */
+    size_t stride;  /* a glance: every such row of some of the data, turning points as measured; 0: all */
+    branches loop;
+    fit_points *kept; /* NULL, or where the sides of equations go, too */
+    unsigned evaluations;
+    /* private */
+    expr sides[2];                       /* left and right */
+    knob knobs[FIT_NAMES + FIT_COLUMNS]; /* names, and columns behind them */
+    double K_rig, d0, F0;                /* of a loop that is read at the rig, else 0 */
+    bool known, twice;
+    long double x[FIT_NAMES]; /* of the names, present */
+    double now[UNKNOWNS];     /* q of the latest residuals */
+    double sloped[UNKNOWNS];  /* q of the slopes, where there are any */
+    bool has_slopes;
+    double *memory, *out, *above, *below, *slopes;
+} residuals;
+
+/* Columns, the loop and its turning points; every unknown varies. Close whatever comes. */
+bool residuals_open(residuals *r, const fit_question *of, calc_error *error);
+void residuals_close(residuals *r);
+
+double residuals_unknown(const residuals *r, size_t i);
+/* At r->q: left - right, or measured - computed F_x, in SI; of a loop with noise in both columns in units of
+ * these. False: there is no value, or r->p.error is raised, and all has ended. */
+bool residuals_at(residuals *r, double *out);
+/* At r->q, by differences of second order; false with the error. They stay until the next. */
+bool residuals_slopes(residuals *r);
+/* v = J^T u and N = J^T J, both triangles, of those that vary, in r->unit; either may be NULL. */
+void residuals_products(const residuals *r, const gsl_vector *u, gsl_vector *v, gsl_matrix *N);
+/* v = J u */
+void residuals_along(const residuals *r, const gsl_vector *u, gsl_vector *v);
+
+#endif
