@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measured/turning.h"
-
 enum { NODES = 97 }; /* of a branch, closer where it begins */
 
 /* ---- what is measured -------------------------------------------------------------------------- */
@@ -19,25 +17,6 @@ static double spread(const double *v, size_t n) {
         hi = fmax(hi, v[i]);
     }
     return hi - lo;
-}
-
-/* Of several rows near the crest noise has chosen the turning point: it is where their parabola has its own.
- */
-static size_t crest(const branches *b, size_t row, size_t from, size_t to) {
-    enum { MOST = 400 };
-    double at[MOST], c[3];
-    size_t first = row, last = row;
-    while (first > from && row - first < MOST / 2 && fabs(b->dx[first - 1] - b->dx[row]) <= 6 * b->noise_dx)
-        first--;
-    while (last < to && last - first + 1 < MOST && fabs(b->dx[last + 1] - b->dx[row]) <= 6 * b->noise_dx)
-        last++;
-    const size_t n = last - first + 1;
-    for (size_t i = 0; i < n; i++)
-        at[i] = (double)i;
-    const double here = (double)(row - first);
-    if (n < 5 || !turning_parabola(at, b->dx + first, n, here, false, c) || c[2] == 0)
-        return row;
-    return first + (size_t)fmin(fmax(round(here - c[1] / (2 * c[2])), 0), (double)(n - 1));
 }
 
 /* Rows that begin or end with a turning point. */
@@ -52,14 +31,28 @@ static void add_ends(branches *b, size_t *at) {
         at[b->turns++] = b->rows - 1;
 }
 
+/* Noise has chosen one of several rows: a branch ends with their crest. Whether that is round or sharp all of
+ * them tell together, by the rows of a quarter of the range. */
 static void find_levels(branches *b, const size_t *at) {
     const size_t last = b->rows - 1;
+    double round_left = 0, sharp_left = 0;
     for (size_t i = 0; i < b->turns; i++) {
         const size_t from = i ? (at[i - 1] + at[i]) / 2 : at[i] / 2,
                      to = i + 1 < b->turns ? (at[i] + at[i + 1]) / 2 : (at[i] + last) / 2;
-        b->level[i] = turning_level(b->dx, at[i], from, to, b->noise_dx, true);
+        b->about[i] = turning_about(b->dx, at[i], from, to, b->noise_dx);
         b->force[i] = turning_level(b->Fx, at[i], from, at[i], b->noise_Fx, false);
-        b->first[i + 1] = at[i] > 0 ? crest(b, at[i], from, to) + 1 : 0;
+        turning wide = turning_about(b->dx, at[i], from, to, fmax(b->noise_dx, b->range / 24));
+        if (wide.n > 1) {
+            round_left += turning_left(b->dx, &wide);
+            sharp_left += turning_sharpen(b->dx, &wide);
+        }
+    }
+    for (size_t i = 0; i < b->turns; i++) {
+        turning *t = &b->about[i];
+        if (sharp_left < round_left && t->n > 1)
+            turning_sharpen(b->dx, t);
+        b->level[i] = turning_crest(b->dx, t);
+        b->first[i + 1] = at[i] > 0 ? t->first + (size_t)round(t->top) + 1 : 0;
     }
     b->first[0] = 0;
     b->first[b->turns + 1] = b->rows;
@@ -145,7 +138,8 @@ bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, ca
     b->twice = twice;
     b->range = spread(b->dx, n);
     b->first = malloc((n + 3) * sizeof *b->first);
-    if (!at || !b->first)
+    b->about = malloc((n + 2) * sizeof *b->about);
+    if (!at || !b->first || !b->about)
         return free(at), calc_no_memory(error);
     if (!turning_noise(b->dx, n, &b->noise_dx, error) || !turning_noise(b->Fx, n, &b->noise_Fx, error))
         return free(at), false;
@@ -159,13 +153,14 @@ bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, ca
     b->noise_Fx = fmax(b->noise_Fx, 1e-6 * height);
     b->noisy = noise_dx > 0 ||
                (b->noise_dx > 1e-4 * b->range && b->noise_dx / b->range > 0.02 * b->noise_Fx / height);
-    b->memory = malloc((4 * b->turns + 2 * n + (b->turns + 1) * NODES) * sizeof *b->memory);
+    b->memory = malloc((6 * b->turns + 2 * n + (b->turns + 1) * NODES) * sizeof *b->memory);
     if (!b->memory)
         return free(at), calc_no_memory(error);
     b->level = b->memory;
     b->force = b->level + b->turns;
     b->turn = b->force + b->turns;
-    b->across = b->turn + b->turns;
+    b->spread = b->turn + b->turns;
+    b->across = b->spread + 2 * b->turns;
     b->foot = b->across + n + b->turns;
     b->load = b->foot + n;
     find_levels(b, at);
@@ -176,6 +171,8 @@ bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, ca
 
 void branches_free(branches *b) {
     free(b->first);
+    free(b->about);
+    b->about = NULL;
     free(b->memory);
     b->first = NULL;
     b->memory = NULL;
@@ -240,14 +237,19 @@ typedef struct point {
     double F, slope, second, bend;
 } point;
 
-/* Straight on beyond both ends. */
+/* Beyond both ends it goes on for a little as it bends there, then straight. */
+static point beyond(const table *t, double x, size_t end) {
+    const double little = 0.1 * fabs(t->way), by = fmax(fmin(x - t->x[end], little), -little),
+                 second = bend_at(t, end), slope = t->slope[end] + by * second,
+                 F = t->F[end] + by * (t->slope[end] + by * second / 2);
+    return (point){F + slope * (x - t->x[end] - by), slope, second, second};
+}
+
 static point curve(const table *t, double x) {
     const size_t last = NODES - 1;
     const double part = (x - t->x[0]) / t->way;
-    if (!(part > 0 && part < 1)) {
-        const size_t end = part > 0 ? last : 0;
-        return (point){t->F[end] + t->slope[end] * (x - t->x[end]), t->slope[end], 0, 0};
-    }
+    if (!(part > 0 && part < 1))
+        return beyond(t, x, part > 0 ? last : 0);
     size_t at = (size_t)node_at(part);
     at = at < last ? at : last - 1;
     while (at > 0 && (t->piece[at].x - x) * t->way > 0)
@@ -264,7 +266,7 @@ static point curve(const table *t, double x) {
 /* From the foot of the perpendicular, by Newton's method: one step is enough where the curve has hardly
  * moved.
  */
-static double across(const branches *b, const table *t, double x, double F, double *foot) {
+static double across(const branches *b, const table *t, double x, double F, double *foot, double *stretch) {
     enum { STEPS = 8 };
     const double sx = b->noisy ? b->noise_dx : 0, sF = b->noise_Fx, unit = sx / sF;
     point at = curve(t, *foot);
@@ -277,9 +279,28 @@ static double across(const branches *b, const table *t, double x, double F, doub
         if (fabs(by) < 1e-6 * sx)
             break;
     }
-    const double steep = at.slope * unit, along = sqrt(1 + steep * steep),
+    const double steep = at.slope * unit, along = *stretch = sqrt(1 + steep * steep),
                  bent = at.bend * sx * unit / (along * along * along);
     return ((F - at.F) - at.slope * (x - *foot)) / sF / along + fmax(-0.5, fmin(0.5, bent / 2));
+}
+
+/* The level of a turning point is that of the feet of the rows about it: how far these lie along the curve
+ * has noise of its own, independent of the distances across it, and 1/stretch of that of dx. */
+static void add_to_level(branches *b, size_t turn, size_t row, double foot, double stretch) {
+    const turning *t = &b->about[turn];
+    if (row < t->first || row >= t->first + t->n)
+        return;
+    const double weight = turning_weight(t, row - t->first), part = weight / stretch;
+    b->spread[2 * turn] += weight * foot;
+    b->spread[2 * turn + 1] += part * part;
+}
+
+static void finish_levels(branches *b, bool whole) {
+    for (size_t i = 0; i < b->turns; i++) {
+        double *level = &b->across[b->rows + i];
+        const double var = b->spread[2 * i + 1];
+        *level = whole && b->noisy && var > 0 ? (b->spread[2 * i] + *level) / (b->noise_dx * sqrt(var)) : 0;
+    }
 }
 
 /* Those that a closed loop has come through before it begins. */
@@ -303,6 +324,7 @@ size_t branches_glance(const branches *b) {
 
 bool branches_across(branches *b, size_t n, branches_step *step, void *context) {
     table t;
+    memset(b->spread, 0, 2 * b->turns * sizeof *b->spread);
     memset(b->across, 0, (b->rows + b->turns) * sizeof *b->across);
     if (!run_before(b, step, context))
         return false;
@@ -311,13 +333,18 @@ bool branches_across(branches *b, size_t n, branches_step *step, void *context) 
             break;
         if (!run_branch(b, k, &t, step, context))
             return false;
-        if (k < b->turns && b->noisy)
-            b->across[b->rows + k] = (b->level[k] - t.x[NODES - 1]) / b->noise_dx;
+        if (k < b->turns)
+            b->across[b->rows + k] = -t.x[NODES - 1];
         for (size_t i = (b->first[k] + n - 1) / n * n; i < b->first[k + 1]; i += n) {
-            double foot = b->warm ? b->foot[i] : b->dx[i];
-            b->across[i] = across(b, &t, b->dx[i], b->Fx[i], &foot);
+            double foot = b->warm ? b->foot[i] : b->dx[i], stretch;
+            b->across[i] = across(b, &t, b->dx[i], b->Fx[i], &foot, &stretch);
             b->foot[i] = b->warm ? b->foot[i] : foot;
+            if (k > 0)
+                add_to_level(b, k - 1, i, foot, stretch);
+            if (k < b->turns)
+                add_to_level(b, k, i, foot, stretch);
         }
     }
+    finish_levels(b, n == 1);
     return true;
 }

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "text/error.h"
+#include "measured/turning.h"
 
 /* One step of the contact to a displacement, under this normal load where there is one to each row (else 0),
  * and where that lies on the measured curve. False: the model cannot. */
@@ -25,6 +25,7 @@ typedef struct branches {
     double *force;             /* and F_x there */
     double range;              /* of d_x */
     size_t *first;             /* row of each branch, of which there is one more; and their end */
+    turning *about;            /* rows about each turning point */
     double *turn;              /* d_x of the contact, as they are tried */
     double *across;            /* of each row: its distance; then of each turning point */
     double *x, *F;             /* NULL, or room for branches_nodes: the curve, as it is gone through */
@@ -32,8 +33,8 @@ typedef struct branches {
     /* private */
     bool up;               /* the first of them; the others follow in turn */
     double end, end_force; /* of the last */
-    double *foot;
-    double *load; /* normal loads at the nodes of all branches */
+    double *foot, *spread; /* of rows; of turning points the level and the variance so far */
+    double *load;          /* normal loads at the nodes of all branches */
     double *memory;
 } branches;
 

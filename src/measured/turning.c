@@ -95,8 +95,8 @@ bool turning_parabola(const double *x, const double *y, size_t n, double x0, boo
     return true;
 }
 
-double turning_level(const double *v, size_t row, size_t from, size_t to, double noise, bool crest) {
-    enum { MOST = 400 };
+turning turning_about(const double *v, size_t row, size_t from, size_t to, double noise) {
+    enum { MOST = TURNING_MOST, LEAST = 5 };
     double at[MOST], c[3];
     size_t first = row, last = row;
     while (first > from && last - first + 1 < MOST / 2 && fabs(v[first - 1] - v[row]) <= 6 * noise)
@@ -107,9 +107,89 @@ double turning_level(const double *v, size_t row, size_t from, size_t to, double
     for (size_t i = 0; i < n; i++)
         at[i] = (double)i;
     const double here = (double)(row - first);
-    if (n < 5 || !turning_parabola(at, v + first, n, here, false, c))
-        return v[row];
-    const double top = c[2] != 0 ? -c[1] / (2 * c[2]) : INFINITY;
-    const bool inside = crest && here + top >= 0 && here + top <= (double)(n - 1);
-    return inside ? c[0] + top * (c[1] + top * c[2]) : c[0];
+    if (n < LEAST || !turning_parabola(at, v + first, n, here, false, c))
+        return (turning){.first = row, .n = 1};
+    const double top = c[2] != 0 ? here - c[1] / (2 * c[2]) : here;
+    return (turning){.first = first, .n = n, .here = here, .top = fmin(fmax(top, 0), (double)(n - 1))};
+}
+
+/* Of values as a line over |i - top|: of n rows its mean and their squares about that. */
+static void set_ridge(turning *t, double top) {
+    t->sharp = true;
+    t->top = top;
+    t->mean = t->square = 0;
+    for (size_t i = 0; i < t->n; i++)
+        t->mean += fabs((double)i - top) / (double)t->n;
+    for (size_t i = 0; i < t->n; i++) {
+        const double off = fabs((double)i - top) - t->mean;
+        t->square += off * off;
+    }
+}
+
+double turning_weight(const turning *t, size_t i) {
+    const double rows = (double)t->n, square = rows * rows, middle = (rows - 1) / 2, mean = (square - 1) / 12,
+                 x = t->top - middle, u = (double)i - middle;
+    if (t->n == 1)
+        return 1;
+    if (t->sharp)
+        return 1 / rows - t->mean * (fabs((double)i - t->top) - t->mean) / t->square;
+    return 1 / rows + x * u / (rows * mean) +
+           (x * x - mean) * (u * u - mean) / (rows * mean * (square - 4) / 15);
+}
+
+double turning_crest(const double *v, const turning *t) {
+    const double *at = v + t->first;
+    double level = 0;
+    for (size_t i = 0; i < t->n; i++)
+        level += turning_weight(t, i) * (at[i] - at[0]);
+    return at[0] + level;
+}
+
+/* What a line over |i - top| leaves over. */
+static double ridge_left(const double *v, const turning *t) {
+    double sum = 0, line = 0, squares = 0, mean = 0;
+    for (size_t i = 0; i < t->n; i++)
+        mean += v[i] / (double)t->n;
+    for (size_t i = 0; i < t->n; i++) {
+        const double off = fabs((double)i - t->top) - t->mean;
+        line += off * (v[i] - mean) / t->square;
+    }
+    for (size_t i = 0; i < t->n; i++) {
+        sum = v[i] - mean - line * (fabs((double)i - t->top) - t->mean);
+        squares += sum * sum;
+    }
+    return squares;
+}
+
+double turning_sharpen(const double *v, turning *t) {
+    double best = t->top, least = INFINITY;
+    for (size_t k = 4; k + 4 <= 4 * (t->n - 1) && t->n > 1; k++) {
+        set_ridge(t, (double)k / 4);
+        const double left = ridge_left(v + t->first, t);
+        if (left < least) {
+            least = left;
+            best = t->top;
+        }
+    }
+    set_ridge(t, best);
+    return least;
+}
+
+double turning_left(const double *v, const turning *t) {
+    double at[TURNING_MOST] = {0}, c[3], squares = 0;
+    for (size_t i = 0; i < t->n; i++)
+        at[i] = (double)i;
+    if (t->n == 1 || !turning_parabola(at, v + t->first, t->n, 0, false, c))
+        return INFINITY;
+    for (size_t i = 0; i < t->n; i++) {
+        const double off = v[t->first + i] - c[0] - at[i] * (c[1] + at[i] * c[2]);
+        squares += off * off;
+    }
+    return squares;
+}
+
+double turning_level(const double *v, size_t row, size_t from, size_t to, double noise, bool crest) {
+    turning t = turning_about(v, row, from, to, noise);
+    t.top = crest ? t.top : t.here;
+    return turning_crest(v, &t);
 }

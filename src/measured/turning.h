@@ -14,9 +14,26 @@ bool turning_noise(const double *v, size_t n, double *noise, calc_error *error);
  * for n. Returns how many. */
 size_t turning_points(const double *v, size_t n, double noise, size_t *at);
 
-/* v at a turning row, of the rows from..to about it: that of a parabola through those within 6 times its
- * noise, where they are five or more; else as measured. crest: its highest or lowest, else its value at the
- * row. */
+/* The rows from..to about a turning row within 6 times the noise of it, where they are five or more: else
+ * that row. here: its place among them; top: where a parabola through them has its crest, or the end next to
+ * that. */
+enum { TURNING_MOST = 400 };
+typedef struct turning {
+    size_t first, n;
+    double here, top;
+    bool sharp;          /* the crest is one of two lines, a - s |i - top|, with these of |i - top|: */
+    double mean, square; /* its mean, and the sum of squares about that */
+} turning;
+
+turning turning_about(const double *v, size_t row, size_t from, size_t to, double noise);
+/* The sum of squares that the parabola leaves over; INFINITY of one row. */
+double turning_left(const double *v, const turning *t);
+/* Makes the crest one of two lines, as a drive of constant speed has; what they leave over, likewise. */
+double turning_sharpen(const double *v, turning *t);
+/* The value of the parabola or the lines at their crest, and the weight of a value in it. */
+double turning_crest(const double *v, const turning *t);
+double turning_weight(const turning *t, size_t i);
+/* v at the crest of these, or at the row. */
 double turning_level(const double *v, size_t row, size_t from, size_t to, double noise, bool crest);
 
 /* y = c0 + c1 (x-x0) + c2 (x-x0)^2 nearest to n points, c2 = 0 of fewer than four or where a line is wanted;
