@@ -158,6 +158,21 @@ static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data
 
 /* ---- fit: what is said ------------------------------------------------------------------------- */
 
+/* Of intervals that are not even. */
+static void report_ends(answer *out, const fit_question *q, const fit_answer *a, const char *name, int side) {
+    bool any = false;
+    for (size_t i = 0; i < q->count; i++) {
+        if (!a->uneven[i])
+            continue;
+        if (!any)
+            answer_group(out, name);
+        any = true;
+        answer_number(out, q->name[i].text, a->value[i] + (side < 0 ? -a->below[i] : a->above[i]));
+    }
+    if (any)
+        answer_up(out);
+}
+
 static void report_fit(answer *out, const fit_question *q, const fit_answer *a) {
     answer_event(out, "fit");
     answer_number(out, "rows", (double)q->rows);
@@ -174,6 +189,8 @@ static void report_fit(answer *out, const fit_question *q, const fit_answer *a) 
     for (size_t i = 0; i < q->count; i++)
         answer_number(out, q->name[i].text, a->deviation[i]);
     answer_up(out);
+    report_ends(out, q, a, "lower", -1);
+    report_ends(out, q, a, "upper", 1);
     answer_group(out, "correlation");
     for (size_t i = 0; i < q->count; i++)
         for (size_t j = i + 1; j < q->count; j++) {
@@ -208,6 +225,14 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
                      a->turns, a->turns == 1 ? "" : "s");
     }
     for (size_t i = 0; i < q->count; i++)
+        if (a->uneven[i])
+            shell_note(sh, "%s: %s", q->name[i].text,
+                       isinf(a->above[i]) ? "the data bound it from below alone"
+                       : isinf(a->below[i])
+                           ? "the data bound it from above alone"
+                           : "the errors differ: to where the least sum of squares with it held "
+                             "there has grown by one variance");
+    for (size_t i = 0; i < q->count; i++)
         if (a->deviation[i] > fabs(a->value[i]))
             shell_note(sh, "the data hardly determine %s", q->name[i].text);
     if (a->drifts)
@@ -223,7 +248,7 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
 }
 
 static estimate estimate_of(const fit_answer *a, size_t i) {
-    return (estimate){.v = a->value[i], .deviation = a->deviation[i]};
+    return (estimate){a->value[i], a->deviation[i], a->uneven[i], a->below[i], a->above[i]};
 }
 
 static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, calc_error *error) {

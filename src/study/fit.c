@@ -23,7 +23,6 @@ typedef struct state {
     bool bounded[UNKNOWNS];
     double size;                         /* of the sides at the present values; of a loop, of F_x */
     gsl_multilarge_nlinear_workspace *w; /* of as many unknowns as vary */
-    gsl_vector *q;
     unsigned iterations;
 } state;
 
@@ -314,20 +313,34 @@ static int drive(state *s) {
     return status == GSL_SUCCESS ? GSL_SUCCESS : GSL_EMAXITER;
 }
 
-static bool descend(state *s, calc_error *error) {
+/* From r->q to the least, of those that vary; a solver's status. Error: out of memory, or all has ended. */
+static int descend(state *s, calc_error *error) {
+    const gsl_multilarge_nlinear_parameters method = gsl_multilarge_nlinear_default_parameters();
     residuals *r = &s->r;
     gsl_multilarge_nlinear_fdf fdf = {
         .f = gsl_residuals, .df = gsl_slopes, .n = r->count, .p = r->frees, .params = r};
+    double q[UNKNOWNS];
+    const gsl_vector_view from = gsl_vector_view_array(q, r->frees);
     for (size_t i = 0; i < r->frees; i++)
-        gsl_vector_set(s->q, i, r->q[r->free[i]]);
-    int status = gsl_multilarge_nlinear_init(s->q, &fdf, s->w);
+        q[i] = r->q[r->free[i]];
+    if (!s->w || s->w->p != r->frees) {
+        if (s->w)
+            gsl_multilarge_nlinear_free(s->w);
+        s->w = gsl_multilarge_nlinear_alloc(gsl_multilarge_nlinear_trust, &method, r->count, r->frees);
+    }
+    if (!s->w)
+        return calc_no_memory(error), GSL_ENOMEM;
+    int status = gsl_multilarge_nlinear_init(&from.vector, &fdf, s->w);
     if (!status)
         status = drive(s);
-    if (error->raised)
-        return false;
     s->iterations += (unsigned)gsl_multilarge_nlinear_niter(s->w);
     put_unknowns(r, gsl_multilarge_nlinear_position(s->w));
-    return arrived(s, !status, error);
+    return status;
+}
+
+static bool settle(state *s, calc_error *error) {
+    const int status = descend(s, error);
+    return !error->raised && arrived(s, !status, error);
 }
 
 /* A drift, an offset or a model that does not fit leaves residuals that go together from row to row. */
@@ -372,7 +385,7 @@ static bool run_from(state *s, const double *start, fit_answer *out, calc_error 
     if (!begin_fit(s, start, error))
         return false;
     for (int i = 0; i < BEGINNINGS && again; i++)
-        if (!descend(s, error) || !begin_again(s, &again, error))
+        if (!settle(s, error) || !begin_again(s, &again, error))
             return false;
     return judge_fit(s, out, error);
 }
@@ -411,6 +424,102 @@ static bool run_fit(state *s, fit_answer *out, calc_error *error) {
     return ok;
 }
 
+/* ---- intervals --------------------------------------------------------------------------------- */
+
+/* A fit at its end, whose names are tried beside that. */
+typedef struct profile {
+    state *s;
+    double q[UNKNOWNS], C[UNKNOWNS][UNKNOWNS], v, least;
+    size_t name;
+    double error; /* of the name, in q */
+} profile;
+
+static double squares_of(const residuals *r) {
+    double sum = 0;
+    for (size_t row = 0; row < r->count; row++)
+        sum += r->out[row] / r->unit * (r->out[row] / r->unit);
+    return sum;
+}
+
+/* The name off by so many standard errors, as these are printed, and the others along with it as the parabola
+ * has them: by how many variances the sum of squares has grown. Infinite: there is no such value. */
+static double grown(const profile *p, double by) {
+    residuals *r = &p->s->r;
+    const size_t i = p->name;
+    const double off = r->ratio[i] ? log1p(by * p->error) : by * p->error;
+    if (!(off > -INFINITY))
+        return (double)INFINITY;
+    for (size_t j = 0; j < r->unknowns; j++)
+        r->q[j] = p->q[j] + off * p->C[j][i] / p->C[i][i];
+    return residuals_at(r, r->out) ? (squares_of(r) - p->least) / p->v : (double)INFINITY;
+}
+
+/* The same, the others made least. */
+static double profiled(const profile *p, double by) {
+    residuals *r = &p->s->r;
+    const double start = grown(p, by);
+    double end = start;
+    if (!isfinite(start) || r->unknowns == 1)
+        return start;
+    r->frees = 0;
+    for (size_t j = 0; j < r->unknowns; j++)
+        if (j != p->name)
+            r->free[r->frees++] = j;
+    descend(p->s, r->p.error);
+    if (!r->p.error->raised)
+        end = (pow(gsl_blas_dnrm2(gsl_multilarge_nlinear_residual(p->s->w)), 2) - p->least) / p->v;
+    r->frees = 0;
+    for (size_t j = 0; j < r->unknowns; j++)
+        r->free[r->frees++] = j;
+    return fmin(start, end);
+}
+
+/* Where the sum has grown by one variance, to that side; infinite: not as far as FAR standard errors. */
+static double reach(const profile *p, double side) {
+    enum { FAR = 64 };
+    double lo = 0, hi = 1, at = profiled(p, side);
+    while (at < 1 && hi < FAR) {
+        lo = hi;
+        hi *= 2;
+        at = profiled(p, side * hi);
+    }
+    while (at >= 1 && hi - lo > 0.02 * hi && !p->s->r.p.error->raised) {
+        const double mid = (lo + hi) / 2;
+        if (profiled(p, side * mid) < 1)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return at < 1 ? side * (double)INFINITY : side * (lo + hi) / 2;
+}
+
+/* A glance along the parabola's valley tells most; re-fitting the others the rest. */
+static bool is_even(const profile *p, double side) {
+    static const double near = 0.1, part = 0.2;
+    return fabs(grown(p, side) - 1) < near || fabs(profiled(p, side) - 1) < part;
+}
+
+static bool find_intervals(state *s, fit_answer *out, calc_error *error) {
+    residuals *r = &s->r;
+    profile p = {.s = s};
+    memcpy(p.q, r->q, sizeof p.q);
+    if (!determined(r, p.C, error) || !residuals_at(r, r->out))
+        return false;
+    p.least = squares_of(r);
+    p.v = p.least / (double)(r->of->rows - r->of->count);
+    for (size_t i = 0; i < r->of->count && p.v > 0 && !error->raised; i++) {
+        p.name = i;
+        p.error = sqrt(p.C[i][i] * p.v);
+        out->uneven[i] = !is_even(&p, -1) || !is_even(&p, 1);
+        if (!out->uneven[i])
+            continue;
+        out->below[i] = -reach(&p, -1) * out->deviation[i];
+        out->above[i] = reach(&p, 1) * out->deviation[i];
+    }
+    memcpy(r->q, p.q, sizeof r->q);
+    return !error->raised;
+}
+
 void fit_points_free(fit_points *p) {
     free(p->left);
     *p = (fit_points){.nodes = 0};
@@ -442,7 +551,6 @@ static bool keep_points(residuals *r, fit_points *p, calc_error *error) {
 }
 
 bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
-    const gsl_multilarge_nlinear_parameters method = gsl_multilarge_nlinear_default_parameters();
     *out = (fit_answer){.rms = 0};
     gsl_set_error_handler_off();
     if (question->rows <= question->count)
@@ -453,17 +561,12 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
         return calc_no_memory(error);
     residuals *r = &s->r;
     bool ok = residuals_open(r, question, error);
-    if (ok) {
-        s->w = gsl_multilarge_nlinear_alloc(gsl_multilarge_nlinear_trust, &method, r->count, r->frees);
-        s->q = gsl_vector_alloc(r->frees);
-        ok = s->w && s->q ? run_fit(s, out, error) : calc_no_memory(error);
-    }
+    ok = ok && run_fit(s, out, error) && (!question->points || find_intervals(s, out, error));
     out->evaluations = r->evaluations;
     out->iterations = s->iterations;
     ok = ok && (!question->points || keep_points(r, question->points, error));
     if (s->w)
         gsl_multilarge_nlinear_free(s->w);
-    gsl_vector_free(s->q);
     residuals_close(r);
     free(s);
     return ok;

@@ -8,6 +8,10 @@
 typedef struct fit_answer {
     double value[FIT_NAMES];
     double deviation[FIT_NAMES]; /* standard error, from the scatter of the residuals */
+    /* Where the parabola of the sum of squares misleads, where points are asked for: how far down and up the
+     * least sum with the name held there grows by one variance. */
+    bool uneven[FIT_NAMES];
+    double below[FIT_NAMES], above[FIT_NAMES]; /* infinite: it does not, as far as was looked */
     double correlation[FIT_NAMES][FIT_NAMES];
     double rms; /* of all residuals; in units of the noise, where a loop has it in both columns */
     bool noisy; /* it has: distances are across the curve, turning points unknowns */

@@ -692,8 +692,55 @@ def figure(tests):
     tests.check("plot fit: over rows", [p[0] for p in points] == [1, 2, 3, 4] and "row" in done.stdout, tests.report(done))
 
 
+def uneven(tests):
+    """Intervals from the profile of the sum of squares, against one by our own formula: y = s (1 - exp(-q u)), whose s follows from
+    q by a line. Even ones stay as they are."""
+    def profile(rows, q, s=None):
+        g = [1 - math.exp(-q * u) for u, _ in rows]
+        s = sum(a * y for a, (_, y) in zip(g, rows)) / sum(a * a for a in g) if s is None else s
+        return sum((y - s * a) ** 2 for a, (_, y) in zip(g, rows))
+
+    def reach(rows, q, names, side, s=None):
+        least = profile(rows, q, s)
+        most = least * (1 + 1 / (len(rows) - names))
+        lo, hi = 0.0, 1e-3
+        while profile(rows, q + side * hi, s) < most and hi < 1e3:
+            hi *= 2
+        for _ in range(60):
+            lo, hi = ((lo + hi) / 2, hi) if profile(rows, q + side * (lo + hi) / 2, s) < most else (lo, (lo + hi) / 2)
+        return hi if hi < 500 else math.inf
+
+    for seed, first, spread, names in ((1, 0.4, 0.2, 1), (2, 0.4, 0.2, 2), (3, 1.5, 0.06, 1), (4, 0.1, 0.01, 1), (5, 0.1, 0.3, 2), (6, 1.5, 0.2, 1), (8, 1.5, 0.2, 2)):
+        noise = random.Random(seed)
+        rows = [(u, 2 * (1 - math.exp(-1.5 * u)) + noise.gauss(0, spread)) for u in (first * i for i in range(1, 13))]
+        name = write(tests, "uneven.csv", "u,y", rows)
+        script = "q = 1; s = 2; fit q%s for y = s*(1 - exp(-q*u)) to %s" % (", s" if names == 2 else "", name)
+        values, event, done = answers(tests, script)
+        if not event:
+            tests.check("fit: uneven, %d" % seed, False, tests.report(done))
+            continue
+        q, stated = values["q"], event["deviation"]["q"]
+        want = [reach(rows, q, names, side, 2 if names == 1 else None) for side in (-1, 1)]
+        differs = any(abs(w / stated - 1) > 0.3 for w in want)
+        if "lower" in event and "q" in event["lower"]:
+            top = event["upper"]["q"]
+            got = [q - event["lower"]["q"], math.inf if top is None else top - q]
+            ok = differs or any(abs(w / stated - 1) > 0.05 for w in want)
+            ok = ok and all(g == w or abs(g / w - 1) < 0.03 for g, w in zip(got, want))
+        else:
+            ok = not differs
+        tests.check("fit: interval %d, errors %.3g and %.3g" % (seed, want[0], want[1]), ok, "%s\n%s" % (want, tests.report(done)))
+        text = tests.run("-c", script)
+        if math.isinf(want[1]):
+            tests.check("fit: bounded from below", re.match(r"q = \S+ \(-\S+, \+inf\)\n", text.stdout) and "q: the data bound it from below alone" in text.stderr
+                        and event["upper"]["q"] is None, tests.report(text))
+            data = tests.run("--format=csv", "-c", script).stdout.splitlines()
+            tests.check("fit: its columns", data[0].startswith("q,q deviation,q lower,q upper") and data[1].split(",")[3] == "", str(data))
+
+
 def run(tests):
     figure(tests)
+    uneven(tests)
     columns(tests)
     wide_ranges(tests)
     units(tests)
