@@ -225,13 +225,15 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
                      a->turns, a->turns == 1 ? "" : "s");
     }
     for (size_t i = 0; i < q->count; i++)
-        if (a->uneven[i])
-            shell_note(sh, "%s: %s", q->name[i].text,
-                       isinf(a->above[i]) ? "the data bound it from below alone"
-                       : isinf(a->below[i])
-                           ? "the data bound it from above alone"
-                           : "the errors differ: to where the least sum of squares with it held "
-                             "there has grown by one variance");
+        if (a->uneven[i] && (isinf(a->above[i]) || isinf(a->below[i])))
+            shell_note(sh, "the data bound %s from %s alone", q->name[i].text,
+                       isinf(a->above[i]) ? "below" : "above");
+        else if (a->uneven[i])
+            shell_note(
+                sh,
+                "the errors of %s down and up differ: they go to where the least sum of squares with it "
+                "held there has grown by one variance",
+                q->name[i].text);
     for (size_t i = 0; i < q->count; i++)
         if (a->deviation[i] > fabs(a->value[i]))
             shell_note(sh, "the data hardly determine %s", q->name[i].text);

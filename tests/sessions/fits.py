@@ -732,7 +732,7 @@ def uneven(tests):
         tests.check("fit: interval %d, errors %.3g and %.3g" % (seed, want[0], want[1]), ok, "%s\n%s" % (want, tests.report(done)))
         text = tests.run("-c", script)
         if math.isinf(want[1]):
-            tests.check("fit: bounded from below", re.match(r"q = \S+ \(-\S+, \+inf\)\n", text.stdout) and "q: the data bound it from below alone" in text.stderr
+            tests.check("fit: bounded from below", re.match(r"q = \S+ \(-\S+, \+inf\)\n", text.stdout) and "the data bound q from below alone" in text.stderr
                         and event["upper"]["q"] is None, tests.report(text))
             data = tests.run("--format=csv", "-c", script).stdout.splitlines()
             tests.check("fit: its columns", data[0].startswith("q,q deviation,q lower,q upper") and data[1].split(",")[3] == "", str(data))
