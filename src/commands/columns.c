@@ -170,6 +170,12 @@ bool columns_turn_pull(const csv *c, csv_values *FN) {
     return true;
 }
 
+const char *columns_along(shell *sh, csv *c) {
+    long double K_rig;
+    const bool contact = csv_has(c, "dx") || !scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet());
+    return csv_has(c, "drig") || !contact ? "drig" : "dx";
+}
+
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
     double x = 0, F = 0, sum = 0; /* about the means: between neighbours noise would tell */
     for (size_t i = 0; i < c->rows; i++) {

@@ -98,10 +98,9 @@ static bool read_loop(shell *sh, const lexer *lx, const heard *along, const choi
         return false;
     const char *by = csv_has(data, "FN") ? "FN" : csv_has(data, "dz") ? "dz" : NULL;
     q->loop.normal_by = by && by[0] == 'd' ? BY_DISPLACEMENT : BY_FORCE;
-    long double K_rig;
-    const bool contact = csv_has(data, "dx") || !scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet());
-    q->loop.rig = csv_has(data, "drig") || !contact;
-    csv_values *dx = columns_take(data, q->loop.rig ? "drig" : "dx", DIM_LENGTH, error),
+    const char *along_of = columns_along(sh, data);
+    q->loop.rig = strlen(along_of) > 2;
+    csv_values *dx = columns_take(data, along_of, DIM_LENGTH, error),
                *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL,
                *normal =
                    Fx && by ? columns_take(data, by, by[0] == 'd' ? DIM_LENGTH : DIM_FORCE, error) : NULL;

@@ -237,6 +237,7 @@ typedef struct rows {
     const double *normal[KINDS], *tangential[KINDS];
     const double *loss;
     const unsigned char *driver;
+    bool rig; /* d_x is a reading at it */
 } rows;
 
 static bool follow_press(shell *sh, const rows *w, calc_error *error) {
@@ -256,8 +257,9 @@ static bool follow_rows(shell *sh, const rows *w, size_t row, calc_error *error)
     const csv *data = w->data;
     for (size_t count; row < data->rows; row += count) {
         const size_t k = w->driver ? w->driver[row] : (size_t)(w->kind - kinds);
-        const load_step step = {
-            .kind = LOAD_STEP, .normal = w->normal[k] ? kinds[k].by : BY_NONE, .tangential = kinds[k].by};
+        const load_step step = {.kind = LOAD_STEP,
+                                .normal = w->normal[k] ? kinds[k].by : BY_NONE,
+                                .tangential = w->rig ? BY_RIG : kinds[k].by};
         size_t bad;
         for (count = 1; count < AT_ONCE && row + count < data->rows; count++)
             if (w->driver && w->driver[row + count] != k)
@@ -385,15 +387,27 @@ static bool read_pair(csv *data, const followed *kind, rows *w, calc_error *erro
     return tangential != NULL;
 }
 
-/* dx drives at constant F_N, and F_x is compared. */
+/* What the contact reads where a rig has offsets. */
+static bool take_off(shell *sh, input offset, csv_values *v, size_t n, calc_error *error) {
+    long double by;
+    if (!scene_get(&sh->calc.scene, offset, &by, error))
+        return false;
+    for (size_t i = 0; i < n; i++)
+        v->v[i] -= (double)by;
+    return true;
+}
+
+/* dx or drig drives at constant F_N, and F_x is compared. */
 static bool read_compared(shell *sh, csv *data, rows *w, calc_error *error) {
-    csv_values *dx = columns_take(data, "dx", DIM_LENGTH, error),
+    const char *along = columns_along(sh, data);
+    csv_values *dx = columns_take(data, along, DIM_LENGTH, error),
                *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL;
     w->kind = &kinds[1];
+    w->rig = strlen(along) > 2;
     w->column[1][1] = dx;
     w->compared = Fx;
-    if (!csv_has(data, "dx") || !csv_has(data, "Fx"))
-        calc_append(&sh->calc, error, " (FN,Fx or dz,dx are followed; dx,Fx compared)");
+    if (!(csv_has(data, "dx") || w->rig) || !csv_has(data, "Fx"))
+        calc_append(&sh->calc, error, " (FN,Fx or dz,dx are followed; dx,Fx or drig,Fx compared)");
     if (!Fx)
         return false;
     return sh->calc.scene.end.steps || calc_missing(error, IN_FN);
@@ -435,7 +449,8 @@ static bool read_rows(shell *sh, csv *data, rows *w, bool *both, calc_error *err
         w->tangential[k] = w->column[k][1] ? w->column[k][1]->v : NULL;
     }
     w->loss = loss ? loss->v : NULL;
-    return true;
+    return !w->rig || (take_off(sh, IN_D0, w->column[1][1], data->rows, error) &&
+                       take_off(sh, IN_F0, w->compared, data->rows, error));
 }
 
 /* Of the rows that have been followed last. */

@@ -13,10 +13,11 @@
 
 /* ---- history ----------------------------------------------------------------------------------- */
 
-static const char *const history_names[] = {"FN", "dz", "Fx", "dx", "W"};
+/* The last of them with a rig alone. */
+static const char *const history_names[] = {"FN", "dz", "Fx", "dx", "W", "drig"};
 enum { HISTORY = sizeof history_names / sizeof *history_names };
 
-static bool history_rows(scene *s, answer *a, calc_error *error) {
+static bool history_rows(scene *s, long double K_rig, answer *a, calc_error *error) {
     scene_trace t;
     sight now;
     if (!trace_begin(&t, s, watch_points(1), true, error))
@@ -24,7 +25,8 @@ static bool history_rows(scene *s, answer *a, calc_error *error) {
     while (trace_next(&t, error)) {
         const fret_state *at = &now.state;
         run_sight(trace_now(&t), &now);
-        answer_row(a, (const long double[HISTORY]){at->FN, at->dz, at->Fx, at->dx, at->W});
+        answer_row(
+            a, (const long double[HISTORY]){at->FN, at->dz, at->Fx, at->dx, at->W, at->dx + at->Fx / K_rig});
     }
     trace_end(&t);
     return !error->raised;
@@ -32,6 +34,7 @@ static bool history_rows(scene *s, answer *a, calc_error *error) {
 
 bool do_history(shell *sh, lexer *lx, const command *self) {
     const fret_contact *contact;
+    long double K_rig = INFINITY;
     column columns[HISTORY] = {{.name = NULL}};
     target to;
     said all;
@@ -41,12 +44,13 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
     answer a;
     answer_begin_as(&a, &sh->set, to.to, to.format);
     bool ok = true;
-    for (size_t i = 0; i < HISTORY; i++)
+    const size_t count = HISTORY - !scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet());
+    for (size_t i = 0; i < count; i++)
         ok = ok && column_si(&columns[i], history_names[i],
                              quantity_find(history_names[i], strlen(history_names[i]))->d);
-    ok = ok && answer_columns(&a, self->name, columns, HISTORY);
+    ok = ok && answer_columns(&a, self->name, columns, count);
     if (ok) {
-        ok = history_rows(&sh->calc.scene, &a, lx->error);
+        ok = history_rows(&sh->calc.scene, K_rig, &a, lx->error);
         answer_end(&a, ok);
     } else {
         calc_no_memory(lx->error);

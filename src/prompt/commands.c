@@ -287,8 +287,8 @@ const command commands[] = {
      .keywords = "loop hysteresis csv export",
      .takes = "[to FILE]",
      .summary = "the recorded load history as a table",
-     .help = "One row for every press and step, and for the points that `steps` asked for.\n"
-             "`help files` tells the forms of FILE.\n\n"
+     .help = "One row for every press and step, and for the points that `steps` asked for,\n"
+             "with a rig drig too. `help files` tells the forms of FILE.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N; step Fx=20 N; step Fx=-20 N\n"
              "    fret> history\n"

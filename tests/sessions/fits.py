@@ -223,6 +223,27 @@ def at_the_rig(tests):
                 and "hardly tell E0 and K_rig apart: measure K_rig" in done.stderr, tests.report(done))
 
 
+def kept_at_the_rig(tests):
+    """What `history to FILE` writes with a rig can be followed again; readings drive by drig, their offsets taken off."""
+    scene = SETUP % (210, 0.4) + "; rig stiffness=80 N/um%s; "
+    kept = os.path.join(tests.dir, "kept-rig.csv")
+    done = tests.run("--format=json", "-c", scene % "" + "step Fx=20 N; step drig=-0.5 um; cycle drigA=1 um steps 8; history to %s; dx, Fx, W" % kept)
+    with open(kept, encoding="ascii") as f:
+        head, *rows = [line.strip().split(",") for line in f]
+    told = {row["name"]: row["value"] for row in map(json.loads, done.stdout.splitlines()) if "name" in row}
+    again, _, other = answers(tests, SETUP.split("press")[0] % (210, 0.4) + "follow %s; dx, Fx, W" % kept)
+    tests.check("history with a rig", head[-1] == "drig [m]" and len(rows) == 12 and all(
+        abs(float(row[5]) - float(row[3]) - float(row[2]) / 80e6) < 1e-20 for row in rows), str(head))
+    tests.check("history with a rig, followed", len(told) == 3 and all(abs(again[n] / v - 1) < 1e-12 for n, v in told.items()), tests.report(other))
+    name = write(tests, "readings.csv", "drig [um],Fx [N]", [(1e6 * float(row[5]) + 0.1, float(row[2]) - 2) for row in rows])
+    told, _, done = answers(tests, scene % " d0=0.1 um F0=-2 N" + "follow %s; dx, Fx, drig, W" % name)
+    compared = [row for row in map(json.loads, done.stdout.splitlines()) if row.get("event") == "compared"]
+    tests.check("follow readings", abs(told["drig"] / 1e-6 - 1) < 1e-9 and all(abs(told[n] / again[n] - 1) < 1e-8 for n in ("dx", "Fx"))
+                and compared and compared[0]["rms"] < 1e-6, tests.report(done))
+    done = tests.run("-c", SETUP % (210, 0.4) + "; follow " + name)
+    tests.check("follow readings without a rig", done.returncode == 1 and "there is no rig" in done.stderr, tests.report(done))
+
+
 def moved_starts(tests):
     """A start that a row cannot have, and one that lies far off, are moved."""
     rows = [(q, 1e6 * loss) for q, loss in ((q, dissipated(0.7, 210e9, q)) for q in (10, 20, 30, 40, 50, 60))]
@@ -758,6 +779,7 @@ def run(tests):
     noisy_in_both(tests)
     moved_starts(tests)
     at_the_rig(tests)
+    kept_at_the_rig(tests)
     by_cycle(tests)
     told_apart(tests)
     closed_loop(tests)

@@ -228,7 +228,7 @@ def read_tables(tests):
         done = tests.run("-c", bare + "\nfollow %s" % path)
         tests.check("follow must begin with a press", "begin with a row that presses (FN > 0, Fx = 0)" in done.stderr,
                     tests.report(done))
-    for text, message in (("a,b\n1,2\n", "has no column dx: its columns are a, b, by line 1, \"a,b\"; say which it is: using dx=COLUMN (FN,Fx or dz,dx are followed; dx,Fx compared)"),
+    for text, message in (("a,b\n1,2\n", "has no column dx: its columns are a, b, by line 1, \"a,b\"; say which it is: using dx=COLUMN (FN,Fx or dz,dx are followed; dx,Fx or drig,Fx compared)"),
                           ("FN,Fx\n1,2\n", "column FN is a number: it needs the unit of a force in the header, or here: using FN=COLUMN UNIT\n"),
                           ("FN [N],Fx [mm]\n1,2\n", "column Fx is a length: it needs the unit of a force in the header\n"),
                           ("FN [N],Fx [N],dz [um],dx [um],W [N]\n1,2,3,4,5\n", "column W is a force: it needs the unit of an energy in the header\n"),
