@@ -2,6 +2,7 @@
 """Do the standard errors of fit hold? Loops of springs stepped one by one, with noise in both columns, are fitted; the table
 says how far the values lie off, in their standard errors, and how many of them within one and two.
     python3 tests/hard/fits.py build/fret 200"""
+import concurrent.futures
 import json
 import math
 import os
@@ -12,7 +13,7 @@ import tempfile
 
 SPRINGS, ROWS, CYCLES = 1500, 200, 1.25
 MU, E0, FN, R, NU, C0 = 0.62, 210e9, 100.0, 0.01, 0.3, 1e-3
-FORCE_NOISE = 0.5
+FORCE_NOISE, K_RIG = 0.5, 80e6
 REGIMES = (("partial slip", 0.4), ("near gross slip", 0.95), ("sliding", 2.0))
 
 
@@ -50,32 +51,42 @@ def forces(springs, path):
     return out
 
 
-def campaign(fret, count, folder, out):
-    bad = 0
-    print("%-5s %-16s %-10s %-4s %9s %9s %6s %6s %7s" % ("k", "regime", "noise [nm]", "of", "error", "bias", "1 s", "2 s", "failed"), file=out)
+def loops():
+    """(k, regime, noise, rig stiffness): at the rig with the smaller noise alone."""
+    return [(k, regime, noise, rig) for k in (0, 0.3) for regime, _ in REGIMES for noise, rig in ((10e-9, None), (50e-9, None), (10e-9, K_RIG))]
+
+
+def campaign(fret, count, folder):
+    """[(its lines, how many do not hold)] in their order, two at a time."""
+    clean = {}
     for k in (0, 0.3):
         springs, most = springs_of(fret, k)
         for regime, part in REGIMES:
             path = [part * most * math.sin(2 * math.pi * i / ROWS) for i in range(int(ROWS * CYCLES) + 1)]
-            clean = forces(springs, path)
-            for noise in (10e-9, 50e-9):
-                bad += row(fret, count, folder, out, k, regime, noise, list(zip(path, clean)))
-    return bad
+            clean[k, regime] = list(zip(path, forces(springs, path)))
+
+    def one(of):
+        own = tempfile.mkdtemp(dir=folder)
+        return lines_of(fret, count, own, clean[of[0], of[1]], *of)
+
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        yield from pool.map(one, loops())
 
 
-def row(fret, count, folder, out, k, regime, noise, clean):
-    draw = random.Random("%g %s %g" % (k, regime, noise))
-    script = [scene(k, 0.4, 150e9)]
+def lines_of(fret, count, folder, clean, k, regime, noise, rig):
+    draw = random.Random("%g %s %g%s" % (k, regime, noise, " rig" if rig else ""))
+    script = [scene(k, 0.4, 150e9) + ("; rig stiffness=%g N/um" % (rig / 1e6) if rig else "")]
     for i in range(count):
         name = os.path.join(folder, "%d.csv" % i)
         with open(name, "w", encoding="ascii") as f:
-            f.write("dx [um],Fx [N]\n")
-            f.writelines("%.8g,%.8g\n" % (1e6 * (dx + draw.gauss(0, noise)), Fx + draw.gauss(0, FORCE_NOISE)) for dx, Fx in clean)
+            f.write("%s [um],Fx [N]\n" % ("drig" if rig else "dx"))
+            f.writelines("%.8g,%.8g\n" % (1e6 * (dx + (Fx / rig if rig else 0) + draw.gauss(0, noise)), Fx + draw.gauss(0, FORCE_NOISE))
+                         for dx, Fx in clean)
         script.append("fit mu, E0 along " + name)
     done = subprocess.run([fret, "--format=json", "--keep-going"], input="\n".join(script), capture_output=True, text=True)
     lines = [json.loads(line) for line in done.stdout.splitlines()]
     events = [line for line in lines if line.get("event") == "fit"]
-    bad = 0
+    out, bad = [], 0
     for name, true in (("mu", MU), ("E0", E0)):
         values = [line["value"] for line in lines if line.get("name") == name]
         stated = [event["deviation"][name] for event in events]
@@ -86,15 +97,20 @@ def row(fret, count, folder, out, k, regime, noise, clean):
         wrong = (abs(bias) > 0.2 + 3 / math.sqrt(n) or abs(one - 0.683) > 3 * math.sqrt(0.683 * 0.317 / n)
                  or abs(two - 0.954) > 3 * math.sqrt(0.954 * 0.046 / n) or n < count)
         bad += wrong
-        print("%-5g %-16s %-10g %-4s %8.3f%% %9.3f %6.3f %6.3f %7d%s" % (k, regime, noise * 1e9, name, 100 * sum(stated) / n / true, bias, one, two, count - n, " *" * wrong), file=out, flush=True)
-    return bad
+        out.append("%-5g %-16s %-10g %-4s %-4s %8.3f%% %9.3f %6.3f %6.3f %7d%s" % (
+            k, regime, noise * 1e9, "%g" % (rig / 1e6) if rig else "no", name, 100 * sum(stated) / n / true, bias, one, two, count - n, " *" * wrong))
+    return out, bad
 
 
 def main():
     fret, count = sys.argv[1], int(sys.argv[2])
-    print("# make fits FITS=%d; error: stated, of the value; bias: mean error in stated errors; * beyond what %d draws allow" % (count, count))
+    print("# make fits FITS=%d; error: stated, of the value; bias: mean error in stated errors; rig: its stiffness [N/um]; * beyond what %d draws allow" % (count, count))
+    print("%-5s %-16s %-10s %-4s %-4s %9s %9s %6s %6s %7s" % ("k", "regime", "noise [nm]", "rig", "of", "error", "bias", "1 s", "2 s", "failed"))
+    bad = 0
     with tempfile.TemporaryDirectory() as folder:
-        bad = campaign(os.path.abspath(fret), count, folder, sys.stdout)
+        for lines, wrong in campaign(os.path.abspath(fret), count, folder):
+            print("\n".join(lines), flush=True)
+            bad += wrong
     print("%d rows do not hold" % bad)
     return bad > 0
 
