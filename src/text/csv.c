@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reading tables: bytes become text, the table is found in it, the header becomes columns, and fields become
- * numbers when their column is asked for. A number is what the language takes for one, or the same with a
- * decimal comma. */
+ * numbers when their column is asked for. */
 #include "text/csv.h"
 
 #include <math.h>
@@ -12,6 +11,7 @@
 
 #include "text/characters.h"
 #include "text/encoding.h"
+#include "text/field.h"
 #include "text/unit_text.h"
 
 static const unit plain_unit = {{0, 0, 0, 0}, 0, 1};
@@ -25,126 +25,6 @@ void csv_free(csv *c) {
     free(c->text);
     free(c->path);
     *c = (csv){.path = NULL};
-}
-
-/* ---- fields ------------------------------------------------------------------------------------ */
-
-typedef struct field {
-    const char *text;
-    size_t len;
-} field;
-
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r';
-}
-
-static field trimmed(const char *text, size_t len) {
-    while (len > 0 && is_blank(text[len - 1]))
-        len--;
-    while (len > 0 && is_blank(*text))
-        text++, len--;
-    return (field){text, len};
-}
-
-static bool parts(char separator, char c) {
-    return separator == ' ' ? is_blank(c) : c == separator;
-}
-
-/* The field at *at and the place of the next; false: there is none. Quotation marks and brackets hold
- * separators. */
-static bool next_field(char separator, const char *line, size_t len, size_t *at, field *out) {
-    size_t i = *at;
-    while (separator == ' ' && i < len && is_blank(line[i]))
-        i++;
-    if (i >= len + (separator != ' '))
-        return false;
-    const size_t begin = i;
-    bool quoted = false;
-    int depth = 0;
-    for (; i < len; i++) {
-        const char c = line[i];
-        if (!quoted && depth == 0 && parts(separator, c))
-            break;
-        quoted = c == '"' ? !quoted : quoted;
-        depth += quoted ? 0 : c == '[' || c == '(' ? 1 : (c == ']' || c == ')') && depth > 0 ? -1 : 0;
-    }
-    *out = trimmed(line + begin, i - begin);
-    *at = i + 1;
-    if (out->len >= 2 && *out->text == '"' && out->text[out->len - 1] == '"')
-        *out = trimmed(out->text + 1, out->len - 2);
-    return true;
-}
-
-/* The length of the number at the beginning of a text, which is not empty; 0: there is none. */
-static size_t take_number(const char *text, size_t len, char point, const unit *u, double *out) {
-    const bool minus = *text == '-', sign = minus || *text == '+', decimal = u->factor == 1;
-    double v;
-    const size_t n = lex_decimal(text + sign, len - sign, point, decimal ? u->exp10 : 0, &v);
-    if (n == 0)
-        return 0;
-    v = decimal ? v : (double)((long double)v * unit_scale(u));
-    *out = minus ? -v : v;
-    return isfinite(v) ? n + sign : 0;
-}
-
-/* All of a field, with a point or, where it cannot be a separator, with a comma. */
-static bool is_number(field f, bool comma, const unit *u, double *out) {
-    const char point = comma && !memchr(f.text, '.', f.len) ? ',' : '.';
-    return f.len && take_number(f.text, f.len, point, u, out) == f.len;
-}
-
-/* What stands where there is no value. */
-static bool is_missing(field f) {
-    static const char *const words[] = {"nan",     "-nan",    "+nan",    "nan(ind)", "-nan(ind)", "1.#qnan",
-                                        "-1.#ind", "na",      "n/a",     "no data",  "null",      "#div/0!",
-                                        "#n/a",    "#nv",     "#value!", "#wert!",   "#num!",     "#zahl!",
-                                        "#ref!",   "#bezug!", "#name?",  "#null!"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == f.len) {
-            size_t n = 0;
-            while (n < f.len &&
-                   (f.text[n] | (f.text[n] >= 'A' && f.text[n] <= 'Z' ? 0x20 : 0)) == words[i][n])
-                n++;
-            if (n == f.len)
-                return true;
-        }
-    return f.len == 0;
-}
-
-/* A field of a row. A comment, with or without a number before it, is the last. */
-typedef struct cell {
-    enum { NUMBER, MISSING, WORD, COMMENT } is;
-    field f;
-    double v;
-    bool ends;
-} cell;
-
-static bool next_cell(char separator, const char *line, size_t len, size_t *at, const unit *u, cell *out) {
-    const size_t n = *at < len ? take_number(line + *at, len - *at, '.', u, &out->v) : 0;
-    out->is = NUMBER;
-    out->ends = false;
-    if (n > 0 && (*at + n == len || parts(separator, line[*at + n]))) { /* as most are */
-        out->f = (field){line + *at, n};
-        *at += n + 1;
-        return true;
-    }
-    if (!next_field(separator, line, len, at, &out->f))
-        return false;
-    field *f = &out->f;
-    const bool comma = separator != ',' || (f->text > line && f->text[-1] == '"');
-    if (is_number(*f, comma, u, &out->v))
-        return true;
-    if (is_missing(*f)) {
-        out->is = MISSING;
-        out->v = NAN;
-        return true;
-    }
-    const char *hash = memchr(f->text, '#', f->len);
-    const field before = trimmed(f->text, hash ? (size_t)(hash - f->text) : 0);
-    const bool first = f->text == line && *at < len; /* `1#,0,0`: a note */
-    out->ends = hash && !first && is_number(before, comma, u, &out->v);
-    out->is = out->ends ? NUMBER : hash == f->text ? COMMENT : WORD;
-    return true;
 }
 
 /* ---- the text ---------------------------------------------------------------------------------- */
@@ -224,7 +104,7 @@ static void scan_line(const char *text, char separator, said_line *l) {
     cell c = {.ends = false};
     l->fields = 0;
     l->numbers = l->words = l->labels = 0;
-    while (!c.ends && next_cell(separator, text, l->at.len, &at, &plain_unit, &c) && c.is != COMMENT) {
+    while (!c.ends && cell_next(separator, text, l->at.len, &at, &plain_unit, &c) && c.is != COMMENT) {
         const unsigned long long bit = 1ULL << (l->fields < CSV_COLUMNS ? l->fields : CSV_COLUMNS - 1);
         l->numbers |= c.is == NUMBER ? bit : 0;
         l->words |= c.is == WORD ? bit : 0;
@@ -237,7 +117,7 @@ static void scan_line(const char *text, char separator, said_line *l) {
 /* Is it more than blanks and separators, as spreadsheets write empty rows? */
 static bool says_something(const char *text, size_t len) {
     for (size_t i = 0; i < len; i++)
-        if (!is_blank(text[i]) && text[i] != ';' && text[i] != ',')
+        if (!field_is_blank(text[i]) && text[i] != ';' && text[i] != ',')
             return true;
     return false;
 }
@@ -246,7 +126,7 @@ static bool is_comment(field f) {
     size_t n = 0;
     while (n < f.len && !strchr("; \t,", f.text[n]))
         n++;
-    return f.len > 0 && *f.text == '#' && !is_missing((field){f.text, n});
+    return f.len > 0 && *f.text == '#' && !field_is_missing((field){f.text, n});
 }
 
 static bool cut_lines(finder *t, size_t len) {
@@ -262,7 +142,7 @@ static bool cut_lines(finder *t, size_t len) {
         n = strcspn(text + at, "\n");
         if (says_something(text + at, n) && (n != 5 || memcmp(text + at, "sep=", 4)))
             t->list[t->count++] =
-                (said_line){.at = {number, at, n}, .comment = is_comment(trimmed(text + at, n))};
+                (said_line){.at = {number, at, n}, .comment = is_comment(field_trimmed(text + at, n))};
     }
     return true;
 }
@@ -339,7 +219,7 @@ static bool parse_unit(const char *text, size_t len, unit *u, calc_error *wrong)
 
 /* `k []`, `k [-]`: a plain number */
 static bool no_unit(const char *text, size_t len) {
-    const field f = trimmed(text, len);
+    const field f = field_trimmed(text, len);
     return f.len == 0 || (f.len == 1 && *f.text == '-');
 }
 
@@ -350,7 +230,7 @@ static char closing_of(char c) {
 /* `r [mm] f [um]` parts names from their units too. */
 static size_t unit_behind(const char *line, size_t len, size_t at, field *f) {
     size_t next = at;
-    while (next < len && is_blank(line[next]))
+    while (next < len && field_is_blank(line[next]))
         next++;
     const char closing = next < len ? closing_of(line[next]) : 0;
     const char *end = closing ? memchr(line + next, closing, len - next) : NULL;
@@ -363,14 +243,14 @@ static size_t unit_behind(const char *line, size_t len, size_t at, field *f) {
 /* Without the signs of a comment, and what programs write before the names. */
 static field heading(const char *text, size_t len) {
     static const char item[] = "ITEM: ";
-    field f = trimmed(text, len);
+    field f = field_trimmed(text, len);
     while (f.len > 0 && strchr("#%!", *f.text))
-        f = trimmed(f.text + 1, f.len - 1);
+        f = field_trimmed(f.text + 1, f.len - 1);
     if (f.len > sizeof item && !memcmp(f.text, item, sizeof item - 1)) {
         size_t n = sizeof item - 1;
-        while (n < f.len && !is_blank(f.text[n]))
+        while (n < f.len && !field_is_blank(f.text[n]))
             n++;
-        f = trimmed(f.text + n, f.len - n);
+        f = field_trimmed(f.text + n, f.len - n);
     }
     return *text == '\t' || *text == ';' || *text == ',' ? (field){text, len} : f; /* an empty first field */
 }
@@ -382,12 +262,12 @@ static size_t read_titles(finder *t, char separator, const char *text, size_t le
     size_t at = 0, count = 0, named = 0, numbers = 0;
     double v;
     field f;
-    while (next_field(separator, head.text, head.len, &at, &f) && !is_comment(f)) {
+    while (field_next(separator, head.text, head.len, &at, &f) && !is_comment(f)) {
         if (separator == ' ')
             at = unit_behind(head.text, head.len, at, &f);
         if (f.len > 0 && count >= CSV_COLUMNS)
             return 0;
-        numbers += is_number(f, true, &plain_unit, &v);
+        numbers += field_is_number(f, true, &plain_unit, &v);
         if (count < CSV_COLUMNS)
             snprintf(t->title[count], CSV_NAME, "%.*s", (int)(f.len < CSV_NAME ? f.len : CSV_NAME - 1),
                      f.text);
@@ -504,11 +384,11 @@ static bool read_title(const finder *t, csv_values *column) {
             break;
         }
         if (!trouble(column, t->error, "%.200s:%zu: column %.*s: %.200s%.*s%s", path, t->c->header.line,
-                     (int)trimmed(title, name).len, title, wrong.raised ? wrong.text : "a bad unit '",
+                     (int)field_trimmed(title, name).len, title, wrong.raised ? wrong.text : "a bad unit '",
                      wrong.raised ? 0 : LEX_SHOWN(len), text, wrong.raised ? "" : "'"))
             return false;
     }
-    const field own = trimmed(title, name);
+    const field own = field_trimmed(title, name);
     snprintf(column->name, sizeof column->name, "%.*s", (int)own.len, own.text);
     return true;
 }
@@ -696,11 +576,12 @@ static bool check_marks(csv *c, calc_error *error) {
         size_t at = 0;
         cell f;
         for (size_t k = 0;
-             k < c->columns && next_cell(c->separator, c->text + row->at, row->len, &at, &plain_unit, &f);
+             k < c->columns && cell_next(c->separator, c->text + row->at, row->len, &at, &plain_unit, &f);
              k++) {
             const char *hash = memchr(f.f.text, '#', f.f.len);
             if (f.is == NUMBER)
-                see_marks(m, row->line, k, trimmed(f.f.text, hash ? (size_t)(hash - f.f.text) : f.f.len));
+                see_marks(m, row->line, k,
+                          field_trimmed(f.f.text, hash ? (size_t)(hash - f.f.text) : f.f.len));
         }
     }
     const bool ok = !m || judge_marks(c, m, error);
@@ -783,7 +664,7 @@ void csv_names(const csv *c, char *buf, size_t size) {
 
 void csv_layout(const csv *c, char *buf, size_t size) {
     char names[CALC_ERROR_TEXT / 3];
-    const field head = trimmed(c->text + c->header.at, c->header.len);
+    const field head = field_trimmed(c->text + c->header.at, c->header.len);
     csv_names(c, names, sizeof names);
     if (c->header.line)
         snprintf(buf, size, "its columns are %s, by line %zu, \"%.*s\"", names, c->header.line,
@@ -811,10 +692,10 @@ const csv_values *csv_column(csv *c, const char *name, calc_error *error) {
 static bool cell_at(const csv *c, const csv_row *row, size_t column, cell *out) {
     size_t at = 0;
     for (size_t i = 0; i < column; i++)
-        if (!next_cell(c->separator, c->text + row->at, row->len, &at, &plain_unit, out) ||
+        if (!cell_next(c->separator, c->text + row->at, row->len, &at, &plain_unit, out) ||
             out->is == COMMENT)
             return false;
-    return next_cell(c->separator, c->text + row->at, row->len, &at, &c->column[column].u, out) &&
+    return cell_next(c->separator, c->text + row->at, row->len, &at, &c->column[column].u, out) &&
            out->is != COMMENT;
 }
 

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A line is cut at separators; a field is a number, has none, or is words. A number is what the language takes
+ * for one, or the same with a decimal comma. */
+#include "text/field.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "text/lex.h"
+
+bool field_is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+field field_trimmed(const char *text, size_t len) {
+    while (len > 0 && field_is_blank(text[len - 1]))
+        len--;
+    while (len > 0 && field_is_blank(*text))
+        text++, len--;
+    return (field){text, len};
+}
+
+static bool parts(char separator, char c) {
+    return separator == ' ' ? field_is_blank(c) : c == separator;
+}
+
+bool field_next(char separator, const char *line, size_t len, size_t *at, field *out) {
+    size_t i = *at;
+    while (separator == ' ' && i < len && field_is_blank(line[i]))
+        i++;
+    if (i >= len + (separator != ' '))
+        return false;
+    const size_t begin = i;
+    bool quoted = false;
+    int depth = 0;
+    for (; i < len; i++) {
+        const char c = line[i];
+        if (!quoted && depth == 0 && parts(separator, c))
+            break;
+        quoted = c == '"' ? !quoted : quoted;
+        depth += quoted ? 0 : c == '[' || c == '(' ? 1 : (c == ']' || c == ')') && depth > 0 ? -1 : 0;
+    }
+    *out = field_trimmed(line + begin, i - begin);
+    *at = i + 1;
+    if (out->len >= 2 && *out->text == '"' && out->text[out->len - 1] == '"')
+        *out = field_trimmed(out->text + 1, out->len - 2);
+    return true;
+}
+
+/* The length of the number at the beginning of a text, which is not empty; 0: there is none. */
+static size_t take_number(const char *text, size_t len, char point, const unit *u, double *out) {
+    const bool minus = *text == '-', sign = minus || *text == '+', decimal = u->factor == 1;
+    double v;
+    const size_t n = lex_decimal(text + sign, len - sign, point, decimal ? u->exp10 : 0, &v);
+    if (n == 0)
+        return 0;
+    v = decimal ? v : (double)((long double)v * unit_scale(u));
+    *out = minus ? -v : v;
+    return isfinite(v) ? n + sign : 0;
+}
+
+bool field_is_number(field f, bool comma, const unit *u, double *out) {
+    const char point = comma && !memchr(f.text, '.', f.len) ? ',' : '.';
+    return f.len && take_number(f.text, f.len, point, u, out) == f.len;
+}
+
+bool field_is_missing(field f) {
+    static const char *const words[] = {"nan",     "-nan",    "+nan",    "nan(ind)", "-nan(ind)", "1.#qnan",
+                                        "-1.#ind", "na",      "n/a",     "no data",  "null",      "#div/0!",
+                                        "#n/a",    "#nv",     "#value!", "#wert!",   "#num!",     "#zahl!",
+                                        "#ref!",   "#bezug!", "#name?",  "#null!"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == f.len) {
+            size_t n = 0;
+            while (n < f.len &&
+                   (f.text[n] | (f.text[n] >= 'A' && f.text[n] <= 'Z' ? 0x20 : 0)) == words[i][n])
+                n++;
+            if (n == f.len)
+                return true;
+        }
+    return f.len == 0;
+}
+
+bool cell_next(char separator, const char *line, size_t len, size_t *at, const unit *u, cell *out) {
+    const size_t n = *at < len ? take_number(line + *at, len - *at, '.', u, &out->v) : 0;
+    out->is = NUMBER;
+    out->ends = false;
+    if (n > 0 && (*at + n == len || parts(separator, line[*at + n]))) { /* as most are */
+        out->f = (field){line + *at, n};
+        *at += n + 1;
+        return true;
+    }
+    if (!field_next(separator, line, len, at, &out->f))
+        return false;
+    field *f = &out->f;
+    const bool comma = separator != ',' || (f->text > line && f->text[-1] == '"');
+    if (field_is_number(*f, comma, u, &out->v))
+        return true;
+    if (field_is_missing(*f)) {
+        out->is = MISSING;
+        out->v = NAN;
+        return true;
+    }
+    const char *hash = memchr(f->text, '#', f->len);
+    const field before = field_trimmed(f->text, hash ? (size_t)(hash - f->text) : 0);
+    const bool first = f->text == line && *at < len; /* `1#,0,0`: a note */
+    out->ends = hash && !first && field_is_number(before, comma, u, &out->v);
+    out->is = out->ends ? NUMBER : hash == f->text ? COMMENT : WORD;
+    return true;
+}
