@@ -113,17 +113,24 @@ turning turning_about(const double *v, size_t row, size_t from, size_t to, doubl
     return (turning){.first = first, .n = n, .here = here, .top = fmin(fmax(top, 0), (double)(n - 1))};
 }
 
-/* Of values as a line over |i - top|: of n rows its mean and their squares about that. */
-static void set_ridge(turning *t, double top) {
+/* Values as a line down to each side of the crest, a + b min(u, 0) + c max(u, 0), u = i - top: the row of the
+ * inverse of the normal equations that tells a. False: one side has no rows. */
+static bool set_ridge(turning *t, double top) {
+    double left[2] = {0}, right[2] = {0}; /* sums of u, u^2 */
+    for (size_t i = 0; i < t->n; i++) {
+        const double u = (double)i - top;
+        double *side = u < 0 ? left : right;
+        side[0] += u;
+        side[1] += u * u;
+    }
     t->sharp = true;
     t->top = top;
-    t->mean = t->square = 0;
-    for (size_t i = 0; i < t->n; i++)
-        t->mean += fabs((double)i - top) / (double)t->n;
-    for (size_t i = 0; i < t->n; i++) {
-        const double off = fabs((double)i - top) - t->mean;
-        t->square += off * off;
-    }
+    if (!(left[1] > 0 && right[1] > 0))
+        return false;
+    t->a = 1 / ((double)t->n - left[0] * left[0] / left[1] - right[0] * right[0] / right[1]);
+    t->b = -t->a * left[0] / left[1];
+    t->c = -t->a * right[0] / right[1];
+    return t->a > 0;
 }
 
 double turning_weight(const turning *t, size_t i) {
@@ -131,8 +138,9 @@ double turning_weight(const turning *t, size_t i) {
                  x = t->top - middle, u = (double)i - middle;
     if (t->n == 1)
         return 1;
+    const double off = (double)i - t->top;
     if (t->sharp)
-        return 1 / rows - t->mean * (fabs((double)i - t->top) - t->mean) / t->square;
+        return t->a + (off < 0 ? t->b : t->c) * off;
     return 1 / rows + x * u / (rows * mean) +
            (x * x - mean) * (u * u - mean) / (rows * mean * (square - 4) / 15);
 }
@@ -145,33 +153,35 @@ double turning_crest(const double *v, const turning *t) {
     return at[0] + level;
 }
 
-/* What a line over |i - top| leaves over. */
+/* What the two lines leave over. */
 static double ridge_left(const double *v, const turning *t) {
-    double sum = 0, line = 0, squares = 0, mean = 0;
-    for (size_t i = 0; i < t->n; i++)
-        mean += v[i] / (double)t->n;
+    const double crest = turning_crest(v, t);
+    double slope[2] = {0}, square[2] = {0}, squares = 0;
     for (size_t i = 0; i < t->n; i++) {
-        const double off = fabs((double)i - t->top) - t->mean;
-        line += off * (v[i] - mean) / t->square;
+        const double u = (double)i - t->top;
+        slope[u >= 0] += u * (v[t->first + i] - crest);
+        square[u >= 0] += u * u;
     }
     for (size_t i = 0; i < t->n; i++) {
-        sum = v[i] - mean - line * (fabs((double)i - t->top) - t->mean);
-        squares += sum * sum;
+        const double u = (double)i - t->top,
+                     off = v[t->first + i] - crest - slope[u >= 0] / square[u >= 0] * u;
+        squares += off * off;
     }
     return squares;
 }
 
 double turning_sharpen(const double *v, turning *t) {
+    const turning before = *t;
     double best = t->top, least = INFINITY;
     for (size_t k = 4; k + 4 <= 4 * (t->n - 1) && t->n > 1; k++) {
-        set_ridge(t, (double)k / 4);
-        const double left = ridge_left(v + t->first, t);
+        const double left = set_ridge(t, (double)k / 4) ? ridge_left(v, t) : INFINITY;
         if (left < least) {
             least = left;
             best = t->top;
         }
     }
-    set_ridge(t, best);
+    if (!isfinite(least) || !set_ridge(t, best))
+        *t = before;
     return least;
 }
 

@@ -21,8 +21,9 @@ enum { TURNING_MOST = 400 };
 typedef struct turning {
     size_t first, n;
     double here, top;
-    bool sharp;          /* the crest is one of two lines, a - s |i - top|, with these of |i - top|: */
-    double mean, square; /* its mean, and the sum of squares about that */
+    bool sharp; /* the crest is where two lines meet, in which a value has the weight a + b u, right of it a +
+                   c u, */
+    double a, b, c; /* u = i - top */
 } turning;
 
 turning turning_about(const double *v, size_t row, size_t from, size_t to, double noise);

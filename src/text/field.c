@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A line is cut at separators; a field is a number, has none, or is words. A number is what the language takes
- * for one, or the same with a decimal comma. */
+/* A line is cut at separators; a field is a number, has none, or is words. A number is what the language
+ * takes for one, or the same with a decimal comma. */
 #include "text/field.h"
 
 #include <math.h>

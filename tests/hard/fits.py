@@ -57,7 +57,7 @@ def loops():
 
 
 def campaign(fret, count, folder):
-    """[(its lines, how many do not hold)] in their order, two at a time."""
+    """[(its lines, how many do not hold)] in their order, four at a time."""
     clean = {}
     for k in (0, 0.3):
         springs, most = springs_of(fret, k)
@@ -69,7 +69,7 @@ def campaign(fret, count, folder):
         own = tempfile.mkdtemp(dir=folder)
         return lines_of(fret, count, own, clean[of[0], of[1]], *of)
 
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
         yield from pool.map(one, loops())
 
 

@@ -163,6 +163,23 @@ def noisy_in_both(tests):
         tests.check("fit refuses:" + said, done.returncode == 1 and text in done.stderr, tests.report(done))
 
 
+def sharp_drive(tests):
+    """A drive of constant speed turns in a corner, a sine in a round: neither biases what is fitted, whose errors are near as small."""
+    mu, E0, stated = 0.62, 210e9, {}
+    for shape in ("corners", "rounds"):
+        path = path_of(2e-6, 50)[:-50] if shape == "corners" else [2e-6 * math.sin(2 * math.pi * i / 200) for i in range(251)]
+        clean, off = loop(mu, E0, path), []
+        for seed in range(12):
+            noise = random.Random(seed)
+            name = write(tests, "drive.csv", "dx [um],Fx [N]", [(d * 1e6 + noise.gauss(0, 0.05), f + noise.gauss(0, 0.5)) for d, f in zip(path, clean)])
+            values, event, done = answers(tests, SETUP % (150, 0.4) + "; fit mu, E0 along " + name)
+            if event:
+                off.append((values["mu"] - mu) / event["deviation"]["mu"])
+                stated[shape] = event["deviation"]["mu"]
+        mean = sum(off) / len(off)
+        tests.check("fit: %s" % shape, len(off) == 12 and abs(mean) < 0.9 and all(abs(o) < 3.5 for o in off) and stated[shape] < 0.009, str((off, stated)))
+
+
 def by_cycle(tests):
     """A row for each cycle; mu falls from one to the next. The table has the energy of each, and gaps where a cycle tells nothing."""
     path = [1.2e-6 * math.sin(2 * math.pi * i / 100) for i in range(126)]
@@ -777,6 +794,7 @@ def run(tests):
     noisy_loops(tests, 20 if tests.few else 100)
     drifting(tests)
     noisy_in_both(tests)
+    sharp_drive(tests)
     moved_starts(tests)
     at_the_rig(tests)
     kept_at_the_rig(tests)
