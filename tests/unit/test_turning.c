@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Crests of a measured column, round and sharp: exact where the data are, and the weights of rows in them those
- * of normal equations. */
+/* Crests of a measured column, round and sharp: exact where the data are, and the weights of rows in them
+ * those of normal equations. */
 #include "measured/turning.h"
 
 #include "unit.h"
