@@ -32,6 +32,9 @@ static bool read_names(shell *sh, lexer *lx, fit_question *q) {
             return false;
         if (ask_repeats(q->name, q->count))
             return calc_fail(lx->error, at, lx->last - at, "%s is given twice", q->name[q->count - 1].text);
+        if (lx->kind == T_ASSIGN)
+            return lex_fail(lx, "unexpected '=': fit starts from the present value of %s",
+                            q->name[q->count - 1].text);
         if (lx->kind != T_COMMA)
             return at_end(lx);
         lex_next(lx);

@@ -11,6 +11,7 @@ static const struct {
     const char *word, *answer;
 } leads[] = {
     {"load", "press, step, cycle and follow do it; `plot load` draws the path"},
+    {"push", "step Fx=20 N pushes, cycle FA=20 N pushes to and fro"},
     {"unload", "step FN=... goes back to a smaller force"},
     {"pressure", "p(r) tells it, p0 and pmean the largest and the mean, `plot pressure` draws it"},
     {"traction", "qx(r) tells it, `plot traction` draws it"},
@@ -22,6 +23,10 @@ static const struct {
     {"cylinder",
      "line contact is not axisymmetric, which this program does not do; its flat end is geometry flat b=..."},
     {"torsion", "no twist is computed: the load is FN and Fx"},
+    {"print", "values are asked for by what they are called: a, dz in um"},
+    {"clear", "`reset` forgets the load, `reset all` the inputs too"},
+    {"lessons", "`show demos` lists them, `help lessons` tells how to write one"},
+    {"redo", "undo has no way forward; the arrow keys bring statements back"},
     {"adhesion", "none is computed; try: help limits"},
 };
 enum { LEADS = sizeof leads / sizeof *leads };

@@ -36,11 +36,17 @@ void shell_free(shell *sh) {
 
 /* ---- statements -------------------------------------------------------------------------------- */
 
+/* `a dz` */
+static bool lacks_comma(lexer *lx) {
+    return lx->kind == T_NAME && quantity_find(lx->text + lx->at, lx->len) &&
+           !lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
+}
+
 static bool print_statement(shell *sh, lexer *lx) {
     column columns[EXPRESSIONS];
     long double si[EXPRESSIONS];
     size_t count = 0;
-    bool ok = read_expressions(sh, lx, columns, EXPRESSIONS, &count) && at_end(lx);
+    bool ok = read_expressions(sh, lx, columns, EXPRESSIONS, &count) && !lacks_comma(lx) && at_end(lx);
     for (size_t i = 0; i < count && ok; i++) {
         value v;
         ok = expr_eval(&sh->calc, &sh->list[i], &v, lx->error) &&

@@ -707,10 +707,24 @@ static bool misspelt(lexer *lx, const said *s) {
     return meant && !lex_fail(lx, "unexpected '%.*s': did you mean %s?", LEX_WORD(lx), meant->name);
 }
 
+/* `sphere 10 mm`, `nu 0.3`: an argument without its name, or its `=`. */
+static bool half_named(lexer *lx, const grammar *f) {
+    const clause *a = f->clause, *end = a + f->count;
+    const bool bare = lx->kind == T_NUMBER || lx->kind == T_MINUS || lx->kind == T_OPEN;
+    char usage[GRAMMAR_USAGE];
+    while (a < end && !(a->argument && (bare || lex_is(lx, a->name))))
+        a++;
+    if (a == end)
+        return false;
+    grammar_usage(f, usage);
+    return bare ? !lex_fail(lx, "unexpected '%.*s': a value needs its name; usage: %s", LEX_WORD(lx), usage)
+                : !lex_fail(lx, "expected = after %.*s; usage: %s", LEX_WORD(lx), usage);
+}
+
 bool said_end(lexer *lx, const said *s) {
     if (lx->kind == T_COMMA)
         return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", s->by->command);
-    return !misspelt(lx, s) && at_end(lx);
+    return !misspelt(lx, s) && !half_named(lx, s->by) && at_end(lx);
 }
 
 bool said_hides(const lexer *lx, const said *s, const char *word) {
