@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What `help` and `apropos` say: each text's example must come out as printed."""
-import os
 import re
-import subprocess
 
 import harness
 import transcripts
@@ -15,35 +13,6 @@ APROPOS = {"loop": "cycle, plot, dW", "hysteresis": "cycle, dW", "dissipation": 
 HELPED = ("sphere", "springs", "flat-rounded", "format", "pager", "GPa", "cm", "%", "steel", "Ti-6Al-4V", "sin", "memory",
           "expressions", "scripts", "files", "theory", "paper", "limits", "prompt", "set model", "geometry cone",
           "material steel", "p(r)", "dW(20 N)", "FN=100 N", "set format")
-
-
-def examples(tests, topic, lines):
-    """The files that a help text shows by `$ cat`, its calls of the program and its transcript; how many answers."""
-    where, files, calls, session, into = os.path.join(tests.dir, "help " + topic), {}, [], [], None
-    for line in lines:
-        if line.startswith("$ cat "):
-            into = files.setdefault(line[6:], [])
-        elif line.startswith("$ fret "):
-            into = [line[2:]]
-            calls.append(into)
-        elif line.startswith(harness.PROMPT) or into is None:
-            into = session
-            session.append(line)
-        else:
-            into.append(line)
-    os.mkdir(where)
-    for name, text in files.items():
-        with open(os.path.join(where, name), "w", encoding="utf-8") as f:
-            f.write("".join((line[4:] if text[0].startswith("    ") else line) + "\n" for line in text))
-    steps = harness.read_transcript("\n".join(session))
-    if steps:
-        harness.replay(tests, "help " + topic, steps, cwd=where)
-    path = os.path.dirname(tests.fret) + ":" + tests.env["PATH"]
-    for command, *want in calls:
-        done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd=where, env={**tests.env, "PATH": path})
-        got = (done.stdout + done.stderr).splitlines()[:len(want)]
-        tests.same("help %s: %s" % (topic, command), "\n".join(want), "\n".join(got))
-    return len(steps) + len(calls)
 
 
 ERRS = ("reset",)  # whose example is about an error
@@ -77,7 +46,7 @@ def run(tests):
         wide = [line for line in done.stdout.splitlines()[1:] if len(line) > 80 and not line.startswith("    ")]
         tests.check("help %s fits a terminal" % topic, not wide, "\n".join(wide))
         lines = [line[4:] for line in done.stdout.splitlines() if line.startswith("    ")]
-        count = examples(tests, topic, lines)
+        count = transcripts.examples(tests, "help " + topic, lines)
         tests.check("help %s has an example" % topic, count > 0 or topic not in shown, done.stdout)
         tests.check("the example of %s is at work" % topic, is_at_work(lines) or topic in ERRS, done.stdout)
 

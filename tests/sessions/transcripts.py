@@ -25,12 +25,45 @@ def plots_of(tests, name, steps):
                     any(label in line for line in tail) and any("+----" in line for line in tail), tests.report(done))
 
 
+def examples(tests, name, lines):
+    """The files that a text shows by `$ cat`, its calls of the program and its transcript; how many answers."""
+    where, files, calls, session, into = os.path.join(tests.dir, name), {}, [], [], None
+    for line in lines:
+        if line.startswith("$ cat "):
+            into = files.setdefault(line[6:], [])
+        elif line.startswith("$ fret "):
+            into = [line[2:]]
+            calls.append(into)
+        elif line.startswith(harness.PROMPT) or into is None:
+            into = session
+            session.append(line)
+        else:
+            into.append(line)
+    os.mkdir(where)
+    for file, text in files.items():
+        with open(os.path.join(where, file), "w", encoding="utf-8") as f:
+            f.write("".join((line[4:] if text[0].startswith("    ") else line) + "\n" for line in text))
+    steps = harness.read_transcript("\n".join(session))
+    if steps:
+        harness.replay(tests, name, steps, cwd=where)
+    path = os.path.dirname(tests.fret) + ":" + tests.env["PATH"]
+    for command, *want in calls:
+        done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd=where, env={**tests.env, "PATH": path})
+        got = (done.stdout + done.stderr).splitlines()[:len(want)]
+        tests.same("%s: %s" % (name, command), "\n".join(want), "\n".join(got))
+    return len(steps) + len(calls)
+
+
 def run(tests):
     jobs = []
     for path in sorted(glob.glob(os.path.join(HERE, "*.txt"))):
         name = os.path.relpath(path, harness.ROOT)
         with open(path, encoding="utf-8") as f:
-            steps = harness.read_transcript(f.read())
+            text = f.read()
+        if re.search(r"^\$ cat ", text, re.M):  # which wants a directory of its own
+            jobs.append(lambda n=os.path.basename(path), t=text: examples(tests, n, t.splitlines()[1:]))
+            continue
+        steps = harness.read_transcript(text)
         still = [s for s in steps if not harness.draws(s[0]) or s[1]]
         jobs.append(lambda n=name, s=steps: harness.replay(tests, n, s))
         jobs.append(lambda n=name, s=still: harness.batch(tests, n, s))
