@@ -38,6 +38,10 @@ def installed(tests):
         with open(os.path.join(root, "usr/share/man/man1/fret.1"), encoding="utf-8") as f:
             tests.check("fret(1) names " + command, re.search(r"^\.B %s\b" % command, f.read(), re.M))
     completes(tests, os.path.join(root, "usr/share/bash-completion/completions/fret"))
+    if shutil.which("pkg-config"):
+        told = {**os.environ, "PKG_CONFIG_SYSROOT_DIR": root, "PKG_CONFIG_PATH": os.path.join(root, "usr/lib/pkgconfig")}
+        flags = subprocess.run(["pkg-config", "--cflags", "--libs", "fret"], capture_output=True, text=True, env=told).stdout.split()
+        example(tests, "as it is installed", flags, {"LD_LIBRARY_PATH": os.path.join(root, "usr/lib")})
     done = make(tests, "uninstall", root)
     tests.check("make uninstall leaves nothing", done.returncode == 0 and not files(root) and
                 not os.path.exists(os.path.join(root, "usr/include/fret")), done.stderr + "\n".join(files(root)))
@@ -57,7 +61,7 @@ def completes(tests, path):
         tests.check("bash completes `%s`" % line, done.stdout.split() == want.split(), done.stdout + done.stderr)
 
 
-def example(tests):
+def example(tests, where, flags, env=None):
     """That of fret.h, as an embedder would build it, says what the program says."""
     with open(os.path.join(harness.ROOT, "include/fret/fret.h"), encoding="utf-8") as f:
         lines = f.read().splitlines()
@@ -66,14 +70,18 @@ def example(tests):
     path, program = os.path.join(tests.dir, "example.c"), os.path.join(tests.dir, "example")
     with open(path, "w", encoding="utf-8") as f:
         f.write("".join(line[5:] + "\n" for line in lines[first:last + 1]))
-    done = subprocess.run([os.environ.get("CC", "cc"), "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-I" + os.path.join(harness.ROOT, "include"),
-                           path, os.path.join(harness.ROOT, tests.build, "libfret.a"), "-lm", "-o", program],
+    done = subprocess.run([os.environ.get("CC", "cc"), "-std=c11", "-Wall", "-Wextra", "-Wpedantic", path, *flags, "-o", program],
                           capture_output=True, text=True)
-    tests.check("the example of fret.h is C without warnings", done.returncode == 0 and not done.stderr, done.stderr)
-    shown = subprocess.run([program], capture_output=True, text=True).stdout if not done.returncode else ""
+    tests.check("the example of fret.h is C without warnings, " + where, done.returncode == 0 and not done.stderr, done.stderr)
+    shown = subprocess.run([program], capture_output=True, text=True, env={**os.environ, **(env or {})}).stdout if not done.returncode else ""
     want = tests.run("-c", "material steel E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
                      "step Fx=20 N; step Fx=-20 N; step Fx=20 N; dx in m; c in m; W in J").stdout
-    tests.check("and tells what the program tells", shown == want and want.count("\n") == 3, shown + want)
+    tests.check("and tells what the program tells, " + where, shown == want and want.count("\n") == 3, shown + want)
+
+
+def embedded(tests):
+    example(tests, "in the sources", ["-I" + os.path.join(harness.ROOT, "include"),
+                                      os.path.join(harness.ROOT, tests.build, "libfret.a"), "-lm"])
 
 
 def elsewhere(tests):
@@ -110,5 +118,5 @@ def begins(tests):
 
 def run(tests):
     """What is installed is the plain build."""
-    for room in (installed, example, elsewhere, debian, begins):
+    for room in (installed, embedded, elsewhere, debian, begins):
         room(tests)
