@@ -20,7 +20,7 @@ typedef struct edit {
     bool has[INPUTS];
     double v[INPUTS];
     counted *bound[INPUTS]; /* borrowed */
-    bool clear_material, clear_second, clear_rig;
+    bool clear_material, clear_second, clear_rig, clear_wear;
     second_body second;
     const geometry *geometry;
     double radii[2];
@@ -43,6 +43,8 @@ static void apply(inputs *in, void *context) {
     }
     if (e->clear_rig)
         inputs_unset(in, INPUT_RIG);
+    if (e->clear_wear)
+        inputs_unset(in, INPUT_BIT(IN_ALPHA_W) | INPUT_BIT(IN_NW));
     if (e->geometry)
         inputs_geometry(in, e->geometry, e->sum, e->table);
     for (input i = 0; i < INPUTS; i++)
@@ -63,6 +65,14 @@ static bool has(const edit *e, input in) {
 
 static bool has_second(const edit *e) {
     return has(e, IN_E0_2) || has(e, IN_G0_2) || has(e, IN_NU_2);
+}
+
+/* Of a body. */
+static void put_preset(edit *e, const preset *p, int body) {
+    edit_put(e, body ? IN_E0_2 : IN_E0, p->E0);
+    edit_put(e, body ? IN_NU_2 : IN_NU, p->nu);
+    if (p->yield > 0)
+        edit_put(e, body ? IN_YIELD_2 : IN_YIELD, p->yield);
 }
 
 /* What was given for inputs. */
@@ -86,10 +96,8 @@ bool do_material(shell *sh, lexer *lx, const command *self) {
     if (!said_read(sh, lx, command_form(self), &s))
         return false;
     const heard *named = said_of(&s, "", 0);
-    if (named) {
-        edit_put(&e, IN_E0, preset_row(named->choice)->E0);
-        edit_put(&e, IN_NU, preset_row(named->choice)->nu);
-    }
+    if (named)
+        put_preset(&e, preset_row(named->choice), 0);
     gather(&e, &s);
     if (has_second(&e)) {
         e.clear_second = true;
@@ -149,8 +157,7 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
     if (named && named->choice < SECOND_WORDS) {
         e.second = named->choice ? SECOND_RIGID : SECOND_SAME;
     } else if (named) {
-        edit_put(&e, IN_E0_2, preset_row(named->choice - SECOND_WORDS)->E0);
-        edit_put(&e, IN_NU_2, preset_row(named->choice - SECOND_WORDS)->nu);
+        put_preset(&e, preset_row(named->choice - SECOND_WORDS), 1);
     }
     for (int i = 0; i < OF_BODY; i++) {
         const input own = bodies[i][0], other = bodies[i][1];
@@ -211,6 +218,38 @@ bool do_bulk(shell *sh, lexer *lx, const command *self) {
     command_usage(self, usage);
     const bool ok = s.count ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
                             : lex_fail(lx, "bulk of what stress? usage: %s", usage);
+    said_drop(sh, &s);
+    return ok;
+}
+
+/* K/(mu*H) with numbers for K and H, to follow mu. */
+static counted *archard(shell *sh, const heard *K, const heard *H, calc_error *error) {
+    char text[100];
+    counted *out = NULL;
+    lexer own;
+    snprintf(text, sizeof text, "%.17g/(mu*%.17g Pa)", (double)K->v.v, (double)H->v.v);
+    lex_start(&own, text, strlen(text), error);
+    calc_bind(&sh->calc, &own, IN_ALPHA_W, &out);
+    return out;
+}
+
+bool do_wear(shell *sh, lexer *lx, const command *self) {
+    said s;
+    edit e = {.clear_wear = true};
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    const heard *K = said_of(&s, "K", 0), *H = said_of(&s, "H", 0);
+    counted *law = K && H ? archard(sh, K, H, lx->error) : NULL;
+    char usage[GRAMMAR_USAGE];
+    gather(&e, &s);
+    if (law)
+        e.bound[IN_ALPHA_W] = law;
+    command_usage(self, usage);
+    const bool ok = !s.count    ? lex_fail(lx, "wear by what law? usage: %s", usage)
+                    : K && !law ? lex_fail(lx, "H is missing; usage: %s", usage)
+                    : H && !law ? lex_fail(lx, "K is missing; usage: %s", usage)
+                                : scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    counted_drop(law);
     said_drop(sh, &s);
     return ok;
 }

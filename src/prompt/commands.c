@@ -63,8 +63,11 @@ const hole_row holes[] = {
 
 static void presets_list(FILE *to) {
     const preset *p;
-    for (size_t i = 0; (p = preset_row(i)); i++)
-        fprintf(to, "    %-17s E0=%.10g GPa nu=%.10g\n", p->name, p->E0 / 1e9, p->nu);
+    char numbers[PRESET_NUMBERS];
+    for (size_t i = 0; (p = preset_row(i)); i++) {
+        preset_numbers(p, numbers);
+        fprintf(to, "    %-17s %s\n", p->name, numbers);
+    }
 }
 
 static void figures_list(FILE *to) {
@@ -158,6 +161,22 @@ const command commands[] = {
              "    sxx(a, 0 m, 0 m)/p0 = 0.133333\n"
              "    fret> sxx(a, 0 m, 0 m)\n"
              "    sxx(a, 0 m, 0 m) = 232.784 MPa\n"},
+    {.name = "wear",
+     .run = do_wear,
+     .group = "the bodies",
+     .keywords = "Archard energy law worn depth volume scar profile Fouvry",
+     .changes = true,
+     .takes = "alpha:=1e4 um^3/J | K=1e-4 H=2 GPa | none",
+     .summary = "a wear law: volume by friction work",
+     .help = "Of each place friction's work per area takes away a depth, h = alpha_w dWdA(r)\n"
+             "(Fouvry); Archard's law, V = K F_N s/H, has alpha_w = K/(mu H), which then follows\n"
+             "mu. dhwear(r) and dVwear are what the last cycle wears. alpha_w is an input.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> cycle FA=20 N; wear K=1e-4 H=2 GPa\n"
+             "    fret> alpha_w, dVwear, dhwear(0.9*a)\n"
+             "    alpha_w = 125000 um^3/J\n"
+             "    dVwear = 0.238307 um^3\n"
+             "    dhwear(0.9*a) = 7.45809e-12 m\n"},
     {.name = "rig",
      .run = do_rig,
      .group = "the load",

@@ -90,6 +90,14 @@ bool call_dWdA(scene *s, value r, long double *out, calc_error *error) {
     return scene_work(s, true, r.v, out, error);
 }
 
+bool call_dhwear(scene *s, value r, long double *out, calc_error *error) {
+    long double alpha = 0;
+    if (!scene_get(s, IN_ALPHA_W, &alpha, error) || !scene_work(s, true, r.v, out, error))
+        return false;
+    *out *= alpha;
+    return true;
+}
+
 /* The state of a scene with friction. */
 static bool tangential_state(scene *s, const fret_contact **out, calc_error *error) {
     double mu;

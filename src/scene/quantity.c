@@ -30,6 +30,8 @@
     { 1, 1, 0, 0 }
 #define STIFFNESS                                                                                            \
     { 1, -1, 0, 0 }
+#define VOLUME                                                                                               \
+    { 0, 3, 0, 0 }
 #define ANGLE                                                                                                \
     { 0, 0, 1, 0 }
 
@@ -89,6 +91,11 @@ static const quantity quantities[] = {
      .formulas = {{"as yield, of a second body that differs", NULL, 0}}},
     {.name = "sB", .title = "bulk stress along x of the first body", .keywords = "fatigue tension fretting", .d = PRESSURE, INPUT(IN_SB),
      .formulas = {{"added to sxx", NULL, 0}}},
+    {.name = "alpha_w", .title = "volume worn by the energy dissipated", .keywords = "wear coefficient energy law Archard Fouvry", .d = {-1, 2, 0, 0},
+     .unit = "um^3/J", INPUT(IN_ALPHA_W),
+     .formulas = {{"V = alpha_w W (Fouvry et al., Wear 255, 2003); of Archard's V = K F_N s/H it is K/(mu H)", NULL, 0}}},
+    {.name = "Nw", .title = "cycles of wear by the last cycle", .keywords = "number worn", INPUT(IN_NW),
+     .formulas = {{"the gap is what that many of the last cycle leave", NULL, 0}}},
     {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN), CALL(FN, d, LENGTH),
      .reads = READS_NORMAL, .load = true,
      .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(13)", WHEN_POWER},
@@ -140,6 +147,8 @@ static const quantity quantities[] = {
                    "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
                   {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
                   {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
+    {.name = "dVwear", .title = "volume worn by the last closed cycle", .keywords = "wear rate Archard", .d = VOLUME, .unit = "um^3",
+     GETTER(dVwear), .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dW", NULL, 0}}},
     {.name = "dWd", .title = "energy per cycle by displacement amplitude", .keywords = "hysteresis dissipation gross slip", .d = ENERGY,
      .of = OF_FUNCTION, CALL(dWd, dxA, LENGTH), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"dW(FA(dxA)); beyond dxmax gross slip adds 4 mu F_N (dxA-dxmax)", "(26)", 0}}},
@@ -222,6 +231,8 @@ static const quantity quantities[] = {
     {.name = "dWdA", .by = MODEL_MEMORY, .title = "friction's work per area in the last closed cycle", .keywords = "dissipation energy wear fretting density",
      .d = STIFFNESS, .unit = "J/m^2", .of = OF_FUNCTION, CALL(dWdA, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"the integral of q_x ds over a period; at constant F_N 4 mu p(r) s(r), s at the amplitude", NULL, 0}}},
+    {.name = "dhwear", .by = MODEL_MEMORY, .title = "depth worn by the last closed cycle", .keywords = "wear rate scar fretting Archard", .d = LENGTH,
+     .of = OF_FUNCTION, CALL(dhwear, r, LENGTH), .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dWdA(r)", NULL, 0}}},
     {.name = "w1D", .title = "normal spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION, CALL(w1D, x, LENGTH),
      .reads = READS_NORMAL, .load = true, .formulas = {{"w_1D(x) = delta_z-g(x)", "(9)", 0}}},
     {.name = "u1D", .by = MODEL_MEMORY, .title = "tangential spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION,

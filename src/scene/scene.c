@@ -72,7 +72,7 @@ void scene_used_law(scene *s, const fret_normal *normal) {
 
 /* The others are of the bodies and of the shape. */
 static const input_set keeps_contact =
-    INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE | INPUT_RIG | INPUT_STRESS;
+    INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE | INPUT_RIG | INPUT_STRESS | INPUT_BIT(IN_ALPHA_W);
 
 /* Bodies and shape that follow definitions may follow these. */
 void scene_forget(scene *s, bool keep) {
