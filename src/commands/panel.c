@@ -232,6 +232,53 @@ static bool mark_now(panel_job *job) {
     return now && (!job->lost || calc_no_memory(job->error));
 }
 
+/* The ends of what is drawn. */
+static void ends_of(const plot_panel *p, bool x_axis, double *lo, double *hi) {
+    *lo = INFINITY;
+    *hi = -INFINITY;
+    for (size_t i = 0; i < p->count; i++)
+        for (size_t j = 0; j < p->series[i]->count; j++) {
+            const double v = x_axis ? p->series[i]->x[j] : p->series[i]->y[j];
+            *lo = isfinite(v) ? fmin(*lo, v) : *lo;
+            *hi = isfinite(v) ? fmax(*hi, v) : *hi;
+        }
+}
+
+/* Lines across where the abscissa is a quantity of the figure, if that is one curve over a place. */
+static bool mark_places(panel_job *job) {
+    plot_panel *p = job->p;
+    const char *marks = job->figure && job->figure->marks ? job->figure->marks : "";
+    double lo, hi;
+    ends_of(p, false, &lo, &hi);
+    for (; *marks && !job->s->along && !job->s->curves && !job->s->at; marks++) {
+        const quantity *q = quantity_find(marks, 1);
+        long double at = 0;
+        if (!quantity_get(q, job->sh->calc.now, &at, error_quiet()) || !(at > 0))
+            continue;
+        plot_series *s = add_series(job, PLOT_CURVE, NULL, true);
+        if (!s)
+            return false;
+        add_point(job, s, (double)at, fmin(lo, 0));
+        add_point(job, s, (double)at, hi);
+        p->word[p->words++].text = q->name;
+    }
+    return !job->lost || calc_no_memory(job->error);
+}
+
+/* Their names beside them: they are the last series, in the unit of the axis. */
+static void name_marks(plot_panel *p) {
+    double lo, hi;
+    ends_of(p, true, &lo, &hi);
+    lo = isfinite(p->xlo) ? p->xlo : lo;
+    hi = isfinite(p->xhi) ? p->xhi : hi;
+    for (size_t i = 0; i < p->words; i++) {
+        const double x = p->series[p->count - p->words + i]->x[0];
+        const double part = p->logx ? log(x / lo) / log(hi / lo) : (x - lo) / (hi - lo);
+        p->word[i].at[0] = 0.02 + (p->flipx ? 1 - part : part);
+        p->word[i].at[1] = 0.95;
+    }
+}
+
 /* ---- axes -------------------------------------------------------------------------------------- */
 
 /* What the unit of an axis is to fit: the largest value, on a logarithmic axis the middle. */
@@ -404,8 +451,9 @@ static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
         s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
     }
     sweep_job sweeping = range_job(job->sh, job->columns, count, &job->found, give_point, job, job->error);
-    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, &job->found))
+    if (!run_sweep(job, &sweeping, s) || !mark_places(job) || !finish_axes(job, lx, &job->found))
         return false;
+    name_marks(job->p);
     if (!job->m || !job->m->at) {
         note_missing(job->sh, &sweeping);
         note_logarithms(job->sh, job->p);
@@ -502,12 +550,8 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
 
 /* ---- figures of the table ---------------------------------------------------------------------- */
 
-/* Of a homogeneous body that is not compared with others. */
 static const char *statement_of(const shell *sh, const figure *f, said *all) {
-    const inputs *in = &sh->calc.now->in;
-    bool graded = !inputs_any(in, INPUT_MODULUS) || in->v[IN_K] != 0 || in->set[IN_C0];
-    graded = graded || in->bindings & (INPUT_BIT(IN_K) | INPUT_BIT(IN_C0)) || said_of(all, "with", 0);
-    return f->without_c0 && !graded ? f->without_c0 : f->statement;
+    return f->when && f->when(&sh->calc.now->in, said_of(all, "with", 0)) ? f->instead : f->statement;
 }
 
 /* A figure over a place moves with that load. */
