@@ -235,3 +235,38 @@ STRESS(mises, fret_stress_mises(&t))
 STRESS(tresca, fret_stress_tresca(&t))
 STRESS(sigma1, principal(&t, 0))
 STRESS(sigma3, principal(&t, 2))
+
+static bool mises_at(scene *s, long double x, long double z, long double *out) {
+    const value place[3] = {{x, DIM_LENGTH}, {0, DIM_LENGTH}, {z, DIM_LENGTH}};
+    return call_mises(s, place, out, error_quiet());
+}
+
+/* The largest mises in the plane of F_x, of one body: the best of a grid of places, uphill from there. */
+bool scene_hardest(scene *s, long double a, int side, long double at[2], long double *most) {
+    enum { ACROSS = 12, DEEP = 12 };
+    static const long double width = 1.2L;
+    *most = -1;
+    long double v;
+    for (int i = -ACROSS; i <= ACROSS; i++)
+        for (int j = 0; j <= DEEP; j++) {
+            const long double x = width * a * i / ACROSS, z = side * (a * j / DEEP);
+            if (j + (side > 0) == 0 || !mises_at(s, x, z, &v) || v <= *most)
+                continue;
+            *most = v;
+            at[0] = x;
+            at[1] = z;
+        }
+    for (long double h = a / DEEP; *most > 0 && h > 1e-5L * a;) {
+        const long double from = *most, x = at[0], z = at[1];
+        for (int i = 0; i < 4; i++) {
+            const long double to[2] = {x + (i < 2 ? (2 * i - 1) * h : 0), z + (i < 2 ? 0 : (2 * i - 5) * h)};
+            if (to[1] * side < 0 || (side < 0 && to[1] == 0) || !mises_at(s, to[0], to[1], &v) || v <= *most)
+                continue;
+            *most = v;
+            at[0] = to[0];
+            at[1] = to[1];
+        }
+        h = *most > from ? h : h / 2;
+    }
+    return *most > 0;
+}

@@ -28,6 +28,10 @@ typedef bool quantity_call_at(scene *s, const value place[3], long double *out, 
 quantity_call_at call_sxx, call_syy, call_szz, call_sxy, call_sxz, call_syz, call_mises, call_tresca,
     call_sigma1, call_sigma3;
 
+/* The largest mises in the plane of F_x, of the first body (side 1) or the second (-1), where contact has the
+ * radius a, and its place x, z; false: there is none. */
+bool scene_hardest(scene *s, long double a, int side, long double at[2], long double *most);
+
 /* The foundation of the scene, whether or not it has a geometry; normal: only c_N is wanted. */
 bool foundation_of(scene *s, bool normal, fret_foundation *out, calc_error *error);
 

@@ -227,7 +227,7 @@ static const quantity quantities[] = {
      .formulas = {{"s(r) = delta_x-u_x(r)", "inverse of (3)", 0}}},
     {.name = "WdA", .by = MODEL_MEMORY, .title = "friction's work per area so far", .keywords = "dissipation energy wear fretting density", .d = STIFFNESS,
      .unit = "J/m^2", .of = OF_FUNCTION, CALL(WdA, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
-     .formulas = {{"int q_x(r,t) ds(r,t) over the load program; 2 pi int_0^a WdA r dr = W", NULL, 0}}},
+     .formulas = {{"int q_x(r,t) ds(r,t) over the load program; 2 pi int WdA r dr = W, as far out as contact ever was", NULL, 0}}},
     {.name = "dWdA", .by = MODEL_MEMORY, .title = "friction's work per area in the last closed cycle", .keywords = "dissipation energy wear fretting density",
      .d = STIFFNESS, .unit = "J/m^2", .of = OF_FUNCTION, CALL(dWdA, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"the integral of q_x ds over a period; at constant F_N 4 mu p(r) s(r), s at the amplitude", NULL, 0}}},

@@ -170,6 +170,10 @@ bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error);
 bool scene_stress_field(scene *s, const fret_field **field, calc_error *error);
 /* Friction's work by place up to now, and of the last closed period; the load is run again for it. */
 bool scene_work(scene *s, bool period, long double r, long double *out, calc_error *error);
+/* Where those of the work that has been asked for are not smooth, as far as there is room: how many. */
+size_t scene_work_edges(const scene *s, long double r[], size_t room);
+/* Is it that of a load in chords, each of which makes kinks of its own? */
+bool scene_work_chords(const scene *s);
 void friction_work_end(friction_work *w);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);
