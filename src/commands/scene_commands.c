@@ -20,7 +20,7 @@ typedef struct edit {
     bool has[INPUTS];
     double v[INPUTS];
     counted *bound[INPUTS]; /* borrowed */
-    bool clear_material, clear_second, clear_rig, clear_wear;
+    bool clear_material, clear_second, clear_rig;
     second_body second;
     const geometry *geometry;
     double radii[2];
@@ -43,8 +43,6 @@ static void apply(inputs *in, void *context) {
     }
     if (e->clear_rig)
         inputs_unset(in, INPUT_RIG);
-    if (e->clear_wear)
-        inputs_unset(in, INPUT_BIT(IN_ALPHA_W) | INPUT_BIT(IN_NW));
     if (e->geometry)
         inputs_geometry(in, e->geometry, e->sum, e->table);
     for (input i = 0; i < INPUTS; i++)
@@ -218,38 +216,6 @@ bool do_bulk(shell *sh, lexer *lx, const command *self) {
     command_usage(self, usage);
     const bool ok = s.count ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
                             : lex_fail(lx, "bulk of what stress? usage: %s", usage);
-    said_drop(sh, &s);
-    return ok;
-}
-
-/* K/(mu*H) with numbers for K and H, to follow mu. */
-static counted *archard(shell *sh, const heard *K, const heard *H, calc_error *error) {
-    char text[100];
-    counted *out = NULL;
-    lexer own;
-    snprintf(text, sizeof text, "%.17g/(mu*%.17g Pa)", (double)K->v.v, (double)H->v.v);
-    lex_start(&own, text, strlen(text), error);
-    calc_bind(&sh->calc, &own, IN_ALPHA_W, &out);
-    return out;
-}
-
-bool do_wear(shell *sh, lexer *lx, const command *self) {
-    said s;
-    edit e = {.clear_wear = true};
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    const heard *K = said_of(&s, "K", 0), *H = said_of(&s, "H", 0);
-    counted *law = K && H ? archard(sh, K, H, lx->error) : NULL;
-    char usage[GRAMMAR_USAGE];
-    gather(&e, &s);
-    if (law)
-        e.bound[IN_ALPHA_W] = law;
-    command_usage(self, usage);
-    const bool ok = !s.count    ? lex_fail(lx, "wear by what law? usage: %s", usage)
-                    : K && !law ? lex_fail(lx, "H is missing; usage: %s", usage)
-                    : H && !law ? lex_fail(lx, "K is missing; usage: %s", usage)
-                                : scene_edit(&sh->calc.scene, apply, &e, lx->error);
-    counted_drop(law);
     said_drop(sh, &s);
     return ok;
 }

@@ -166,7 +166,7 @@ const command commands[] = {
      .group = "the bodies",
      .keywords = "Archard energy law worn depth volume scar profile Fouvry",
      .changes = true,
-     .takes = "alpha:=1e4 um^3/J | K=1e-4 H=2 GPa | none",
+     .takes = "alpha:=1e4 um^3/J | K=1e-4 H=2 GPa | cycles N:1000000000 | limit | none",
      .summary = "a wear law: volume by friction work",
      .help = "Of each place friction's work per area takes away a depth, h = alpha_w dWdA(r)\n"
              "(Fouvry); Archard's law, V = K F_N s/H, has alpha_w = K/(mu H), which then follows\n"

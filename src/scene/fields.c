@@ -23,14 +23,26 @@ bool call_E(scene *s, value z, long double *out, calc_error *error) {
     return true;
 }
 
+/* Of Nw cycles; of none 0. */
+static bool worn_depth(scene *s, long double r, long double *out, calc_error *error) {
+    const fret_wear *wear;
+    *out = 0;
+    if (!scene_worn(s, &wear, error))
+        return false;
+    const fret_status st = wear ? fret_wear_depth(wear, r, out) : (fret_status){.code = FRET_OK};
+    return calc_status(error, &st);
+}
+
 bool call_f(scene *s, value r, long double *out, calc_error *error) {
     fret_gap gap;
-    if (!scene_gap(s, &gap, error))
+    long double depth = 0;
+    if (!scene_gap(s, &gap, error) || !worn_depth(s, r.v, &depth, error))
         return false;
     s->used |= USED(MODEL_CLOSED);
     fret_status st = fret_gap_check(&gap);
     if (!st.code)
         st = fret_gap_f(&gap, r.v, out);
+    *out += depth;
     return calc_status(error, &st);
 }
 
@@ -88,6 +100,12 @@ bool call_WdA(scene *s, value r, long double *out, calc_error *error) {
 
 bool call_dWdA(scene *s, value r, long double *out, calc_error *error) {
     return scene_work(s, true, r.v, out, error);
+}
+
+bool call_hwear(scene *s, value r, long double *out, calc_error *error) {
+    long double alpha = 0;
+    s->used |= USED(MODEL_MEMORY);
+    return scene_get(s, IN_ALPHA_W, &alpha, error) && worn_depth(s, r.v, out, error);
 }
 
 bool call_dhwear(scene *s, value r, long double *out, calc_error *error) {

@@ -147,6 +147,8 @@ static const quantity quantities[] = {
                    "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
                   {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
                   {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
+    {.name = "Vwear", .title = "worn volume so far", .keywords = "wear Archard", .d = VOLUME, .unit = "um^3",
+     GETTER(Vwear), .reads = READS_WORN, .load = true, .formulas = {{"2 pi int hwear r dr = alpha_w times the work of Nw cycles", NULL, 0}}},
     {.name = "dVwear", .title = "volume worn by the last closed cycle", .keywords = "wear rate Archard", .d = VOLUME, .unit = "um^3",
      GETTER(dVwear), .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dW", NULL, 0}}},
     {.name = "dWd", .title = "energy per cycle by displacement amplitude", .keywords = "hysteresis dissipation gross slip", .d = ENERGY,
@@ -205,9 +207,9 @@ static const quantity quantities[] = {
     {.name = "E", .title = "modulus at depth z", .keywords = "Young grading", .d = PRESSURE, .of = OF_FUNCTION, CALL(E, z, LENGTH),
      .reads = INPUT_MODULUS | INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0), .formulas = {{"E(z) = E0 (z/c0)^k", "(1)", 0}}},
     {.name = "f", .title = "gap at radius r", .keywords = "shape profile", .d = LENGTH, .of = OF_FUNCTION, CALL(f, r, LENGTH),
-     .reads = INPUT_GEOMETRY, .formulas = {{"f(r) = A r^n", "(6)", WHEN_POWER}, {"f(r)", "(3)", 0}}},
+     .reads = INPUT_BIT(IN_NW) | INPUT_GEOMETRY, .formulas = {{"f(r) = A r^n", "(6)", WHEN_POWER}, {"f(r)", "(3)", 0}}},
     {.name = "g", .title = "equivalent profile", .keywords = "shape", .d = LENGTH, .of = OF_FUNCTION, CALL(g, x, LENGTH),
-     .reads = INPUT_GEOMETRY | INPUT_BIT(IN_K),
+     .reads = INPUT_BIT(IN_NW) | INPUT_GEOMETRY | INPUT_BIT(IN_K),
      .formulas = {{"g(x) = kappa A x^n", "(7)", WHEN_POWER},
                   {"g(x) = x^(1-k) int_0^x f'(r) (x^2-r^2)^((k-1)/2) dr", "(3)", 0}}},
     {.name = "p", .by = MODEL_QUADRATURE, .title = "contact pressure", .keywords = "stress Hertz", .d = PRESSURE, .of = OF_FUNCTION, CALL(p, r, LENGTH),
@@ -233,6 +235,9 @@ static const quantity quantities[] = {
      .formulas = {{"the integral of q_x ds over a period; at constant F_N 4 mu p(r) s(r), s at the amplitude", NULL, 0}}},
     {.name = "dhwear", .by = MODEL_MEMORY, .title = "depth worn by the last closed cycle", .keywords = "wear rate scar fretting Archard", .d = LENGTH,
      .of = OF_FUNCTION, CALL(dhwear, r, LENGTH), .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dWdA(r)", NULL, 0}}},
+    {.name = "hwear", .by = MODEL_MEMORY, .title = "worn depth so far", .keywords = "wear scar fretting Archard profile", .d = LENGTH,
+     .of = OF_FUNCTION, CALL(hwear, r, LENGTH), .reads = READS_WORN, .load = true,
+     .formulas = {{"the sum of dhwear(r) over Nw cycles, each of the gap that those before leave", NULL, 0}}},
     {.name = "w1D", .title = "normal spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION, CALL(w1D, x, LENGTH),
      .reads = READS_NORMAL, .load = true, .formulas = {{"w_1D(x) = delta_z-g(x)", "(9)", 0}}},
     {.name = "u1D", .by = MODEL_MEMORY, .title = "tangential spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION,
@@ -362,7 +367,7 @@ dim quantity_dim(const quantity *q, const scene *s) {
 /* Which formulas hold in the scene. */
 static unsigned holds(const quantity *q, scene *s, bool call) {
     const load_reach *reach;
-    const bool power = !s->in.geometry || s->in.geometry->power;
+    const bool power = scene_is_power(s);
     const unsigned when = power ? WHEN_POWER : WHEN_SHAPE;
     if (call)
         return when | WHEN_CALL | WHEN_FIRST;
@@ -384,8 +389,7 @@ const formula *quantity_formula(const quantity *q, scene *s, bool call) {
 }
 
 model_id quantity_model(const quantity *q, scene *s, bool call) {
-    const bool power = !s->in.geometry || s->in.geometry->power;
-    const model_id closed = power ? MODEL_CLOSED : MODEL_PIECES;
+    const model_id closed = scene_is_power(s) ? MODEL_CLOSED : MODEL_PIECES;
     const model_id stepped = !s->automatic && models[s->model].steps ? s->model : MODEL_MEMORY;
     if (call)
         return q->by ? q->by : closed;
