@@ -7,8 +7,8 @@
 #include "scene/load.h"
 #include "scene/quantity.h"
 
-/* One law, what is held, and how it wears: a run rests at cycles that these alone tell, `first` 2^i, and goes to
- * the cycles asked for from the last of them. So what comes does not depend on what was asked before. */
+/* One law, what is held, and how it wears: a run rests at cycles that these alone tell, `first` 2^i, and goes
+ * to the cycles asked for from the last of them. So what comes does not depend on what was asked before. */
 enum { RESTS = 64 };
 struct wear_path {
     counted base;
@@ -54,7 +54,8 @@ static bool held_press(scene *s, fret_wear_held *out, calc_error *error) {
                          quantity_of_input(press_input((load_by)step->normal))->name);
     for (size_t i = 1; i < cycle; i++)
         if (load_moves_normal(&step[i]))
-            return calc_fail(error, 0, 0, "wear wants FN constant up to its cycle, and step %zu moves it: press anew", i);
+            return calc_fail(error, 0, 0,
+                             "wear wants FN constant up to its cycle, and step %zu moves it: press anew", i);
     if (!scene_get(s, press_input((load_by)step->normal), &v, error))
         return false;
     out->press = (double)v;
@@ -68,7 +69,8 @@ static bool held_cycle(scene *s, fret_wear_held *out, calc_error *error) {
     if (load_moves_normal(&cycle.step))
         return calc_fail(error, 0, 0, "wear wants FN constant, and it swings in this cycle (FNA)");
     if (cycle.step.tangential == BY_RIG)
-        return calc_fail(error, 0, 0, "wear holds FA or dxA, and this cycle goes to a displacement at the rig");
+        return calc_fail(error, 0, 0,
+                         "wear holds FA or dxA, and this cycle goes to a displacement at the rig");
     out->by_displacement = cycle.step.tangential == BY_DISPLACEMENT;
     out->amplitude = cycle.step.tangential_value;
     return true;
@@ -77,8 +79,8 @@ static bool held_cycle(scene *s, fret_wear_held *out, calc_error *error) {
 static bool find_held(scene *s, fret_wear_held *out, calc_error *error) {
     long double alpha = 0;
     *out = (fret_wear_held){.mu = 0};
-    if (!scene_get(s, IN_ALPHA_W, &alpha, error) || !held_cycle(s, out, error) || !held_press(s, out, error) ||
-        !scene_friction(s, &out->mu, error))
+    if (!scene_get(s, IN_ALPHA_W, &alpha, error) || !held_cycle(s, out, error) ||
+        !held_press(s, out, error) || !scene_friction(s, &out->mu, error))
         return false;
     out->alpha = (double)alpha;
     return true;
@@ -94,11 +96,12 @@ static bool same_held(const fret_wear_held *a, const fret_wear_held *b) {
 static bool same_law(const fret_normal *a, const fret_normal *b) {
     const fret_foundation *f = fret_normal_foundation(a), *g = fret_normal_foundation(b);
     const fret_gap *p = fret_normal_gap(a), *q = fret_normal_gap(b);
-    bool same = f->k == g->k && f->c0 == g->c0 && f->cN0 == g->cN0 && f->cT0 == g->cT0 && p->kind == q->kind &&
-                p->terms == q->terms && p->b == q->b && p->R == q->R && p->slope == q->slope &&
-                p->table == q->table;
+    bool same = f->k == g->k && f->c0 == g->c0 && f->cN0 == g->cN0 && f->cT0 == g->cT0 &&
+                p->kind == q->kind && p->terms == q->terms && p->b == q->b && p->R == q->R &&
+                p->slope == q->slope && p->table == q->table;
     for (int i = 0; same && i < p->terms; i++)
-        same = p->power[i].n == q->power[i].n && p->power[i].h == q->power[i].h && p->power[i].r0 == q->power[i].r0;
+        same = p->power[i].n == q->power[i].n && p->power[i].h == q->power[i].h &&
+               p->power[i].r0 == q->power[i].r0;
     return same;
 }
 
@@ -106,11 +109,13 @@ static bool same_law(const fret_normal *a, const fret_normal *b) {
 static fret_status first_rest(const fret_normal *normal, const fret_wear_held *held, double *out) {
     fret_pressed contact = {.normal = normal, .mu = held->mu};
     fret_real loss = 0;
-    fret_status st = (held->by_depth ? fret_press_by_depth : fret_press_by_force)(normal, held->press, &contact.press);
+    fret_status st =
+        (held->by_depth ? fret_press_by_depth : fret_press_by_force)(normal, held->press, &contact.press);
     if (!st.code)
         st = (held->by_displacement ? fret_cycle_loss_by_displacement
                                     : fret_cycle_loss_by_force)(&contact, held->amplitude, &loss);
-    *out = (double)(LITTLE * FRET_PI * contact.press.a * contact.press.a * contact.press.dz / (held->alpha * loss));
+    *out = (double)(LITTLE * FRET_PI * contact.press.a * contact.press.a * contact.press.dz /
+                    (held->alpha * loss));
     return st;
 }
 
