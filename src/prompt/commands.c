@@ -164,19 +164,27 @@ const command commands[] = {
     {.name = "wear",
      .run = do_wear,
      .group = "the bodies",
-     .keywords = "Archard energy law worn depth volume scar profile Fouvry",
+     .keywords = "Archard energy law worn depth volume scar profile Fouvry Popov debris cycles",
      .changes = true,
      .takes = "alpha:=1e4 um^3/J | K=1e-4 H=2 GPa | cycles N:1000000000 | limit | none",
-     .summary = "a wear law: volume by friction work",
-     .help = "Of each place friction's work per area takes away a depth, h = alpha_w dWdA(r)\n"
-             "(Fouvry); Archard's law, V = K F_N s/H, has alpha_w = K/(mu H), which then follows\n"
-             "mu. dhwear(r) and dVwear are what the last cycle wears. alpha_w is an input.\n\n"
+     .summary = "a wear law, and what cycles of fretting leave of the gap",
+     .help = "Of each place friction's work per area takes a depth, alpha_w dWdA(r) (Fouvry et\n"
+             "al., Wear 255, 2003); Archard's V = K F_N s/H has alpha_w = K/(mu H), which then\n"
+             "follows mu. dhwear(r), dVwear are what the last cycle wears. `wear cycles N` adds N\n"
+             "to Nw: the gap, and all that follows, is then as that many of the last cycle leave\n"
+             "it, under what press and cycle hold: FN or dz, FA or dxA. Nw is an input like\n"
+             "another, swept and solved for, and 0 again after another press or cycle. hwear(r),\n"
+             "Vwear are depth and volume so far, good to 0.1 % of the largest. Both bodies wear\n"
+             "together, and debris is gone. `wear limit` is the end of it: within c nothing\n"
+             "wears, outside pressure is gone (Popov, Sci. Rep. 4, 3749, 2014).\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> cycle FA=20 N; wear K=1e-4 H=2 GPa\n"
-             "    fret> alpha_w, dVwear, dhwear(0.9*a)\n"
+             "    fret> alpha_w, dVwear, dVwear/(alpha_w*dW)\n"
              "    alpha_w = 125000 um^3/J\n"
              "    dVwear = 0.238307 um^3\n"
-             "    dhwear(0.9*a) = 7.45809e-12 m\n"},
+             "    dVwear/(alpha_w*dW) = 1\n"
+             "    fret> wear cycles 1000\n"
+             "    fret> solve Nw for hwear(a) = 1 nm\n"},
     {.name = "rig",
      .run = do_rig,
      .group = "the load",
@@ -389,7 +397,8 @@ const command commands[] = {
      .help = "Figures as of `plot`. Those `along` a load, all along the same one, are drawn up\n"
              "to a moving instant; `springs`, `pressure`, `traction` and what else goes over\n"
              "a place show the state then, as `animate springs along cycle FA=30 N` does. The\n"
-             "load is the program where none is said. Ctrl-C stops.\n\n"
+             "load is the program where none is said. An input may go over a range instead:\n"
+             "`animate profile for Nw = 0 .. 1e4`. Ctrl-C stops.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> cycle FA=30 N\n"
              "    fret> animate springs | loop frames 8 to cycle.gif\n"

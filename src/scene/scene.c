@@ -275,15 +275,6 @@ bool scene_unworn(scene *s, calc_error *error) {
     return true;
 }
 
-bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
-    const fret_wear *wear;
-    if (!scene_unworn(s, error) || !scene_worn(s, &wear, error))
-        return false;
-    *normal = wear ? fret_wear_law(wear) : s->answers.normal;
-    scene_used_law(s, *normal);
-    return true;
-}
-
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error) {
     if (!s->answers.k0 && !make_normal(s, true, &s->answers.k0, error))
         return false;

@@ -5,7 +5,6 @@
 
 #include "number/real.h"
 #include "scene/load.h"
-#include "scene/quantity.h"
 
 /* One law, what is held, and how it wears: a run rests at cycles that these alone tell, `first` 2^i, and goes
  * to the cycles asked for from the last of them. So what comes does not depend on what was asked before. */
@@ -50,8 +49,7 @@ static bool held_press(scene *s, fret_wear_held *out, calc_error *error) {
     long double v = 0;
     out->by_depth = step->normal == BY_DISPLACEMENT;
     if (step->normal > BY_DISPLACEMENT)
-        return calc_fail(error, 0, 0, "wear holds FN or dz, and this press imposes %s: press by one of them",
-                         quantity_of_input(press_input((load_by)step->normal))->name);
+        return calc_fail(error, 0, 0, "wear holds FN or dz as it was pressed: press by one of them");
     for (size_t i = 1; i < cycle; i++)
         if (load_moves_normal(&step[i]))
             return calc_fail(error, 0, 0,
@@ -224,6 +222,15 @@ bool scene_worn(scene *s, const fret_wear **out, calc_error *error) {
         return false;
     *mine = counted_hold(&s->wears->last->base);
     *out = (*mine)->wear;
+    return true;
+}
+
+bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
+    const fret_wear *wear;
+    if (!scene_unworn(s, error) || !scene_worn(s, &wear, error))
+        return false;
+    *normal = wear ? fret_wear_law(wear) : s->answers.normal;
+    scene_used_law(s, *normal);
     return true;
 }
 
