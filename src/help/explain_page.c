@@ -181,7 +181,9 @@ static void put_law(const page *p) {
     const struct fret_table *rows = s->answers.normal ? fret_normal_gap(s->answers.normal)->table : NULL;
     char text[MODEL_TEXT];
     const int n =
-        snprintf(text, sizeof text, "%s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
+        scene_is_worn(s)
+            ? snprintf(text, sizeof text, "worn by blocks of cycles, good to %.0e", WEAR_TOLERANCE)
+            : snprintf(text, sizeof text, "%s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
     if (rows && fret_table_within(rows) > 0)
         snprintf(text + n, sizeof text - (size_t)n, ", of %zu pieces within %.0e of the gap",
                  fret_table_count(rows) - 1, fret_table_within(rows));

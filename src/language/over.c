@@ -124,10 +124,12 @@ static fret_estimate to_end(over *o, long double far, long double end) {
                : (fret_estimate){sum + rest, fabsl(rest) + rounding};
 }
 
-/* *size: of its magnitude. */
+/* *size: of its magnitude. What has worn is straight between rows by the hundred: it is not worth its last
+ * digits. */
 static fret_estimate of_part(over *o, long double lo, long double hi, long double *size) {
-    static const long double good = 1e-14L;
-    fret_estimate all = between(o, lo, hi, 1e-16L, false);
+    const bool worn = scene_is_worn(&o->t->scene);
+    const long double good = worn ? 1e-4L : 1e-14L;
+    fret_estimate all = between(o, lo, hi, worn ? 1e-7L : 1e-16L, false);
     *size = fabsl(all.value);
     if (isfinite(all.error) && all.error > good * *size)
         *size = between(o, lo, hi, 1e-3L, true).value;
@@ -177,10 +179,11 @@ static size_t edges(over *o, long double at[EDGES]) {
 }
 
 bool over_integral(over *o, long double *out, long double *error) {
-    static const long double poor = 1e-6L, alike = 1e-15L;
+    static const long double alike = 1e-15L;
     long double edge[EDGES], size = 0, off = 0, sum = 0;
     const size_t count = edges(o, edge);
     const int way = o->lo < o->hi ? 1 : -1;
+    const long double poor = scene_is_worn(&o->t->scene) ? 1e-4L : 1e-6L;
     if (scene_work_chords(&o->t->scene))
         return calc_fail(
             o->error, 0, 0,

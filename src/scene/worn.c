@@ -254,5 +254,9 @@ bool scene_wear_limit(scene *s, fret_wear **out, calc_error *error) {
     if (!find_held(s, &held, error) || !scene_unworn(s, error))
         return false;
     const fret_status st = fret_wear_limit(s->answers.normal, &held, out);
+    if (st.code == FRET_GROSS_SLIP)
+        return calc_fail(
+            error, 0, 0, "nothing sticks in the end, so that wear has no limit: %s < %.6g %s has one",
+            held.by_displacement ? "dxA" : "FA", (double)st.limit, held.by_displacement ? "m" : "N");
     return calc_status(error, &st);
 }
