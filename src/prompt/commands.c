@@ -184,7 +184,11 @@ const command commands[] = {
              "    dVwear = 0.238307 um^3\n"
              "    dVwear/(alpha_w*dW) = 1\n"
              "    fret> wear cycles 1000\n"
-             "    fret> solve Nw for hwear(a) = 1 nm\n"},
+             "    fret> set digits 3; Vwear, hwear(0.95*a)\n"
+             "    Vwear = 241 um^3\n"
+             "    hwear(0.95*a) = 9.14 nm\n"
+             "    fret> solve Nw for hwear(0.17 mm) = 10 nm from 100 to 10000\n"
+             "    Nw = 1.21e+03\n"},
     {.name = "rig",
      .run = do_rig,
      .group = "the load",

@@ -6,9 +6,9 @@
 #include "number/real.h"
 #include "scene/load.h"
 
-/* One law, what is held, and how it wears: a run rests at cycles that these alone tell, `first` 2^i, and goes
+/* One law, what is held, and how it wears: a run rests at cycles that these alone tell, `first` 4^i, and goes
  * to the cycles asked for from the last of them. So what comes does not depend on what was asked before. */
-enum { RESTS = 64 };
+enum { RESTS = 40 };
 struct wear_path {
     counted base;
     fret_normal *normal; /* unworn */
@@ -163,7 +163,7 @@ static fret_status run_from(scene *s, const fret_wear *from, double to, fret_wea
 
 /* The cycles at which the path rests for the i-th time; 0 at first. */
 static double rest(const wear_path *p, size_t i) {
-    return i ? ldexp(p->first, (int)i - 1) : 0;
+    return i ? ldexp(p->first, 2 * ((int)i - 1)) : 0;
 }
 
 static fret_status run_path(scene *s, double Nw, fret_wear **out) {
@@ -191,7 +191,11 @@ static bool make_worn(scene *s, double Nw, calc_error *error) {
     const fret_status st = run_path(s, Nw, &w->wear);
     if (st.code) {
         counted_drop(&w->base);
-        return calc_status(error, &st);
+        return st.code == FRET_SINGULAR
+                   ? calc_fail(error, 0, 0,
+                               "where it slips at r = %.6g m pressure is infinite: that wears at once",
+                               st.value)
+                   : calc_status(error, &st);
     }
     counted_drop(p->last ? &p->last->base : NULL);
     p->last = w;
