@@ -263,7 +263,7 @@ static bool tell_limit(shell *sh, calc_error *error) {
     fret_wear_ring(limit, &c, &b);
     answer a;
     answer_begin(&a, &sh->set, sh->out);
-    answer_page(&a, "wear limit");
+    answer_page(&a, "limit");
     answer_quantity(&a, "c", (value){c, DIM_LENGTH});
     answer_quantity(&a, "a", (value){b, DIM_LENGTH});
     answer_quantity(&a, "Vwear", (value){fret_wear_volume(limit), quantity_find("Vwear", 5)->d});

@@ -168,27 +168,27 @@ const command commands[] = {
      .changes = true,
      .takes = "alpha:=1e4 um^3/J | K=1e-4 H=2 GPa | cycles N:1000000000 | limit | none",
      .summary = "a wear law, and what cycles of fretting leave of the gap",
-     .help = "Of each place friction's work per area takes a depth, alpha_w dWdA(r) (Fouvry et\n"
-             "al., Wear 255, 2003); Archard's V = K F_N s/H has alpha_w = K/(mu H), which then\n"
-             "follows mu. dhwear(r), dVwear are what the last cycle wears. `wear cycles N` adds N\n"
-             "to Nw: the gap, and all that follows, is then as that many of the last cycle leave\n"
-             "it, under what press and cycle hold: FN or dz, FA or dxA. Nw is an input like\n"
-             "another, swept and solved for, and 0 again after another press or cycle. hwear(r),\n"
-             "Vwear are depth and volume so far, good to 0.1 % of the largest. Both bodies wear\n"
-             "together, and debris is gone. `wear limit` is the end of it: within c nothing\n"
-             "wears, outside pressure is gone (Popov, Sci. Rep. 4, 3749, 2014).\n\n"
+     .help = "Of each place friction's work per area takes a depth, alpha_w dWdA(r) (Fouvry\n"
+             "et al., Wear 255, 2003); Archard's V = K F_N s/H has alpha_w = K/(mu H), which\n"
+             "then follows mu. dhwear(r), dVwear are what the last cycle wears. `wear cycles\n"
+             "N` adds N to Nw: the gap, and all that follows, is then as that many of the\n"
+             "last cycle leave it, under what press and cycle hold: FN or dz, FA or dxA. Nw\n"
+             "is an input like another, swept and solved for, and 0 again after another press\n"
+             "or cycle. hwear(r), Vwear are depth and volume so far, to 0.1 % of the largest.\n"
+             "Both bodies wear together, and debris is gone. `wear limit` is the end of it:\n"
+             "within c nothing wears, outside pressure is gone (Popov, Sci. Rep. 4, 3749,\n"
+             "2014).\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> cycle FA=20 N; wear K=1e-4 H=2 GPa\n"
              "    fret> alpha_w, dVwear, dVwear/(alpha_w*dW)\n"
              "    alpha_w = 125000 um^3/J\n"
              "    dVwear = 0.238307 um^3\n"
              "    dVwear/(alpha_w*dW) = 1\n"
-             "    fret> wear cycles 1000\n"
-             "    fret> set digits 3; Vwear, hwear(0.95*a)\n"
+             "    fret> wear cycles 1000; set digits 3\n"
+             "    fret> Vwear, hwear(0.95*a), hwear(0.95*a) at Nw=2000\n"
              "    Vwear = 241 um^3\n"
              "    hwear(0.95*a) = 9.14 nm\n"
-             "    fret> solve Nw for hwear(0.17 mm) = 10 nm from 100 to 10000\n"
-             "    Nw = 1.21e+03\n"},
+             "    hwear(0.95*a) = 17.2 nm\n"},
     {.name = "rig",
      .run = do_rig,
      .group = "the load",
