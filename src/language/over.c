@@ -154,11 +154,11 @@ static fret_estimate of_part(over *o, long double lo, long double hi, long doubl
  * take each other away. */
 enum { EDGES = 200 };
 static size_t edges(over *o, long double at[EDGES]) {
-    static const char *const names[] = {"b", "a", "c"};
-    long double v[4];
+    static const char *const names[] = {"b", "a"};
+    long double v[3];
     size_t count = 0, found = 0;
     at[count++] = o->lo + 0.381966L * (o->hi - o->lo);
-    for (size_t i = 0; i < 3 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++) {
+    for (size_t i = 0; i < 2 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++) {
         found += quantity_get(quantity_find(names[i], 1), &o->t->scene, &v[found], error_quiet());
         if (i == 1 && found == 2 && v[1] > v[0] && v[1] < 1.1L * v[0])
             v[found++] = v[0] - (v[1] - v[0]);
