@@ -28,6 +28,11 @@ void fret_work_free(fret_work *work);
  * FRET_SINGULAR where it slips and pressure is infinite (fret/field.h), FRET_INTERRUPTED. */
 fret_status fret_work_at(const fret_work *work, fret_real r, fret_real *w);
 
+/* Radii [m] where w(r) is not smooth: those at which the front and the edge of a phase begin and end; how
+ * many. phase: 0, 1, ...; none beyond the last. */
+enum { FRET_WORK_ENDS = 6 };
+size_t fret_work_edges(const fret_work *work, size_t phase, fret_real r[FRET_WORK_ENDS]);
+
 FRET_END
 
 #endif

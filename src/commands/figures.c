@@ -12,6 +12,17 @@
 
 static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
 
+/* Of a homogeneous body that is not compared with others. */
+static bool lacks_c0(const inputs *in, bool compared) {
+    const bool graded = !inputs_any(in, INPUT_MODULUS) || in->v[IN_K] != 0 || in->set[IN_C0];
+    return !graded && !(in->bindings & (INPUT_BIT(IN_K) | INPUT_BIT(IN_C0))) && !compared;
+}
+
+/* Nothing has worn yet, but the last cycle does. */
+static bool is_new(const inputs *in, bool compared) {
+    return !inputs_any(in, INPUT_BIT(IN_NW)) && !compared;
+}
+
 static const figure figures[] = {
     {.name = "loop",
      .title = "hysteresis loop",
@@ -33,8 +44,22 @@ static const figure figures[] = {
      .roles = "sbb"},
     {.name = "slip",
      .title = "local slip",
-     .summary = "slip(r)",
-     .statement = "slip(r) for r = 0 m .. 1.25*a"},
+     .summary = "slip(r), with c and a marked",
+     .statement = "slip(r) for r = 0 m .. 1.25*a",
+     .marks = "ca"},
+    {.name = "wear",
+     .title = "worn depth",
+     .summary = "hwear(r) of Nw cycles, or dhwear(r) of the last one, with c and a marked",
+     .statement = "hwear(r) for r = 0 m .. 1.25*a",
+     .instead = "dhwear(r) for r = 0 m .. 1.25*a",
+     .when = is_new,
+     .marks = "ca"},
+    {.name = "profile",
+     .title = "worn profile",
+     .summary = "the gap f(r) as it is worn, and as it was",
+     .statement = "f(r), f(r)-hwear(r) for r = 0 m .. 1.5*a",
+     .roles = "ct",
+     .marks = "ca"},
     {.name = "dissipation",
      .title = "energy dissipated per cycle",
      .summary = "dW against the amplitude, up to gross slip",
@@ -52,7 +77,8 @@ static const figure figures[] = {
      .title = "modulus over depth",
      .summary = "E(z)/E0, the depth downward",
      .statement = "z/c0 against E(z)/E0 for z = 0 m .. 2*c0 flip y xrange 0 .. 2.5",
-     .without_c0 = "z against E(z)/E0 for z = 0 mm .. 1 mm flip y xrange 0 .. 2.5"},
+     .instead = "z against E(z)/E0 for z = 0 mm .. 1 mm flip y xrange 0 .. 2.5",
+     .when = lacks_c0},
     {.name = "regimes",
      .title = "running conditions",
      .summary = "stick (of flat ends alone), partial and gross slip: for dxA = .. for FN = ..",

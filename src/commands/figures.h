@@ -10,8 +10,10 @@ typedef struct figure {
     const char *name;
     const char *title;
     const char *summary;
-    const char *statement;  /* EXPR, ... [against EXPR] RANGE [looks]; NULL: build makes it */
-    const char *without_c0; /* of a homogeneous body, in place of the statement; or NULL */
+    const char *statement; /* EXPR, ... [against EXPR] RANGE [looks]; NULL: build makes it */
+    const char *instead;   /* of the statement, where `when` says so; or NULL */
+    bool (*when)(const inputs *in, bool compared); /* with others: `with` has been said */
+    const char *marks; /* quantities of one letter, lengths, that its abscissa bears; or NULL */
     /* of the expressions: c curve, t thin line, b edge of a band (two of them), s curve that slips where it
      * is at its bounds, which follow */
     const char *roles;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands of the load program: press, step, cycle, follow, and the ways back. Each reads everything, then
- * changes everything or nothing. */
+/* Commands of the load program: press, step, cycle, wear, follow, and the ways back. Each reads everything,
+ * then changes everything or nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,6 +45,12 @@ static void report_event(shell *sh, const char *event, const char *const *names)
 }
 
 /* ---- press, step, cycle ------------------------------------------------------------------------ */
+
+/* Of another load: what has worn was of the last cycle. */
+static void note_unworn(shell *sh, bool worn) {
+    if (worn && !inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW)))
+        shell_note(sh, "Nw = 0 again: wear is that of the last cycle");
+}
 
 static load_by by_of(const char *name) {
     return *name == 'F' ? BY_FORCE : name[1] == 'r' ? BY_RIG : BY_DISPLACEMENT;
@@ -138,6 +144,7 @@ bool do_press(shell *sh, lexer *lx, const command *self) {
     if (!said_read(sh, lx, command_form(self), &s))
         return false;
     const heard *by = &s.list[0];
+    const bool worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
     const load_step step = {.kind = LOAD_PRESS,
                             .normal = (unsigned char)press_by((input)(by->of->in - 1)),
                             .normal_value = (double)by->v.v};
@@ -146,6 +153,7 @@ bool do_press(shell *sh, lexer *lx, const command *self) {
         return of && !strcmp(of, by->of->name) ? heard_place(lx->error, by) : false;
     }
     report_event(sh, "press", names);
+    note_unworn(sh, worn);
     return true;
 }
 
@@ -185,7 +193,7 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
     cycle_extra extra;
     const heard *last;
     counted *bound[INPUTS] = {NULL};
-    bool live = false;
+    bool live = false, worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
     if (!read_targets(sh, lx, self, &s, &step, &extra, &last))
         return false;
     scene_mark before;
@@ -209,6 +217,104 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
     said_drop(sh, &s);
     if (ok)
         report_event(sh, "cycle", names);
+    note_unworn(sh, ok && worn);
+    return ok;
+}
+
+/* ---- wear -------------------------------------------------------------------------------------- */
+
+/* What is said of it: the law, by a definition or a value, or the cycles. */
+typedef struct wearing {
+    bool none, law, cycles;
+    counted *live;
+    double alpha, Nw;
+} wearing;
+
+static void put_wear(inputs *in, void *context) {
+    const wearing *w = context;
+    if (w->none)
+        inputs_unset(in, INPUT_BIT(IN_ALPHA_W) | INPUT_BIT(IN_NW));
+    if (w->law)
+        inputs_put(in, IN_ALPHA_W, w->live ? in->v[IN_ALPHA_W] : w->alpha);
+    if (w->live)
+        inputs_bind(in, IN_ALPHA_W, counted_hold(w->live));
+    if (w->cycles)
+        inputs_put(in, IN_NW, w->Nw);
+}
+
+/* K/(mu*H) with numbers for K and H, to follow mu. */
+static counted *archard(shell *sh, const heard *K, const heard *H, calc_error *error) {
+    char text[100];
+    counted *out = NULL;
+    lexer own;
+    snprintf(text, sizeof text, "%.17g/(mu*%.17g Pa)", (double)K->v.v, (double)H->v.v);
+    lex_start(&own, text, strlen(text), error);
+    calc_bind(&sh->calc, &own, IN_ALPHA_W, &out);
+    return out;
+}
+
+/* What is left in the end, which changes nothing. */
+static bool tell_limit(shell *sh, calc_error *error) {
+    scene *s = &sh->calc.scene;
+    fret_wear *limit;
+    fret_real c, b;
+    if (!scene_wear_limit(s, &limit, error))
+        return false;
+    fret_wear_ring(limit, &c, &b);
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    answer_page(&a, "limit");
+    answer_quantity(&a, "c", (value){c, DIM_LENGTH});
+    answer_quantity(&a, "a", (value){b, DIM_LENGTH});
+    answer_quantity(&a, "Vwear", (value){fret_wear_volume(limit), quantity_find("Vwear", 5)->d});
+    answer_done(&a);
+    answer_end(&a, true);
+    fret_wear_free(limit);
+    return true;
+}
+
+static bool read_law(shell *sh, lexer *lx, said *s, wearing *w) {
+    const heard *K = said_of(s, "K", 0), *H = said_of(s, "H", 0), *alpha = said_of(s, "alpha", 0);
+    if (!alpha && !K != !H)
+        return lex_fail(lx, "%s is missing: wear K=1e-4 H=2 GPa", K ? "H" : "K");
+    w->law = alpha || K;
+    if (K)
+        w->live = archard(sh, K, H, lx->error);
+    else if (alpha)
+        w->live = counted_hold(alpha->live);
+    w->alpha = alpha ? (double)alpha->v.v : 0;
+    return !K || w->live;
+}
+
+static bool read_cycles(shell *sh, lexer *lx, const heard *cycles, wearing *w) {
+    long double Nw = 0;
+    if (!calc_takes(&sh->calc, IN_NW, lx->error) || !scene_get(&sh->calc.scene, IN_NW, &Nw, lx->error))
+        return false;
+    w->cycles = true;
+    w->Nw = (double)Nw + cycles->count;
+    return true;
+}
+
+bool do_wear(shell *sh, lexer *lx, const command *self) {
+    static const char *const names[] = {"Nw", "Vwear", "a", "c", "p0", NULL};
+    char usage[GRAMMAR_USAGE];
+    wearing w = {.none = false};
+    said s;
+    if (!said_read(sh, lx, command_form(self), &s))
+        return false;
+    const heard *cycles = said_of(&s, "cycles", 0);
+    command_usage(self, usage);
+    w.none = said_of(&s, "none", 0);
+    bool ok = s.count || lex_fail(lx, "wear by what law? usage: %s", usage);
+    if (said_of(&s, "limit", 0))
+        ok = tell_limit(sh, lx->error);
+    else if (ok)
+        ok = (cycles ? read_cycles(sh, lx, cycles, &w) : read_law(sh, lx, &s, &w)) &&
+             scene_edit(&sh->calc.scene, put_wear, &w, lx->error);
+    counted_drop(w.live);
+    said_drop(sh, &s);
+    if (ok && cycles)
+        report_event(sh, "wear", names);
     return ok;
 }
 

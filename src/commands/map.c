@@ -49,8 +49,30 @@ static axis_unit scale(double *to, const long double *v, size_t n, const column 
     return u;
 }
 
-static bool give_values(lexer *lx, const grid *g, const grid_values *of, const looks *l, const column *c,
-                        dim d, plot_panel *p) {
+/* Of stress inside, over a plane through the middle: z goes down, and where it is the surface, the contact is
+ * marked. scale: of x. */
+static bool show_body(shell *sh, const grid *g, double scale_of_x, plot_panel *p, calc_error *error) {
+    const char *x = g->a.var.text, *z = g->b.var.text;
+    const plot_map *m = &p->map;
+    const fret_press *press;
+    const quantity *q;
+    bool call, inside = false;
+    size_t at;
+    for (size_t i = 0; (q = expr_quantity(&sh->list[0], i, &call, &at)); i++)
+        inside = inside || q->call_at;
+    if (!inside || strcmp(z, "z") || (strcmp(x, "x") && strcmp(x, "y")))
+        return true;
+    p->flipy = true;
+    if (m->y[0] * m->y[m->ny - 1] > 0 || !scene_press(sh->calc.now, &press, error_quiet()))
+        return true;
+    const double a = (double)press->a / scale_of_x, lo = fmax(-a, fmin(m->x[0], m->x[m->nx - 1])),
+                 hi = fmin(a, fmax(m->x[0], m->x[m->nx - 1]));
+    plot_series *s = lo < hi ? plot_series_add(p, PLOT_CURVE, NULL, error) : NULL;
+    return s ? (plot_point(s, lo, 0) && plot_point(s, hi, 0)) || calc_no_memory(error) : !error->raised;
+}
+
+static bool give_values(shell *sh, lexer *lx, const grid *g, const grid_values *of, const looks *l,
+                        const column *c, dim d, plot_panel *p) {
     plot_map *m = &p->map;
     const axis_of x = {g->a.var.text, g->a.var.d}, y = {g->b.var.text, g->b.var.d};
     p->logx = p->logx || g->a.log;
@@ -60,8 +82,8 @@ static bool give_values(lexer *lx, const grid *g, const grid_values *of, const l
     const axis_unit of_x = scale(m->x, of->a, m->nx, NULL, x.d), of_y = scale(m->y, of->b, m->ny, NULL, y.d),
                     of_z = scale(m->z, of->v, m->nx * m->ny, c, d);
     m->label = plot_label(c->name, of_z.text);
-    return (m->label || calc_no_memory(lx->error)) && looks_axis(lx, l, p, true, &x, &of_x) &&
-           looks_axis(lx, l, p, false, &y, &of_y);
+    return (m->label || calc_no_memory(lx->error)) && show_body(sh, g, (double)of_x.scale, p, lx->error) &&
+           looks_axis(lx, l, p, true, &x, &of_x) && looks_axis(lx, l, p, false, &y, &of_y);
 }
 
 static bool run_map(shell *sh, lexer *lx, const grid *g, column *c, const looks *l, plot_panel *p) {
@@ -70,7 +92,7 @@ static bool run_map(shell *sh, lexer *lx, const grid *g, column *c, const looks 
     sweep_job sweeping = range_job(sh, c, 1, &f, NULL, NULL, lx->error);
     if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, lx->error))
         return false;
-    const bool ok = grid_keep(g, &sweeping, &values) && give_values(lx, g, &values, l, c, f.d[0], p);
+    const bool ok = grid_keep(g, &sweeping, &values) && give_values(sh, lx, g, &values, l, c, f.d[0], p);
     grid_values_free(&values);
     if (ok)
         note_missing(sh, &sweeping);

@@ -34,6 +34,7 @@ typedef struct panel_job {
     const char *statement;
     calc_error *error;
     bool lost;                                   /* there was no memory for a point */
+    bool moved;                                  /* the range that has been said is that of a motion */
     size_t each;                                 /* series of a curve */
     bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
     double last[PLOTTED][2];
@@ -232,6 +233,53 @@ static bool mark_now(panel_job *job) {
     return now && (!job->lost || calc_no_memory(job->error));
 }
 
+/* The ends of what is drawn. */
+static void ends_of(const plot_panel *p, bool x_axis, double *lo, double *hi) {
+    *lo = INFINITY;
+    *hi = -INFINITY;
+    for (size_t i = 0; i < p->count; i++)
+        for (size_t j = 0; j < p->series[i]->count; j++) {
+            const double v = x_axis ? p->series[i]->x[j] : p->series[i]->y[j];
+            *lo = isfinite(v) ? fmin(*lo, v) : *lo;
+            *hi = isfinite(v) ? fmax(*hi, v) : *hi;
+        }
+}
+
+/* Lines across where the abscissa is a quantity of the figure, if that is one curve over a place. */
+static bool mark_places(panel_job *job) {
+    plot_panel *p = job->p;
+    const char *marks = job->figure && job->figure->marks ? job->figure->marks : "";
+    double lo, hi;
+    ends_of(p, false, &lo, &hi);
+    for (; *marks && !job->s->along && !job->s->curves && !job->s->at; marks++) {
+        const quantity *q = quantity_find(marks, 1);
+        long double at = 0;
+        if (!quantity_get(q, job->sh->calc.now, &at, error_quiet()) || !(at > 0))
+            continue;
+        plot_series *s = add_series(job, PLOT_CURVE, NULL, true);
+        if (!s)
+            return false;
+        add_point(job, s, (double)at, fmin(lo, 0));
+        add_point(job, s, (double)at, hi);
+        p->word[p->words++].text = q->name;
+    }
+    return !job->lost || calc_no_memory(job->error);
+}
+
+/* Their names beside them: they are the last series, in the unit of the axis. */
+static void name_marks(plot_panel *p) {
+    double lo, hi;
+    ends_of(p, true, &lo, &hi);
+    lo = isfinite(p->xlo) ? p->xlo : lo;
+    hi = isfinite(p->xhi) ? p->xhi : hi;
+    for (size_t i = 0; i < p->words; i++) {
+        const double x = p->series[p->count - p->words + i]->x[0];
+        const double part = p->logx ? log(x / lo) / log(hi / lo) : (x - lo) / (hi - lo);
+        p->word[i].at[0] = 0.02 + (p->flipx ? 1 - part : part);
+        p->word[i].at[1] = 0.95;
+    }
+}
+
 /* ---- axes -------------------------------------------------------------------------------------- */
 
 /* What the unit of an axis is to fit: the largest value, on a logarithmic axis the middle. */
@@ -350,6 +398,33 @@ static bool is_still(const sweep *s) {
     return s->along || s->var.is_input || (s->at && s->at->names > 1) || (s->curves && s->with.is_input);
 }
 
+/* Does a range go over an input, as figures over a place move? */
+static bool is_moving(const panel_job *job, const lexer *lx, said *all, size_t which) {
+    const heard *by = job->m ? said_of(all, "for", which) : NULL;
+    const lexer name = by ? hole_lexer(lx, &by->hole[0]) : *lx;
+    const quantity *q = by ? quantity_find(name.text + name.at, name.len) : NULL;
+    return q && quantity_is_input(q);
+}
+
+/* All figures move by one input. */
+static bool move_by(panel_job *job, lexer *lx, said *all, size_t which) {
+    const heard *by = said_of(all, "for", which);
+    motion *m = job->m;
+    range r;
+    job->moved = true;
+    if (m->at)
+        return true;
+    if (!range_read_name(job->sh, lx, all, which, true, &r) ||
+        !range_options(job->sh, lx, all, which, &r, 0) || !r.sweep.range(&r.sweep, &m->over, lx->error))
+        return false;
+    if (m->found && !(m->by_input && m->input.var.in == r.sweep.var.in))
+        return calc_fail(lx->error, by->at, by->len,
+                         "the figures of an animation go along one load, or one input");
+    m->found = m->by_input = true;
+    m->input = r.sweep;
+    return true;
+}
+
 /* All figures follow one load. */
 static bool follow(motion *m, const range *r) {
     const sweep *s = &r->sweep;
@@ -360,8 +435,8 @@ static bool follow(motion *m, const range *r) {
     char *load = s->what == ALONG_LOAD ? strndup(own->text + own->at, len) : NULL;
     if (s->what == ALONG_LOAD && !load)
         return calc_no_memory(own->error);
-    const bool same = !m->found || (m->what == s->what && (!load || !strcmp(load, m->load)));
-    if (m->found) {
+    const bool same = !m->found || m->by_input || (m->what == s->what && (!load || !strcmp(load, m->load)));
+    if (m->found) { /* all of it, at each value of an input */
         free(load);
         return same || calc_fail(own->error, own->at, len, "the figures of an animation go along one load");
     }
@@ -386,8 +461,10 @@ static bool run_sweep(panel_job *job, sweep_job *sweeping, const sweep *s) {
     return ok && mark_now(job);
 }
 
-static bool no_second_range(const lexer *lx, said *all) {
+static bool no_second_range(panel_job *job, lexer *lx, said *all) {
     const heard *second = said_of(all, "for", 1);
+    if (is_moving(job, lx, all, 1))
+        return move_by(job, lx, all, 1);
     return !second || calc_fail(lx->error, second->at, second->len,
                                 "two ranges make a map: plot map EXPR for A = ... for B = ...");
 }
@@ -404,8 +481,9 @@ static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
         s->steps = s->steps ? s->steps : s->along ? ALONG : job->m ? MOVING : EVENLY;
     }
     sweep_job sweeping = range_job(job->sh, job->columns, count, &job->found, give_point, job, job->error);
-    if (!run_sweep(job, &sweeping, s) || !finish_axes(job, lx, &job->found))
+    if (!run_sweep(job, &sweeping, s) || !mark_places(job) || !finish_axes(job, lx, &job->found))
         return false;
+    name_marks(job->p);
     if (!job->m || !job->m->at) {
         note_missing(job->sh, &sweeping);
         note_logarithms(job->sh, job->p);
@@ -488,8 +566,9 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     else if (ok && at.given)
         ok = range_read_rows(sh, &over->lx, over->all, &at, job->count + job->against, &r);
     else
-        ok = ok && no_second_range(lx, all) && range_read(sh, &over->lx, over->all, 0, &r) &&
-             range_options(sh, lx, all, 0, &r, 0);
+        ok = ok && (job->moved || no_second_range(job, lx, all)) &&
+             range_read(sh, &over->lx, over->all, 0, &r) &&
+             ((job->moved && job->figure) || range_options(sh, lx, all, 0, &r, 0));
     ok = ok && take_residuals(job, lx, &r, &at) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
     if (!ok && job->measured)
         calc_place(lx->error, job->looks->over[0].at, job->looks->over[0].len);
@@ -502,12 +581,8 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
 
 /* ---- figures of the table ---------------------------------------------------------------------- */
 
-/* Of a homogeneous body that is not compared with others. */
 static const char *statement_of(const shell *sh, const figure *f, said *all) {
-    const inputs *in = &sh->calc.now->in;
-    bool graded = !inputs_any(in, INPUT_MODULUS) || in->v[IN_K] != 0 || in->set[IN_C0];
-    graded = graded || in->bindings & (INPUT_BIT(IN_K) | INPUT_BIT(IN_C0)) || said_of(all, "with", 0);
-    return f->without_c0 && !graded ? f->without_c0 : f->statement;
+    return f->when && f->when(&sh->calc.now->in, said_of(all, "with", 0)) ? f->instead : f->statement;
 }
 
 /* A figure over a place moves with that load. */
@@ -528,6 +603,9 @@ static bool draw_row(panel_job *job, lexer *lx, said *all, written *row) {
     const span *place = &over->hole[0];
     if (row->all->wakes && along && !said_of(all, "for", 0)) {
         if (!take_load(job, lx, along, row->lx.text + place->at, place->len))
+            return false;
+    } else if (row->all->wakes && is_moving(job, lx, all, 0)) {
+        if (!move_by(job, lx, all, 0))
             return false;
     } else if (range_of(all)) {
         said_drop(job->sh, row->all);

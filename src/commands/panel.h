@@ -6,12 +6,16 @@
 #include "commands/looks.h"
 #include "commands/range.h"
 
-/* Figures in motion. They are drawn once whole, which tells their units and the load that they follow; then
- * for each instant, states along the load up to it, and what is no state along a load as it stands then. */
+/* Figures in motion. They are drawn once whole, which tells their units and the load that they follow, or the
+ * input; then for each instant, states along the load up to it, and what is no state along a load as it
+ * stands then. */
 typedef struct motion {
     bool found; /* a load to follow */
     along_what what;
-    char *load;                     /* its text; NULL: the program's */
+    char *load;    /* its text; NULL: the program's */
+    bool by_input; /* an input goes over a range instead: */
+    sweep input;
+    sweep_range over;
     trial *at;                      /* in the scene at an instant; NULL: the figures as a whole */
     double until;                   /* that instant */
     axis_unit unit[PLOT_PANELS][2]; /* the same in all frames */

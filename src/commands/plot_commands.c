@@ -276,6 +276,42 @@ static bool take_frame(movie *m, double time) {
     return draw_panels(m->sh, &lx, &m->figures, &m->frame[m->done++], &m->motion);
 }
 
+/* Titles tell the value. */
+static bool title_frame(movie *m, plot_figure *f, long double v) {
+    const knob *by = &m->motion.input.var;
+    char number[160], title[600];
+    format_value(&m->sh->set, (value){v, by->d}, number, sizeof number);
+    for (size_t i = 0; i < f->count; i++) {
+        char **own = &f->panel[i]->title;
+        snprintf(title, sizeof title, "%.400s%s" PLOT_EXPR "%s = %s" PLOT_END, *own ? *own : "",
+                 *own ? ", " : "", by->text, number);
+        free(*own);
+        *own = strdup(title);
+        if (!*own)
+            return calc_no_memory(m->error);
+    }
+    return true;
+}
+
+/* An input goes over its range, on a scratch scene. */
+static bool take_values(movie *m) {
+    trial *t = trial_open(&m->sh->calc, m->error);
+    bool ok = t != NULL;
+    m->motion.at = t;
+    for (size_t i = 0; ok && i < m->frames; i++) {
+        const long double part = (long double)i / (long double)(m->frames - 1),
+                          v = sweep_value(&m->motion.input, &m->motion.over, part);
+        ok = !calc_stopped(&shell_stop, m->error) && trial_set(t, &m->motion.input.var, v, m->error) &&
+             take_frame(m, INFINITY) && title_frame(m, &m->frame[i], v);
+    }
+    m->motion.at = NULL;
+    if (!ok)
+        calc_word(&m->sh->calc, m->error);
+    if (t)
+        trial_close(t);
+    return ok;
+}
+
 /* Goes along the load on a scratch scene. */
 static bool take_frames(movie *m) {
     calc *c = &m->sh->calc;
@@ -340,7 +376,7 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
         ok = calc_no_memory(lx->error);
     if (ok && frames < 2)
         ok = calc_fail(lx->error, 0, 0, "an animation takes 2 frames or more");
-    ok = ok && take_frames(m);
+    ok = ok && (m->motion.by_input ? take_values : take_frames)(m);
     const plot_movie moving = {.frames = m->done,
                                .fill = fill,
                                .progress =

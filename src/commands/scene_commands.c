@@ -65,6 +65,14 @@ static bool has_second(const edit *e) {
     return has(e, IN_E0_2) || has(e, IN_G0_2) || has(e, IN_NU_2);
 }
 
+/* Of a body. */
+static void put_preset(edit *e, const preset *p, int body) {
+    edit_put(e, body ? IN_E0_2 : IN_E0, p->E0);
+    edit_put(e, body ? IN_NU_2 : IN_NU, p->nu);
+    if (p->yield > 0)
+        edit_put(e, body ? IN_YIELD_2 : IN_YIELD, p->yield);
+}
+
 /* What was given for inputs. */
 static void gather(edit *e, const said *s) {
     for (const heard *h = s->list; h < s->list + s->count; h++) {
@@ -86,10 +94,8 @@ bool do_material(shell *sh, lexer *lx, const command *self) {
     if (!said_read(sh, lx, command_form(self), &s))
         return false;
     const heard *named = said_of(&s, "", 0);
-    if (named) {
-        edit_put(&e, IN_E0, preset_row(named->choice)->E0);
-        edit_put(&e, IN_NU, preset_row(named->choice)->nu);
-    }
+    if (named)
+        put_preset(&e, preset_row(named->choice), 0);
     gather(&e, &s);
     if (has_second(&e)) {
         e.clear_second = true;
@@ -149,8 +155,7 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
     if (named && named->choice < SECOND_WORDS) {
         e.second = named->choice ? SECOND_RIGID : SECOND_SAME;
     } else if (named) {
-        edit_put(&e, IN_E0_2, preset_row(named->choice - SECOND_WORDS)->E0);
-        edit_put(&e, IN_NU_2, preset_row(named->choice - SECOND_WORDS)->nu);
+        put_preset(&e, preset_row(named->choice - SECOND_WORDS), 1);
     }
     for (int i = 0; i < OF_BODY; i++) {
         const input own = bodies[i][0], other = bodies[i][1];

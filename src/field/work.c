@@ -268,6 +268,46 @@ static fret_real swung_work(place_asked *a, const swung_phase *p) {
 
 /* ---- all --------------------------------------------------------------------------------------- */
 
+/* The load of a front when its level is that. */
+static fret_real front_load(const swung_phase *p, fret_real level) {
+    const fret_real here = fmaxl(fminl(level, p->front.last[p->which]), p->front.first[p->which]);
+    return (here + fret_swing_other(&p->front, p->which, here)) / 2;
+}
+
+/* Loads, or depths, where a phase begins and ends: of its front and of its edge. */
+static size_t ends_of(const fret_work *w, const slip_phase *p, fret_real at[FRET_WORK_ENDS]) {
+    if (p->kind != SWUNG) {
+        at[0] = p->edge[0];
+        at[1] = p->edge[1];
+        at[2] = p->front[0];
+        at[3] = p->front[1];
+        return p->kind == GROSS ? 2 : 4;
+    }
+    const swung_phase *s = &w->swung[p->swung];
+    at[0] = load_of(&s->way, s->lo);
+    at[1] = load_of(&s->way, s->hi);
+    at[2] = front_load(s, way_at(&s->way, s->which, s->lo));
+    at[3] = front_load(s, way_at(&s->way, s->which, s->hi));
+    if (!turns(&s->way, s->lo, s->hi, &at[4]))
+        return 4;
+    at[5] = front_load(s, way_at(&s->way, s->which, at[4]));
+    at[4] = load_of(&s->way, at[4]);
+    return 6;
+}
+
+size_t fret_work_edges(const fret_work *w, size_t phase, fret_real r[FRET_WORK_ENDS]) {
+    size_t count = 0;
+    if (phase >= w->count)
+        return 0;
+    const slip_phase *p = &w->phase[phase];
+    const bool loads = p->kind == SWUNG || p->kind == BY_LOADS;
+    const size_t ends = ends_of(w, p, r);
+    for (size_t i = 0; i < ends; i++)
+        if (r[i] > 0)
+            r[count++] = fret_law_radius(w->normal, loads ? fret_law_depth(w->normal, r[i]) : r[i]);
+    return count;
+}
+
 fret_status fret_work_at(const fret_work *w, fret_real r, fret_real *out) {
     const fret_normal *n = w->normal;
     place_asked a = {.work = w, .r = r, .depth = -1, .st = fret_check_not_negative("r", (double)r)};

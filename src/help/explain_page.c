@@ -181,7 +181,9 @@ static void put_law(const page *p) {
     const struct fret_table *rows = s->answers.normal ? fret_normal_gap(s->answers.normal)->table : NULL;
     char text[MODEL_TEXT];
     const int n =
-        snprintf(text, sizeof text, "%s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
+        scene_is_worn(s)
+            ? snprintf(text, sizeof text, "worn by blocks of cycles, good to %.0e", WEAR_TOLERANCE)
+            : snprintf(text, sizeof text, "%s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
     if (rows && fret_table_within(rows) > 0)
         snprintf(text + n, sizeof text - (size_t)n, ", of %zu pieces within %.0e of the gap",
                  fret_table_count(rows) - 1, fret_table_within(rows));
@@ -271,10 +273,12 @@ void explain_error(const page *p, double good, const char *of) {
 /* What the value is good to, as `help exactness` says. */
 static void put_error(const page *p, const quantity *q, bool call, model_id model, double sine) {
     const scene *s = p->sh->calc.now;
-    const bool power = !s->in.geometry || s->in.geometry->power, local = is_local(q, call);
+    const bool power = scene_is_power(s), local = is_local(q, call);
     const char *of = local ? "largest value" : models[model].steps ? "largest value so far" : "value";
     double good = sine > 0 && local ? 1e-12 : sine > 0 || q->by || !power ? 1e-13 : DBL_EPSILON;
     good = fmax(q->call_at ? 1e-12 : good, sine);
+    if (scene_is_worn(s))
+        good = WEAR_TOLERANCE;
     if (s->used & USED(MODEL_PIECES))
         good = fmax(good, s->pieces_error);
     explain_error(p, good, of);
@@ -291,7 +295,7 @@ static bool has_effect(const influence_study *study, input in) {
 
 /* The inputs that the result was made of. */
 static void put_numbers(const page *p, const quantity *q, const influence_study *study) {
-    const input_set of_load = INPUT_PRESS | INPUT_CYCLE;
+    const input_set of_load = INPUT_PRESS | (INPUT_CYCLE & ~INPUT_BIT(IN_NW));
     scene *s = p->sh->calc.now;
     for (input in = 0; in < INPUTS; in++) {
         const quantity *row = quantity_of_input(in);

@@ -210,7 +210,7 @@ static void geometry_help(FILE *to, size_t i) {
 static entry preset_entry(size_t i) {
     const preset *p = preset_row(i);
     entry e = {.command = "material ", .name = p->name, .keywords = p->source};
-    snprintf(e.numbers, sizeof e.numbers, "E0=%.10g GPa nu=%.10g", p->E0 / 1e9, p->nu);
+    preset_numbers(p, e.numbers);
     return e;
 }
 

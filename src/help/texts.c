@@ -139,7 +139,8 @@ const char limits_text[] =
     "        one) or a slope exceeds 20 deg\n"
     "    the contact is a disc: g(x) must not fall\n"
     "    quasi-static, no adhesion, one coefficient of friction\n"
-    "    slip and friction's work at a radius are means over the angle, along F_x\n\n"
+    "    slip and friction's work at a radius are means over the angle, along F_x\n"
+    "    wear takes away what it wears: no debris, no change of friction\n\n"
     "`accuracy` tells the numerical error of every model in your scene, `explain`\n"
     "that of an answer, and `explain EXPR conditioning` what the last digit of each\n"
     "input does to it.\n";

@@ -124,10 +124,12 @@ static fret_estimate to_end(over *o, long double far, long double end) {
                : (fret_estimate){sum + rest, fabsl(rest) + rounding};
 }
 
-/* *size: of its magnitude. */
+/* *size: of its magnitude. What has worn is straight between rows by the hundred: it is not worth its last
+ * digits. */
 static fret_estimate of_part(over *o, long double lo, long double hi, long double *size) {
-    static const long double good = 1e-14L;
-    fret_estimate all = between(o, lo, hi, 1e-16L, false);
+    const bool worn = scene_is_worn(&o->t->scene);
+    const long double good = worn ? 1e-4L : 1e-14L;
+    fret_estimate all = between(o, lo, hi, worn ? 1e-7L : 1e-16L, false);
     *size = fabsl(all.value);
     if (isfinite(all.error) && all.error > good * *size)
         *size = between(o, lo, hi, 1e-3L, true).value;
@@ -146,36 +148,52 @@ static fret_estimate of_part(over *o, long double lo, long double hi, long doubl
     return all;
 }
 
-/* Where parts end: of a place, where the scene has an edge, and pressure may be singular there; a contact
- * that reaches but little beyond a flat end has another law nearer to it than that. The first lets no rule
- * lie evenly about a pole, whose sides would take each other away. */
-enum { EDGES = 7 };
-static size_t edges(const over *o, long double at[EDGES]) {
+/* Where parts end: of a place, where the scene has an edge, and pressure may be singular there, or where
+ * friction's work has a kink, if that is what is asked for; a contact that reaches but little beyond a flat end
+ * has another law nearer to it than that. The first lets no rule lie evenly about a pole, whose sides would
+ * take each other away. */
+enum { EDGES = 200 };
+static size_t edges(over *o, long double at[EDGES]) {
     static const char *const names[] = {"b", "a"};
     long double v[3];
     size_t count = 0, found = 0;
     at[count++] = o->lo + 0.381966L * (o->hi - o->lo);
-    for (size_t i = 0; i < 2 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++)
+    for (size_t i = 0; i < 2 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++) {
         found += quantity_get(quantity_find(names[i], 1), &o->t->scene, &v[found], error_quiet());
-    if (found == 2 && v[1] > v[0] && v[1] < 1.1L * v[0])
-        v[found++] = v[0] - (v[1] - v[0]);
+        if (i == 1 && found == 2 && v[1] > v[0] && v[1] < 1.1L * v[0])
+            v[found++] = v[0] - (v[1] - v[0]);
+    }
     for (size_t i = 0; i < found; i++) {
         at[count++] = v[i];
         at[count++] = -v[i];
+    }
+    if (count > 1) {
+        calc_error *error = o->error;
+        long double unused;
+        o->error = error_quiet();
+        look_at(o, at[0], &unused);
+        o->error = error;
+        count += scene_work_edges(&o->t->scene, at + count, EDGES - count);
     }
     return count;
 }
 
 bool over_integral(over *o, long double *out, long double *error) {
-    static const long double poor = 1e-6L;
+    static const long double alike = 1e-15L;
     long double edge[EDGES], size = 0, off = 0, sum = 0;
     const size_t count = edges(o, edge);
     const int way = o->lo < o->hi ? 1 : -1;
+    const long double poor = scene_is_worn(&o->t->scene) ? 1e-4L : 1e-6L;
+    if (scene_work_chords(&o->t->scene))
+        return calc_fail(
+            o->error, 0, 0,
+            "this load goes in chords, at whose ends friction's work has kinks by the thousand: W "
+            "and dW are the integrals of WdA and dWdA");
     for (long double lo = o->lo, hi; lo != o->hi && !o->error->raised; lo = hi) {
         long double own;
         hi = o->hi;
         for (size_t i = 0; i < count; i++)
-            if (way * edge[i] > way * lo && way * edge[i] < way * hi)
+            if (way * (edge[i] - lo) > alike * fabsl(o->hi - o->lo) && way * edge[i] < way * hi)
                 hi = edge[i];
         const fret_estimate here = of_part(o, lo, hi, &own);
         sum += here.value;

@@ -32,6 +32,8 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
                          q->name, q->name);
     if (in == IN_D0 || in == IN_F0)
         return inputs_any(&s->in, INPUT_BIT(IN_K_RIG)) || calc_missing(error, IN_K_RIG);
+    if (in == IN_NW && !inputs_any(&s->in, INPUT_BIT(IN_ALPHA_W)))
+        return calc_missing(error, IN_ALPHA_W);
     if (!(INPUT_BIT(in) & INPUT_CYCLE))
         return true;
     if (!s->end.cycles)

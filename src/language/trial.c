@@ -36,6 +36,7 @@ void trial_close(trial *t) {
     calc *c = t->c;
     scene_also_used(t->outer, scene_answered_by(c->now)); /* perhaps one beside it */
     c->now = t->outer;
+    scene_take_wear(t->outer, &t->scene);
     scene_free(&t->scene);
     while (t->hidden_count > 0) {
         own_name *row = &c->names.row[t->hidden[--t->hidden_count]];

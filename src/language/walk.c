@@ -16,7 +16,9 @@ void walk_end(walk *w) {
 
 /* Amplitudes and what the press imposes are compared with the steps that have them. */
 static bool same_bodies(const inputs *a, const inputs *b) {
-    return !a->bindings && !b->bindings && inputs_same(a, b, ~(INPUT_CYCLE | INPUT_PRESS));
+    const bool wears = inputs_any(a, INPUT_BIT(IN_NW)) || inputs_any(b, INPUT_BIT(IN_NW)); /* by all of it */
+    return !a->bindings && !b->bindings &&
+           inputs_same(a, b, wears ? ~(input_set)0 : ~(INPUT_CYCLE | INPUT_PRESS));
 }
 
 static bool same_item(const load_item *a, const load_item *b) {

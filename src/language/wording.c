@@ -19,7 +19,6 @@ static const struct {
     {"E'", "in some books 2 E*, 2/E' = (1-nu^2)/E0 + (1-nu_2^2)/E0_2; try: help Estar"},
     {"stress",
      "p(r) and qx(r) on the surface; inside, k = 0, sxx(x, y, z), mises and others; try: help cracking"},
-    {"wear", "no wear law is here; the friction work that drives it is dWdA(r) at a place, dW in all"},
     {"cylinder",
      "line contact is not axisymmetric, which this program does not do; its flat end is geometry flat b=..."},
     {"torsion", "no twist is computed: the load is FN and Fx"},
@@ -122,6 +121,8 @@ static void word_missing(const calc *c, calc_error *error) {
         snprintf(text, size, "there is no load yet: press first (press FN=100 N)");
     else if (INPUT_BIT(in) & INPUT_RIG)
         snprintf(text, size, "%s is not set: there is no rig (rig stiffness=80 N/um)", name);
+    else if (in == IN_ALPHA_W)
+        snprintf(text, size, "alpha_w is not set: give a wear law first (wear alpha=1e4 um^3/J)");
     else if (INPUT_BIT(in) & INPUT_STRESS)
         snprintf(text, size, "%s is not set (%s = 500 MPa)", name, name);
     else if (INPUT_BIT(in) & INPUT_CYCLE)

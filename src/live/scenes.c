@@ -79,6 +79,7 @@ static bool take_side(live *l, side *s, bool along, calc_error *error) {
         s->now = (shot){.time = 0}; /* keys go on from what is shown, which is nothing now */
         return false;
     }
+    s->loses = shot_lost(c, s->now.a, s->lost);
     return way_follow(&s->way, c, along && items ? items - 1 : NO_ITEM, error);
 }
 

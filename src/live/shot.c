@@ -85,3 +85,16 @@ bool shot_take(calc *c, const shot *like, shot *out, calc_error *error) {
     out->digits = 0;
     return true;
 }
+
+bool shot_lost(calc *c, double a, double lost[SHOT_SAMPLES + 1]) {
+    const load_reach *reach;
+    long double v;
+    if (!scene_reach(c->now, &reach, error_quiet()) || reach->swings || !c->now->end.cycles)
+        return false;
+    for (int i = 0; i <= SHOT_SAMPLES; i++) {
+        if (!scene_work(c->now, true, (long double)a * i / SHOT_SAMPLES, &v, error_quiet()))
+            return false;
+        lost[i] = (double)v;
+    }
+    return true;
+}

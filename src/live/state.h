@@ -15,6 +15,8 @@ typedef struct side {
     char trouble[LIVE_TEXT]; /* why there is nothing to show; empty: there is */
     bool stale;              /* what is shown is of an earlier scene */
     shot now, before;        /* before: of what is to be played */
+    bool loses;              /* in a cycle, at r = now.a i/SHOT_SAMPLES: */
+    double lost[SHOT_SAMPLES + 1];
     load_way way;
 } side;
 

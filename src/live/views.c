@@ -30,7 +30,7 @@ static int put_words(const char *text, ink of, rect at, int most) {
 /* ---- scales, the same for all scenes on the screen --------------------------------------------- */
 
 typedef struct scales {
-    double a, bound, dx, Fx, energy;
+    double a, bound, dx, Fx, energy, lost;
 } scales;
 
 /* A little above, in steps: the picture must not breathe with every key. */
@@ -46,7 +46,7 @@ static double roomy(double v) {
 }
 
 static scales scales_of(const live *l) {
-    scales most = {0, 0, 0, 0, 0};
+    scales most = {0, 0, 0, 0, 0, 0};
     for (size_t i = 0; i < live_sides(l); i++) {
         const side *s = &l->side[i];
         if (*s->trouble)
@@ -57,8 +57,11 @@ static scales scales_of(const live *l) {
         most.dx = fmax(most.dx, fmax(way.dx, s->now.bound));
         most.Fx = fmax(most.Fx, fmax(way.Fx, s->now.slip));
         most.energy = fmax(most.energy, way.energy);
+        for (int j = 0; j <= SHOT_SAMPLES && s->loses; j++)
+            most.lost = fmax(most.lost, s->lost[j]);
     }
-    return (scales){roomy(most.a), roomy(most.bound), roomy(most.dx), roomy(most.Fx), roomy(most.energy)};
+    return (scales){roomy(most.a),  roomy(most.bound),  roomy(most.dx),
+                    roomy(most.Fx), roomy(most.energy), roomy(most.lost)};
 }
 
 static void amount(double v, dim d, char text[40]) {
@@ -247,6 +250,26 @@ static void draw_energies(live *l, const side *sd, const scales *sc, rect at) {
     put_text(at, 0, INK_FRAME, "%s", text);
 }
 
+/* ---- where energy is lost ---------------------------------------------------------------------- */
+
+static void draw_lost(live *l, const side *s, const scales *sc, rect at) {
+    char text[40];
+    canvas c;
+    (void)l;
+    if (!canvas_make(&c, at, terminal_unicode()))
+        return;
+    const double step = (c.wide - 1) * s->now.a / sc->a / SHOT_SAMPLES, ky = (c.high - 1) / sc->lost;
+    plot_pen lost = plot_pen_of(&c.cells, "1", INK_SLIP);
+    for (int i = 0; i < SHOT_SAMPLES && s->loses; i++)
+        plot_pen_line(&lost, step * i, c.high - 1 - ky * s->lost[i], step * (i + 1),
+                      c.high - 1 - ky * s->lost[i + 1]);
+    canvas_show(&c);
+    put_text(at, 0, INK_FRAME, s->loses ? "%.3g J/m^2" : "of a cycle at constant FN", sc->lost);
+    amount(sc->a, DIM_LENGTH, text);
+    const int n = (int)strlen(text) + 2;
+    put_text((rect){at.top, at.left + at.cols - n, at.rows, n}, at.rows - 1, INK_FRAME, "r %s", text);
+}
+
 /* ---- the numbers ------------------------------------------------------------------------------- */
 
 static void draw_numbers(live *l, const side *sd, const scales *sc, rect at) {
@@ -288,6 +311,7 @@ static const view views[] = {
     {"springs: u1D(x) between +-B", draw_springs, true, 4, 0, 0},
     {"loop: Fx over dx", draw_loop, true, 6, 0, 0},
     {"energy: W, U (dotted)", draw_energies, false, 4, 0, 40},
+    {"lost in a cycle: dWdA(r)", draw_lost, true, 3, 0, 40},
     {"", draw_numbers, false, 0, (SHOT_VALUES + 1) / 2, 0},
 };
 enum { VIEWS = sizeof views / sizeof *views };

@@ -63,8 +63,11 @@ const hole_row holes[] = {
 
 static void presets_list(FILE *to) {
     const preset *p;
-    for (size_t i = 0; (p = preset_row(i)); i++)
-        fprintf(to, "    %-17s E0=%.10g GPa nu=%.10g\n", p->name, p->E0 / 1e9, p->nu);
+    char numbers[PRESET_NUMBERS];
+    for (size_t i = 0; (p = preset_row(i)); i++) {
+        preset_numbers(p, numbers);
+        fprintf(to, "    %-17s %s\n", p->name, numbers);
+    }
 }
 
 static void figures_list(FILE *to) {
@@ -158,6 +161,34 @@ const command commands[] = {
              "    sxx(a, 0 m, 0 m)/p0 = 0.133333\n"
              "    fret> sxx(a, 0 m, 0 m)\n"
              "    sxx(a, 0 m, 0 m) = 232.784 MPa\n"},
+    {.name = "wear",
+     .run = do_wear,
+     .group = "the bodies",
+     .keywords = "Archard energy law worn depth volume scar profile Fouvry Popov debris cycles",
+     .changes = true,
+     .takes = "alpha:=1e4 um^3/J | K=1e-4 H=2 GPa | cycles N:1000000000 | limit | none",
+     .summary = "a wear law, and what cycles of fretting leave of the gap",
+     .help = "Of each place friction's work per area takes a depth, alpha_w dWdA(r) (Fouvry\n"
+             "et al., Wear 255, 2003); Archard's V = K F_N s/H has alpha_w = K/(mu H), which\n"
+             "then follows mu. dhwear(r), dVwear are what the last cycle wears. `wear cycles\n"
+             "N` adds N to Nw: the gap, and all that follows, is then as that many of the\n"
+             "last cycle leave it, under what press and cycle hold: FN or dz, FA or dxA. Nw\n"
+             "is an input like another, swept and solved for, and 0 again after another press\n"
+             "or cycle. hwear(r), Vwear are depth and volume so far, to 0.1 % of the largest.\n"
+             "Both bodies wear together, and debris is gone. `wear limit` is the end of it:\n"
+             "within c nothing wears, outside pressure is gone (Popov, Sci. Rep. 4, 3749,\n"
+             "2014).\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> cycle FA=20 N; wear K=1e-4 H=2 GPa\n"
+             "    fret> alpha_w, dVwear, dVwear/(alpha_w*dW)\n"
+             "    alpha_w = 125000 um^3/J\n"
+             "    dVwear = 0.238307 um^3\n"
+             "    dVwear/(alpha_w*dW) = 1\n"
+             "    fret> wear cycles 1000; set digits 3\n"
+             "    fret> Vwear, hwear(0.95*a), hwear(0.95*a) at Nw=2000\n"
+             "    Vwear = 241 um^3\n"
+             "    hwear(0.95*a) = 9.14 nm\n"
+             "    hwear(0.95*a) = 17.2 nm\n"},
     {.name = "rig",
      .run = do_rig,
      .group = "the load",
@@ -370,7 +401,8 @@ const command commands[] = {
      .help = "Figures as of `plot`. Those `along` a load, all along the same one, are drawn up\n"
              "to a moving instant; `springs`, `pressure`, `traction` and what else goes over\n"
              "a place show the state then, as `animate springs along cycle FA=30 N` does. The\n"
-             "load is the program where none is said. Ctrl-C stops.\n\n"
+             "load is the program where none is said. An input may go over a range instead:\n"
+             "`animate profile for Nw = 0 .. 1e4`. Ctrl-C stops.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> cycle FA=30 N\n"
              "    fret> animate springs | loop frames 8 to cycle.gif\n"

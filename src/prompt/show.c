@@ -360,10 +360,12 @@ bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
     write_geometry(&w);
     write_friction(&w);
     write_rig(&w);
-    for (input i = IN_YIELD; i <= IN_SB; i++)
+    for (input i = IN_YIELD; i <= IN_ALPHA_W; i++)
         if (is_set(&w, i))
             write_input(&w, i);
     write_load(&w, whole);
+    if (is_set(&w, IN_NW))
+        write_input(&w, IN_NW);
     const bool ok = write_names(&w);
     for (input i = 0; i < INPUTS; i++)
         write_binding(&w, i);

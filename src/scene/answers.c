@@ -189,10 +189,10 @@ void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs)
 /* ---- closed forms ------------------------------------------------------------------------------ */
 
 void scene_used_closed(scene *s) {
-    if (s->in.geometry->power)
+    if (scene_is_power(s))
         s->used |= USED(MODEL_CLOSED);
     else if (s->answers.normal)
-        scene_used_law(s, s->answers.normal);
+        scene_used_law(s, scene_is_worn(s) ? fret_wear_law(s->answers.worn->wear) : s->answers.normal);
 }
 
 static const load_reach *closed_reach(scene *s) {

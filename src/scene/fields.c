@@ -23,14 +23,26 @@ bool call_E(scene *s, value z, long double *out, calc_error *error) {
     return true;
 }
 
+/* Of Nw cycles; of none 0. */
+static bool worn_depth(scene *s, long double r, long double *out, calc_error *error) {
+    const fret_wear *wear;
+    *out = 0;
+    if (!scene_worn(s, &wear, error))
+        return false;
+    const fret_status st = wear ? fret_wear_depth(wear, r, out) : (fret_status){.code = FRET_OK};
+    return calc_status(error, &st);
+}
+
 bool call_f(scene *s, value r, long double *out, calc_error *error) {
     fret_gap gap;
-    if (!scene_gap(s, &gap, error))
+    long double depth = 0;
+    if (!scene_gap(s, &gap, error) || !worn_depth(s, r.v, &depth, error))
         return false;
     s->used |= USED(MODEL_CLOSED);
     fret_status st = fret_gap_check(&gap);
     if (!st.code)
         st = fret_gap_f(&gap, r.v, out);
+    *out += depth;
     return calc_status(error, &st);
 }
 
@@ -88,6 +100,20 @@ bool call_WdA(scene *s, value r, long double *out, calc_error *error) {
 
 bool call_dWdA(scene *s, value r, long double *out, calc_error *error) {
     return scene_work(s, true, r.v, out, error);
+}
+
+bool call_hwear(scene *s, value r, long double *out, calc_error *error) {
+    long double alpha = 0;
+    s->used |= USED(MODEL_MEMORY);
+    return scene_get(s, IN_ALPHA_W, &alpha, error) && worn_depth(s, r.v, out, error);
+}
+
+bool call_dhwear(scene *s, value r, long double *out, calc_error *error) {
+    long double alpha = 0;
+    if (!scene_get(s, IN_ALPHA_W, &alpha, error) || !scene_work(s, true, r.v, out, error))
+        return false;
+    *out *= alpha;
+    return true;
 }
 
 /* The state of a scene with friction. */
@@ -227,3 +253,38 @@ STRESS(mises, fret_stress_mises(&t))
 STRESS(tresca, fret_stress_tresca(&t))
 STRESS(sigma1, principal(&t, 0))
 STRESS(sigma3, principal(&t, 2))
+
+static bool mises_at(scene *s, long double x, long double z, long double *out) {
+    const value place[3] = {{x, DIM_LENGTH}, {0, DIM_LENGTH}, {z, DIM_LENGTH}};
+    return call_mises(s, place, out, error_quiet());
+}
+
+/* The largest mises in the plane of F_x, of one body: the best of a grid of places, uphill from there. */
+bool scene_hardest(scene *s, long double a, int side, long double at[2], long double *most) {
+    enum { ACROSS = 12, DEEP = 12 };
+    static const long double width = 1.2L;
+    *most = -1;
+    long double v;
+    for (int i = -ACROSS; i <= ACROSS; i++)
+        for (int j = 0; j <= DEEP; j++) {
+            const long double x = width * a * i / ACROSS, z = side * (a * j / DEEP);
+            if (j + (side > 0) == 0 || !mises_at(s, x, z, &v) || v <= *most)
+                continue;
+            *most = v;
+            at[0] = x;
+            at[1] = z;
+        }
+    for (long double h = a / DEEP; *most > 0 && h > 1e-5L * a;) {
+        const long double from = *most, x = at[0], z = at[1];
+        for (int i = 0; i < 4; i++) {
+            const long double to[2] = {x + (i < 2 ? (2 * i - 1) * h : 0), z + (i < 2 ? 0 : (2 * i - 5) * h)};
+            if (to[1] * side < 0 || (side < 0 && to[1] == 0) || !mises_at(s, to[0], to[1], &v) || v <= *most)
+                continue;
+            *most = v;
+            at[0] = to[0];
+            at[1] = to[1];
+        }
+        h = *most > from ? h : h / 2;
+    }
+    return *most > 0;
+}

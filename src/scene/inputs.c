@@ -265,7 +265,7 @@ void input_range(input in, double *lo, double *hi) {
 }
 
 fret_status input_status(input in, double v) {
-    const bool nu = in == IN_NU || in == IN_NU_2, from_0 = in == IN_FNA || in == IN_MU;
+    const bool nu = in == IN_NU || in == IN_NU_2, from_0 = in == IN_FNA || in == IN_MU || in == IN_NW;
     double lo, hi;
     fret_code code = FRET_OK;
     input_range(in, &lo, &hi);
@@ -405,6 +405,7 @@ bool inputs_get(const inputs *in, input which, long double *out, calc_error *err
     case IN_K:
     case IN_FNA:
     case IN_PHASE:
+    case IN_NW:
         here = here || which == IN_K || inputs_any(in, INPUT_AMPLITUDE);
         break;
     case IN_SB:

@@ -30,12 +30,14 @@ typedef enum input {
     IN_DRIGA,
     IN_FNA,
     IN_PHASE,
+    IN_NW,    /* cycles of wear, of the last cycle too */
     IN_K_RIG, /* these three: of the rig */
     IN_D0,
     IN_F0,
     IN_YIELD,
     IN_YIELD_2,
     IN_SB,
+    IN_ALPHA_W,
     IN_N, /* from here on: parameters of the geometry */
     IN_A,
     IN_H,
@@ -58,7 +60,7 @@ typedef unsigned long long input_set;
     (INPUT_BIT(IN_FN) | INPUT_BIT(IN_DZ) | INPUT_BIT(IN_CONTACT) | INPUT_BIT(IN_P0) | INPUT_BIT(IN_PMEAN))
 #define INPUT_GEOMETRY (INPUT_BIT(INPUTS) - INPUT_BIT(IN_N))
 #define INPUT_AMPLITUDE (INPUT_BIT(IN_FA) | INPUT_BIT(IN_DXA) | INPUT_BIT(IN_DRIGA))
-#define INPUT_CYCLE (INPUT_AMPLITUDE | INPUT_BIT(IN_FNA) | INPUT_BIT(IN_PHASE))
+#define INPUT_CYCLE (INPUT_AMPLITUDE | INPUT_BIT(IN_FNA) | INPUT_BIT(IN_PHASE) | INPUT_BIT(IN_NW))
 #define INPUT_RIG (INPUT_BIT(IN_K_RIG) | INPUT_BIT(IN_D0) | INPUT_BIT(IN_F0))
 #define INPUT_STRESS (INPUT_BIT(IN_YIELD) | INPUT_BIT(IN_YIELD_2) | INPUT_BIT(IN_SB)) /* no contact's */
 
@@ -121,8 +123,8 @@ void inputs_drop(inputs *in);
 /* Are these inputs the same, the bodies and the shape, and no definitions among them? */
 bool inputs_same(const inputs *a, const inputs *b, input_set which);
 
-/* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2, mu = 0 and FNA
- * = 0 belong. */
+/* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2, and 0 of mu,
+ * FNA and Nw belong. */
 void input_range(input in, double *lo, double *hi);
 /* Is the value in the range of the input, whatever the rest? */
 fret_status input_status(input in, double v);

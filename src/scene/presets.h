@@ -8,11 +8,15 @@
 typedef struct preset {
     const char *name;
     double E0, nu;
+    double yield; /* of the grade that the source names; 0: of none */
     const char *source;
 } preset;
 
 const preset *preset_row(size_t i); /* NULL after the last */
 const char *preset_name(size_t i);
+/* As "E0=210 GPa nu=0.3". */
+enum { PRESET_NUMBERS = 64 };
+void preset_numbers(const preset *p, char text[PRESET_NUMBERS]);
 /* What `second` takes: same, rigid, then the presets. */
 enum { SECOND_WORDS = 2 };
 const char *second_name(size_t i);

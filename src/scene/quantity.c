@@ -30,6 +30,8 @@
     { 1, 1, 0, 0 }
 #define STIFFNESS                                                                                            \
     { 1, -1, 0, 0 }
+#define VOLUME                                                                                               \
+    { 0, 3, 0, 0 }
 #define ANGLE                                                                                                \
     { 0, 0, 1, 0 }
 
@@ -89,6 +91,11 @@ static const quantity quantities[] = {
      .formulas = {{"as yield, of a second body that differs", NULL, 0}}},
     {.name = "sB", .title = "bulk stress along x of the first body", .keywords = "fatigue tension fretting", .d = PRESSURE, INPUT(IN_SB),
      .formulas = {{"added to sxx", NULL, 0}}},
+    {.name = "alpha_w", .title = "volume worn by the energy dissipated", .keywords = "wear coefficient energy law Archard Fouvry", .d = {-1, 2, 0, 0},
+     .unit = "um^3/J", INPUT(IN_ALPHA_W),
+     .formulas = {{"V = alpha_w W (Fouvry et al., Wear 255, 2003); of Archard's V = K F_N s/H it is K/(mu H)", NULL, 0}}},
+    {.name = "Nw", .title = "cycles of wear by the last cycle", .keywords = "number worn", INPUT(IN_NW),
+     .formulas = {{"the gap is what that many of the last cycle leave", NULL, 0}}},
     {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN), CALL(FN, d, LENGTH),
      .reads = READS_NORMAL, .load = true,
      .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(13)", WHEN_POWER},
@@ -140,6 +147,10 @@ static const quantity quantities[] = {
                    "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
                   {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
                   {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
+    {.name = "Vwear", .title = "worn volume so far", .keywords = "wear Archard", .d = VOLUME, .unit = "um^3",
+     GETTER(Vwear), .reads = READS_WORN, .load = true, .formulas = {{"2 pi int hwear r dr = alpha_w times the work of Nw cycles", NULL, 0}}},
+    {.name = "dVwear", .title = "volume worn by the last closed cycle", .keywords = "wear rate Archard", .d = VOLUME, .unit = "um^3",
+     GETTER(dVwear), .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dW", NULL, 0}}},
     {.name = "dWd", .title = "energy per cycle by displacement amplitude", .keywords = "hysteresis dissipation gross slip", .d = ENERGY,
      .of = OF_FUNCTION, CALL(dWd, dxA, LENGTH), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"dW(FA(dxA)); beyond dxmax gross slip adds 4 mu F_N (dxA-dxmax)", "(26)", 0}}},
@@ -196,9 +207,9 @@ static const quantity quantities[] = {
     {.name = "E", .title = "modulus at depth z", .keywords = "Young grading", .d = PRESSURE, .of = OF_FUNCTION, CALL(E, z, LENGTH),
      .reads = INPUT_MODULUS | INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0), .formulas = {{"E(z) = E0 (z/c0)^k", "(1)", 0}}},
     {.name = "f", .title = "gap at radius r", .keywords = "shape profile", .d = LENGTH, .of = OF_FUNCTION, CALL(f, r, LENGTH),
-     .reads = INPUT_GEOMETRY, .formulas = {{"f(r) = A r^n", "(6)", WHEN_POWER}, {"f(r)", "(3)", 0}}},
+     .reads = INPUT_BIT(IN_NW) | INPUT_GEOMETRY, .formulas = {{"f(r) = A r^n", "(6)", WHEN_POWER}, {"f(r)", "(3)", 0}}},
     {.name = "g", .title = "equivalent profile", .keywords = "shape", .d = LENGTH, .of = OF_FUNCTION, CALL(g, x, LENGTH),
-     .reads = INPUT_GEOMETRY | INPUT_BIT(IN_K),
+     .reads = INPUT_BIT(IN_NW) | INPUT_GEOMETRY | INPUT_BIT(IN_K),
      .formulas = {{"g(x) = kappa A x^n", "(7)", WHEN_POWER},
                   {"g(x) = x^(1-k) int_0^x f'(r) (x^2-r^2)^((k-1)/2) dr", "(3)", 0}}},
     {.name = "p", .by = MODEL_QUADRATURE, .title = "contact pressure", .keywords = "stress Hertz", .d = PRESSURE, .of = OF_FUNCTION, CALL(p, r, LENGTH),
@@ -218,10 +229,15 @@ static const quantity quantities[] = {
      .formulas = {{"s(r) = delta_x-u_x(r)", "inverse of (3)", 0}}},
     {.name = "WdA", .by = MODEL_MEMORY, .title = "friction's work per area so far", .keywords = "dissipation energy wear fretting density", .d = STIFFNESS,
      .unit = "J/m^2", .of = OF_FUNCTION, CALL(WdA, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
-     .formulas = {{"int q_x(r,t) ds(r,t) over the load program; 2 pi int_0^a WdA r dr = W", NULL, 0}}},
+     .formulas = {{"int q_x(r,t) ds(r,t) over the load program; 2 pi int WdA r dr = W, as far out as contact ever was", NULL, 0}}},
     {.name = "dWdA", .by = MODEL_MEMORY, .title = "friction's work per area in the last closed cycle", .keywords = "dissipation energy wear fretting density",
      .d = STIFFNESS, .unit = "J/m^2", .of = OF_FUNCTION, CALL(dWdA, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"the integral of q_x ds over a period; at constant F_N 4 mu p(r) s(r), s at the amplitude", NULL, 0}}},
+    {.name = "dhwear", .by = MODEL_MEMORY, .title = "depth worn by the last closed cycle", .keywords = "wear rate scar fretting Archard", .d = LENGTH,
+     .of = OF_FUNCTION, CALL(dhwear, r, LENGTH), .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dWdA(r)", NULL, 0}}},
+    {.name = "hwear", .by = MODEL_MEMORY, .title = "worn depth so far", .keywords = "wear scar fretting Archard profile", .d = LENGTH,
+     .of = OF_FUNCTION, CALL(hwear, r, LENGTH), .reads = READS_WORN, .load = true,
+     .formulas = {{"the sum of dhwear(r) over Nw cycles, each of the gap that those before leave", NULL, 0}}},
     {.name = "w1D", .title = "normal spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION, CALL(w1D, x, LENGTH),
      .reads = READS_NORMAL, .load = true, .formulas = {{"w_1D(x) = delta_z-g(x)", "(9)", 0}}},
     {.name = "u1D", .by = MODEL_MEMORY, .title = "tangential spring displacement", .keywords = "Winkler springs", .d = LENGTH, .of = OF_FUNCTION,
@@ -351,7 +367,7 @@ dim quantity_dim(const quantity *q, const scene *s) {
 /* Which formulas hold in the scene. */
 static unsigned holds(const quantity *q, scene *s, bool call) {
     const load_reach *reach;
-    const bool power = !s->in.geometry || s->in.geometry->power;
+    const bool power = scene_is_power(s);
     const unsigned when = power ? WHEN_POWER : WHEN_SHAPE;
     if (call)
         return when | WHEN_CALL | WHEN_FIRST;
@@ -373,8 +389,7 @@ const formula *quantity_formula(const quantity *q, scene *s, bool call) {
 }
 
 model_id quantity_model(const quantity *q, scene *s, bool call) {
-    const bool power = !s->in.geometry || s->in.geometry->power;
-    const model_id closed = power ? MODEL_CLOSED : MODEL_PIECES;
+    const model_id closed = scene_is_power(s) ? MODEL_CLOSED : MODEL_PIECES;
     const model_id stepped = !s->automatic && models[s->model].steps ? s->model : MODEL_MEMORY;
     if (call)
         return q->by ? q->by : closed;

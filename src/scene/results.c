@@ -48,6 +48,23 @@ bool get_dW(scene *s, long double *out, calc_error *error) {
     return scene_cycle_loss(s, out, error);
 }
 
+bool get_Vwear(scene *s, long double *out, calc_error *error) {
+    const fret_wear *wear;
+    long double alpha = 0;
+    if (!scene_get(s, IN_ALPHA_W, &alpha, error) || !scene_worn(s, &wear, error))
+        return false;
+    *out = wear ? fret_wear_volume(wear) : 0;
+    return true;
+}
+
+bool get_dVwear(scene *s, long double *out, calc_error *error) {
+    long double alpha = 0;
+    if (!scene_get(s, IN_ALPHA_W, &alpha, error) || !scene_cycle_loss(s, out, error))
+        return false;
+    *out *= alpha;
+    return true;
+}
+
 bool get_kn(scene *s, long double *out, calc_error *error) {
     const fret_press *press;
     const fret_normal *normal;

@@ -30,9 +30,11 @@ static void answers_end(answers *a, bool keep) {
         engine_end(&a->spare[i].engine);
     }
     fret_contact_free(a->chorded);
+    worn_gap *borrowed = a->worn;
     fret_normal *normal = a->normal, *k0 = a->k0;
     forget_fields(a);
     *a = (answers){.normal = NULL};
+    counted_drop(borrowed ? &borrowed->base : NULL); /* whose law runs and fields have borrowed */
     if (keep) {
         a->normal = normal;
         a->k0 = k0;
@@ -72,7 +74,7 @@ void scene_used_law(scene *s, const fret_normal *normal) {
 
 /* The others are of the bodies and of the shape. */
 static const input_set keeps_contact =
-    INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE | INPUT_RIG | INPUT_STRESS;
+    INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE | INPUT_RIG | INPUT_STRESS | INPUT_BIT(IN_ALPHA_W);
 
 /* Bodies and shape that follow definitions may follow these. */
 void scene_forget(scene *s, bool keep) {
@@ -100,6 +102,8 @@ void scene_free(scene *s) {
     scene_forget(s, false);
     fret_normal_free(s->like);
     s->like = NULL;
+    counted_drop(s->wears ? (counted *)s->wears : NULL);
+    s->wears = NULL;
     inputs_drop(&s->in);
     counted_drop(s->program ? &s->program->base : NULL);
     s->program = NULL;
@@ -110,6 +114,7 @@ void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
     to->like = from->like ? fret_normal_hold(from->like) : NULL;
+    counted_hold((counted *)to->wears);
     inputs_copy(&to->in, &from->in);
     counted_hold(to->program ? &to->program->base : NULL);
 }
@@ -151,7 +156,10 @@ void scene_drop(scene_mark *m) {
 }
 
 void scene_back(scene *s, scene_mark *m) {
+    wear_path *wears = s->wears;
+    s->wears = NULL;
     scene_free(s);
+    s->wears = wears;
     s->in = m->in;
     s->program = m->program;
     s->end = m->end;
@@ -188,7 +196,8 @@ static bool settle(scene *s, input in, calc_error *error) {
     value v = {0};
     scene_clone(&then, s);
     then.settling |= bit;
-    go_back(&then, amplitude);
+    if (in != IN_NW)
+        go_back(&then, amplitude);
     bool ok = s->evaluate(s->context, &then, in, s->in.bound[in], &v, error);
     scene_free(&then);
     if (amplitude && s->before && s->early && !error->circle) {
@@ -256,15 +265,13 @@ static bool make_normal(scene *s, bool homogeneous, fret_normal **out, calc_erro
     return calc_status(error, &st);
 }
 
-bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
-    if (!s->answers.normal) {
-        if (!make_normal(s, false, &s->answers.normal, error))
-            return false;
-        fret_normal_free(s->like);
-        s->like = fret_normal_hold(s->answers.normal);
-    }
-    *normal = s->answers.normal;
-    scene_used_law(s, *normal);
+bool scene_unworn(scene *s, calc_error *error) {
+    if (s->answers.normal)
+        return true;
+    if (!make_normal(s, false, &s->answers.normal, error))
+        return false;
+    fret_normal_free(s->like);
+    s->like = fret_normal_hold(s->answers.normal);
     return true;
 }
 

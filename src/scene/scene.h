@@ -36,9 +36,21 @@ typedef struct friction_work {
     unsigned times[LEVELS];
 } friction_work;
 
+/* A gap that has worn for Nw cycles. */
+typedef struct worn_gap {
+    counted base;
+    fret_normal *normal; /* that it has worn from */
+    fret_wear_held held;
+    double Nw;
+    fret_wear *wear;
+} worn_gap;
+typedef struct wear_path wear_path; /* worn.c */
+#define WEAR_TOLERANCE 1e-3
+
 /* What follows, valid as far as the flags say. */
 typedef struct answers {
-    fret_normal *normal, *k0;      /* or NULL: not made yet */
+    fret_normal *normal, *k0;      /* of the gap as it is given; or NULL: not made yet */
+    worn_gap *worn;                /* whose law stands in place of that one, or NULL */
     fret_field *pressed, *dragged; /* of the press, and of the history, as they are now; or NULL */
     fret_field *straight;          /* as dragged, in chords after swinging; or NULL */
     friction_work work;
@@ -86,6 +98,7 @@ struct scene {
     unsigned springs;
     /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
     fret_normal *like;
+    wear_path *wears;    /* shared with those it was cloned from; or NULL */
     bool gaps;           /* of a scratch scene: FN(dz) of dz < 0, before contact, is 0 and no error */
     double pieces_error; /* of the polynomials among them, relative */
     unsigned used;       /* what has answered: raised by whatever does, cleared by whoever wants to know */
@@ -162,6 +175,16 @@ bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *
 /* The shape alone, unchecked. */
 bool scene_gap(scene *s, fret_gap *out, calc_error *error);
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
+/* That of the gap as it is given is in answers.normal. */
+bool scene_unworn(scene *s, calc_error *error);
+/* The wear of Nw cycles; NULL: none. */
+bool scene_worn(scene *s, const fret_wear **out, calc_error *error);
+bool scene_is_worn(const scene *s);  /* and has been asked for */
+bool scene_is_power(const scene *s); /* is the gap, as far as it is known? */
+/* How others wear that was cloned from it, where it does not know that of its own. */
+void scene_take_wear(scene *s, scene *from);
+/* What infinitely many leave, whatever Nw; to be freed. */
+bool scene_wear_limit(scene *s, fret_wear **out, calc_error *error);
 /* Fields of the press and of the history as they are now. */
 bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error);
 bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error);
@@ -170,6 +193,10 @@ bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error);
 bool scene_stress_field(scene *s, const fret_field **field, calc_error *error);
 /* Friction's work by place up to now, and of the last closed period; the load is run again for it. */
 bool scene_work(scene *s, bool period, long double r, long double *out, calc_error *error);
+/* Where those of the work that has been asked for are not smooth, as far as there is room: how many. */
+size_t scene_work_edges(const scene *s, long double r[], size_t room);
+/* Is it that of a load in chords, each of which makes kinks of its own? */
+bool scene_work_chords(const scene *s);
 void friction_work_end(friction_work *w);
 /* The same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);

@@ -83,3 +83,18 @@ bool scene_work(scene *s, bool period, long double r, long double *out, calc_err
         *out = w->levels == LEVELS ? run_limit(at, &unused) : at[0];
     return calc_status(error, &st);
 }
+
+bool scene_work_chords(const scene *s) {
+    return s->answers.work.levels == LEVELS;
+}
+
+size_t scene_work_edges(const scene *s, long double r[], size_t room) {
+    const friction_work *w = &s->answers.work;
+    long double own[FRET_WORK_ENDS];
+    size_t count = 0, ends;
+    for (unsigned level = 0; level < w->levels; level++)
+        for (size_t phase = 0; (ends = fret_work_edges(w->far[level], phase, own)); phase++)
+            for (size_t i = 0; i < ends && count < room; i++)
+                r[count++] = own[i];
+    return count;
+}

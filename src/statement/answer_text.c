@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/quantity.h"
 #include "statement/answer_form.h"
 #include "text/characters.h"
 
@@ -31,7 +32,8 @@ static void put_beside(answer *a, const column *c, const estimate *e) {
 
 static void put_quantity(answer *a, const char *name, value v) {
     char text[160];
-    format_value(a->set, v, text, sizeof text);
+    const quantity *q = quantity_find(name, strlen(name));
+    format_row(a->set, v, q ? q->unit : NULL, text, sizeof text);
     if (a->layout == LAYOUT_PAGE)
         fprintf(a->to, "    %s = %s\n", name, text);
     else

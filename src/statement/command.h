@@ -45,7 +45,7 @@ bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counte
 /* Rooms of handlers. */
 typedef bool command_run(shell *sh, lexer *lx, const command *self);
 /* scene_commands.c, load_commands.c */
-command_run do_material, do_second, do_geometry, do_friction, do_rig, do_bulk;
+command_run do_material, do_second, do_geometry, do_friction, do_rig, do_bulk, do_wear;
 command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;
 /* view_commands.c, plot_commands.c, explain.c */
 command_run do_history, do_table, do_plot, do_animate, do_explain, do_accuracy, do_compare;

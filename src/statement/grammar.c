@@ -22,7 +22,10 @@ static const struct {
               {"D", {0, 1, 0, 0}, POSITIVE, 0},
               {"G", {1, -2, 0, 0}, ANY, 1 + IN_G0},
               {"stiffness", {1, -1, 0, 0}, ANY, 1 + IN_K_RIG},
-              {"stress", {1, -2, 0, 0}, ANY, 1 + IN_SB}};
+              {"stress", {1, -2, 0, 0}, ANY, 1 + IN_SB},
+              {"alpha", {-1, 2, 0, 0}, ANY, 1 + IN_ALPHA_W},
+              {"K", {0, 0, 0, 0}, POSITIVE, 0},
+              {"H", {1, -2, 0, 0}, POSITIVE, 0}};
 
 typedef struct parsing {
     grammar *out;

@@ -100,11 +100,6 @@ static void warn_half_space(shell *sh) {
     sh->no_half_space = (wide ? WIDE : 0u) | (steep ? STEEP : 0u);
 }
 
-static bool mises_at(scene *s, long double x, long double z, long double *out) {
-    const value place[3] = {{x, DIM_LENGTH}, {0, DIM_LENGTH}, {z, DIM_LENGTH}};
-    return call_mises(s, place, out, error_quiet());
-}
-
 /* ---- stress ------------------------------------------------------------------------------------ */
 
 static void warn_bulk(shell *sh) {
@@ -116,42 +111,10 @@ static void warn_bulk(shell *sh) {
     sh->bulk = sB != 0;
 }
 
-/* The largest mises in the plane of F_x, of one body: the best of a grid of places, uphill from there. */
-static bool hardest(scene *s, long double a, int side, long double at[2], long double *most) {
-    enum { ACROSS = 12, DEEP = 12 };
-    static const long double width = 1.2L;
-    *most = -1;
-    long double v;
-    for (int i = -ACROSS; i <= ACROSS; i++)
-        for (int j = 0; j <= DEEP; j++) {
-            const long double x = width * a * i / ACROSS, z = side * (a * j / DEEP);
-            if (j + (side > 0) == 0 || !mises_at(s, x, z, &v) || v <= *most)
-                continue;
-            *most = v;
-            at[0] = x;
-            at[1] = z;
-        }
-    for (long double h = a / DEEP; *most > 0 && h > 1e-5L * a;) {
-        const long double from = *most, x = at[0], z = at[1];
-        for (int i = 0; i < 4; i++) {
-            const long double to[2] = {x + (i < 2 ? (2 * i - 1) * h : 0), z + (i < 2 ? 0 : (2 * i - 5) * h)};
-            if (to[1] * side < 0 || (side < 0 && to[1] == 0) || !mises_at(s, to[0], to[1], &v) || v <= *most)
-                continue;
-            *most = v;
-            at[0] = to[0];
-            at[1] = to[1];
-        }
-        h = *most > from ? h : h / 2;
-    }
-    return *most > 0;
-}
-
-/* Beyond yield stress of bodies without a plastic part is none. After swinging loads it would take seconds.
- */
+/* Beyond yield stress of bodies without a plastic part is none. */
 static void note_yield(shell *sh) {
     scene *s = &sh->calc.scene;
     const fret_press *press;
-    const fret_contact *now;
     const unsigned used = s->used;
     long double yield, most, at[2];
     char text[4][CALC_VALUE_TEXT];
@@ -160,8 +123,7 @@ static void note_yield(shell *sh) {
         const input in = body ? IN_YIELD_2 : IN_YIELD;
         if ((!s->in.set[in] && !s->in.bound[in]) || (body && s->in.second != SECOND_GIVEN) ||
             !scene_get(s, in, &yield, error_quiet()) || !scene_press(s, &press, error_quiet()) ||
-            !(press->a > 0) || (scene_history(s, &now, error_quiet()) && fret_contact_curved(now)) ||
-            !hardest(s, press->a, body ? -1 : 1, at, &most) || most <= yield)
+            !(press->a > 0) || !scene_hardest(s, press->a, body ? -1 : 1, at, &most) || most <= yield)
             continue;
         yields |= 1u << body;
         if (sh->yields & 1u << body)

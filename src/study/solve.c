@@ -101,6 +101,8 @@ static bool choose_range(search *s, calc_error *error) {
             snprintf(advice, sizeof advice, ": solve %s for ... from LO to HI", k->text);
             if (!ask_present(s->of->c, k, &now))
                 return ask_lacks(s->of->c, k, " to search around", advice, error);
+            if (now == 0 && k->is_input && k->in == IN_NW)
+                now = 1e4; /* of 0 on, which is most often */
             if (now == 0)
                 return calc_fail(error, 0, 0, "%s has no value that tells how far to search%s", k->text,
                                  advice);

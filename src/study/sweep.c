@@ -103,8 +103,7 @@ static bool take_row(state *st, size_t row, long double x, const value v[], cons
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
-/* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */
-static long double value_at(const sweep *s, const sweep_range *r, long double part) {
+long double sweep_value(const sweep *s, const sweep_range *r, long double part) {
     return r->listed ? r->list[lroundl(part * (long double)(r->listed - 1))]
                      : points_place(r->lo, r->hi, s->log, part);
 }
@@ -115,7 +114,7 @@ static long double row_of(const sweep_rows *at, size_t row) {
 }
 
 static long double place(const state *st, size_t row) {
-    return value_at(st->s, &st->range,
+    return sweep_value(st->s, &st->range,
                     st->part ? st->part[row] : (long double)(st->first + row) / (long double)st->s->steps);
 }
 
@@ -154,7 +153,7 @@ static bool evaluate_rows(void *context, const long double *part, size_t rows, l
 
 static bool give_part(void *context, long double part, const long double *values) {
     state *st = context;
-    return st->job->row(st->job->context, st->s, st->curve, value_at(st->s, &st->range, part), values);
+    return st->job->row(st->job->context, st->s, st->curve, sweep_value(st->s, &st->range, part), values);
 }
 
 /* The unit of the range may differ from curve to curve. A name must have a value of it here too, where rows
@@ -313,7 +312,7 @@ bool grid_run(const grid *g, sweep_job *job) {
     s.curves = 1;
     bool ok = open_sweep(&s, job, (g->a.steps + 1) * (g->b.steps + 1));
     for (size_t j = 0; j <= g->b.steps && ok; j++) {
-        s.value[0] = value_at(&g->b, &ends, (long double)j / (long double)g->b.steps);
+        s.value[0] = sweep_value(&g->b, &ends, (long double)j / (long double)g->b.steps);
         ok = run_curves(&s, job);
     }
     return close_sweep(job, ok);

@@ -75,6 +75,8 @@ size_t sweep_length(const sweep *s);
  * without any value, of which all rows are wanted. */
 bool sweep_run(const sweep *s, sweep_job *job);
 
+/* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */
+long double sweep_value(const sweep *s, const sweep_range *r, long double part);
 /* Appends the load of a range to the program of a trial; `from` gets where it begins. */
 bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error);
 

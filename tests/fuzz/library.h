@@ -263,6 +263,11 @@ CALL(fret_work_at) {
     if (w->work)
         (void)known_code(fret_work_at(w->work, x[0], w->sink));
 }
+CALL(fret_work_edges) {
+    fret_real r[FRET_WORK_ENDS];
+    if (w->work)
+        (void)fret_work_edges(w->work, whole(x[0], 100), r);
+}
 CALL(fret_work_free) {
     (void)x;
     fret_work_free(w->work);
@@ -741,6 +746,7 @@ static const struct row {
     ROW(fret_slips_free),
     ROW(fret_work_make),
     ROW(fret_work_at),
+    ROW(fret_work_edges),
     ROW(fret_work_free),
     ROW(fret_wear_make),
     ROW(fret_wear_copy),

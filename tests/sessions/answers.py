@@ -12,7 +12,7 @@ TRANSCRIPT = "fret> 1\n1 = 1\n"
 
 # a command, a statement of it, and the kinds of its lines, in their order; *: any number, at least one
 STATEMENTS = (
-    ("material", "material steel", ""), ("second", "second rigid; second same", "warning"), ("bulk", "bulk stress=50 MPa; bulk none", "warning"), ("friction", "friction 0.4", ""), ("rig", "rig stiffness=80 N/um", ""),
+    ("material", "material steel", ""), ("second", "second rigid; second same", "warning"), ("bulk", "bulk stress=50 MPa; bulk none", "warning"), ("wear", "wear alpha=1e4 um^3/J", ""), ("wear", "wear K=1e-4 H=2 GPa; wear cycles 10", "wear"), ("wear", "wear alpha=1e4 um^3/J; wear limit; wear none", "limit"), ("friction", "friction 0.4", ""), ("rig", "rig stiffness=80 N/um", ""),
     ("geometry", "geometry sphere R=10 mm", ""), ("geometry", "geometry file gap.csv smooth; geometry sphere R=10 mm", "smooth note"),
     ("press", "press FN=100 N", "press"), ("step", "step Fx=20 N", "step"), ("cycle", "cycle FA=20 N", "cycle"), ("follow", "follow h.csv", "follow"),
     ("undo", "undo", ""), ("reset", "x = 1; reset; press FN=100 N; cycle FA=20 N", "press cycle"), ("history", "history", "history row*"),

@@ -45,36 +45,6 @@ static fret_real rate(fret_real t, fret_real rest, void *context) {
     return 2 * FRET_PI * r * w * (p->hi - p->lo);
 }
 
-/* Where front and edge begin and end its smoothness ends. */
-static int nodes_of(const fret_normal *n, const fret_slips *s, size_t first, fret_real *node, int most) {
-    int count = 0;
-    for (size_t i = first; i < s->count; i++) {
-        const slip_phase *p = &s->phase[i];
-        for (int j = 0; j < 2 && count + 4 < most; j++) {
-            fret_real end[2] = {p->front[j], p->edge[j]};
-            if (p->kind == SWUNG) {
-                const swung_phase *w = &s->swung[p->swung];
-                const fret_real at = j ? w->hi : w->lo, level = way_at(&w->way, w->which, at);
-                end[0] = (level + fret_swing_other(&w->front, w->which, level)) / 2;
-                end[1] = (way_at(&w->way, M, at) + way_at(&w->way, P, at)) / 2;
-            }
-            for (int e = 0; e < 2; e++)
-                node[count++] = p->kind == BY_DEPTHS || p->kind == GROSS ? fret_law_radius(n, end[e])
-                                                                         : fret_law_at_force(n, end[e]).a;
-        }
-        if (p->kind == SWUNG && count + 2 < most) { /* where the load turns, too */
-            way loads;
-            const swung_phase *w = &s->swung[p->swung];
-            if (w->way.harmonic) {
-                fret_swing_loads(&w->way, &loads);
-                for (int sign = -1; sign <= 1; sign += 2)
-                    node[count++] = fret_law_at_force(n, loads.mean + sign * loads.size[M]).a;
-            }
-        }
-    }
-    return count;
-}
-
 static int by_size(const void *a, const void *b) {
     const fret_real x = *(const fret_real *)a, y = *(const fret_real *)b;
     return (x > y) - (x < y);
@@ -85,7 +55,9 @@ static fret_real whole_work(const fret_normal *n, double mu, const fret_slips *s
     fret_real node[MOST], sum = 0;
     fret_work *work = NULL;
     CHECK_OK(fret_work_make(n, mu, s, first, fret_slips_count(s), &work));
-    int count = nodes_of(n, s, first, node, MOST - 2);
+    int count = 0;
+    for (size_t i = 0, ends = 1; ends && count + FRET_WORK_ENDS + 2 < MOST; i++)
+        count += (int)(ends = fret_work_edges(work, i, node + count));
     node[count++] = 0;
     node[count++] = fret_gap_start(&n->gap);
     qsort(node, (size_t)count, sizeof *node, by_size);

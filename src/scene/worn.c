@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The gap as Nw cycles of wear leave it: runs of wear, shared by scenes that wear alike. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "number/real.h"
+#include "scene/load.h"
+
+/* One law, what is held, and how it wears: a run rests at cycles that these alone tell, `first` 4^i, and goes
+ * to the cycles asked for from the last of them. So what comes does not depend on what was asked before. */
+enum { RESTS = 40 };
+struct wear_path {
+    counted base;
+    fret_normal *normal; /* unworn */
+    shared_table *table; /* of its gap, or NULL */
+    fret_wear_held held;
+    double first;
+    size_t count;
+    fret_wear *at[RESTS];
+    worn_gap *last; /* that was asked for */
+};
+
+/* Parts of the volume between the bodies that the first of them stands for. */
+static const double LITTLE = 1.0 / 64;
+
+static void worn_end(counted *self) {
+    worn_gap *w = (worn_gap *)self;
+    fret_wear_free(w->wear);
+    fret_normal_free(w->normal);
+    free(w);
+}
+
+static void path_end(counted *self) {
+    wear_path *p = (wear_path *)self;
+    counted_drop(p->last ? &p->last->base : NULL);
+    while (p->count)
+        fret_wear_free(p->at[--p->count]);
+    fret_normal_free(p->normal);
+    counted_drop(p->table ? &p->table->base : NULL);
+    free(p);
+}
+
+/* ---- what is held ------------------------------------------------------------------------------ */
+
+/* F_N, or the depth, as the press imposes it up to the cycle. */
+static bool held_press(scene *s, fret_wear_held *out, calc_error *error) {
+    const load_step *step = s->program->steps;
+    const size_t cycle = program_last_cycle(s->program, s->end);
+    long double v = 0;
+    out->by_depth = step->normal == BY_DISPLACEMENT;
+    if (step->normal > BY_DISPLACEMENT)
+        return calc_fail(error, 0, 0, "wear holds FN or dz as it was pressed: press by one of them");
+    for (size_t i = 1; i < cycle; i++)
+        if (load_moves_normal(&step[i]))
+            return calc_fail(error, 0, 0,
+                             "wear wants FN constant up to its cycle, and step %zu moves it: press anew", i);
+    if (!scene_get(s, press_input((load_by)step->normal), &v, error))
+        return false;
+    out->press = (double)v;
+    return true;
+}
+
+static bool held_cycle(scene *s, fret_wear_held *out, calc_error *error) {
+    load_item cycle;
+    if (!scene_last_cycle(s, &cycle, error))
+        return false;
+    if (load_moves_normal(&cycle.step))
+        return calc_fail(error, 0, 0, "wear wants FN constant, and it swings in this cycle (FNA)");
+    if (cycle.step.tangential == BY_RIG)
+        return calc_fail(error, 0, 0,
+                         "wear holds FA or dxA, and this cycle goes to a displacement at the rig");
+    out->by_displacement = cycle.step.tangential == BY_DISPLACEMENT;
+    out->amplitude = cycle.step.tangential_value;
+    return true;
+}
+
+static bool find_held(scene *s, fret_wear_held *out, calc_error *error) {
+    long double alpha = 0;
+    *out = (fret_wear_held){.mu = 0};
+    if (!scene_get(s, IN_ALPHA_W, &alpha, error) || !held_cycle(s, out, error) ||
+        !held_press(s, out, error) || !scene_friction(s, &out->mu, error))
+        return false;
+    out->alpha = (double)alpha;
+    return true;
+}
+
+/* ---- paths ------------------------------------------------------------------------------------- */
+
+static bool same_held(const fret_wear_held *a, const fret_wear_held *b) {
+    return a->by_depth == b->by_depth && a->by_displacement == b->by_displacement && a->press == b->press &&
+           a->amplitude == b->amplitude && a->mu == b->mu && a->alpha == b->alpha;
+}
+
+static bool same_law(const fret_normal *a, const fret_normal *b) {
+    const fret_foundation *f = fret_normal_foundation(a), *g = fret_normal_foundation(b);
+    const fret_gap *p = fret_normal_gap(a), *q = fret_normal_gap(b);
+    bool same = f->k == g->k && f->c0 == g->c0 && f->cN0 == g->cN0 && f->cT0 == g->cT0 &&
+                p->kind == q->kind && p->terms == q->terms && p->b == q->b && p->R == q->R &&
+                p->slope == q->slope && p->table == q->table;
+    for (int i = 0; same && i < p->terms; i++)
+        same = p->power[i].n == q->power[i].n && p->power[i].h == q->power[i].h &&
+               p->power[i].r0 == q->power[i].r0;
+    return same;
+}
+
+/* By the work of the first cycle and the volume that the depth spans. */
+static fret_status first_rest(const fret_normal *normal, const fret_wear_held *held, double *out) {
+    fret_pressed contact = {.normal = normal, .mu = held->mu};
+    fret_real loss = 0;
+    fret_status st =
+        (held->by_depth ? fret_press_by_depth : fret_press_by_force)(normal, held->press, &contact.press);
+    if (!st.code)
+        st = (held->by_displacement ? fret_cycle_loss_by_displacement
+                                    : fret_cycle_loss_by_force)(&contact, held->amplitude, &loss);
+    *out = (double)(LITTLE * FRET_PI * contact.press.a * contact.press.a * contact.press.dz /
+                    (held->alpha * loss));
+    return st;
+}
+
+/* The path of the scene, which clones share; a new one where it wears otherwise. */
+static bool find_path(scene *s, const fret_normal *normal, const fret_wear_held *held, calc_error *error) {
+    wear_path *p = s->wears;
+    if (p && same_held(&p->held, held) && same_law(p->normal, normal))
+        return true;
+    counted_drop(p ? &p->base : NULL);
+    s->wears = p = calloc(1, sizeof *p);
+    if (!p)
+        return calc_no_memory(error);
+    p->base = (counted){1, path_end};
+    p->held = *held;
+    p->normal = fret_normal_hold(s->answers.normal);
+    p->table = counted_hold(s->in.table ? &s->in.table->base : NULL);
+    fret_status st = first_rest(normal, held, &p->first);
+    if (!st.code)
+        st = fret_wear_make(p->normal, &p->at[0]);
+    p->count = !st.code;
+    if (st.code) {
+        counted_drop(&p->base);
+        s->wears = NULL;
+    }
+    return calc_status(error, &st);
+}
+
+/* ---- running ----------------------------------------------------------------------------------- */
+
+static void pulse(double cycles, void *user) {
+    const scene *s = user;
+    (void)cycles;
+    if (s->pulse)
+        s->pulse();
+}
+
+static fret_status run_from(scene *s, const fret_wear *from, double to, fret_wear **out) {
+    fret_status st = fret_wear_copy(from, out);
+    if (!st.code)
+        st = fret_wear_run(*out, &s->wears->held, to - fret_wear_cycles(from), WEAR_TOLERANCE, pulse, s);
+    if (st.code) {
+        fret_wear_free(*out);
+        *out = NULL;
+    }
+    return st;
+}
+
+/* The cycles at which the path rests for the i-th time; 0 at first. */
+static double rest(const wear_path *p, size_t i) {
+    return i ? ldexp(p->first, 2 * ((int)i - 1)) : 0;
+}
+
+static fret_status run_path(scene *s, double Nw, fret_wear **out) {
+    wear_path *p = s->wears;
+    fret_status st = {.code = FRET_OK};
+    while (p->count < RESTS && rest(p, p->count) < Nw && !st.code) {
+        st = run_from(s, p->at[p->count - 1], rest(p, p->count), &p->at[p->count]);
+        p->count += !st.code;
+    }
+    size_t i = p->count - 1;
+    while (i > 0 && rest(p, i) >= Nw)
+        i--;
+    return st.code ? st : run_from(s, p->at[i], Nw, out);
+}
+
+static bool make_worn(scene *s, double Nw, calc_error *error) {
+    wear_path *p = s->wears;
+    worn_gap *w = calloc(1, sizeof *w);
+    if (!w)
+        return calc_no_memory(error);
+    w->base = (counted){1, worn_end};
+    w->normal = fret_normal_hold(p->normal);
+    w->held = p->held;
+    w->Nw = Nw;
+    const fret_status st = run_path(s, Nw, &w->wear);
+    if (st.code) {
+        counted_drop(&w->base);
+        return st.code == FRET_SINGULAR
+                   ? calc_fail(error, 0, 0,
+                               "where it slips at r = %.6g m pressure is infinite: that wears at once",
+                               st.value)
+                   : calc_status(error, &st);
+    }
+    counted_drop(p->last ? &p->last->base : NULL);
+    p->last = w;
+    return true;
+}
+
+bool scene_worn(scene *s, const fret_wear **out, calc_error *error) {
+    long double Nw = 0;
+    fret_wear_held held;
+    worn_gap **mine = &s->answers.worn;
+    *out = NULL;
+    if (s->before || s->settling & INPUT_BIT(IN_NW) || !inputs_any(&s->in, INPUT_BIT(IN_NW)))
+        return true;
+    if (!scene_get(s, IN_NW, &Nw, error))
+        return false;
+    if (!(Nw > 0))
+        return true;
+    if (!find_held(s, &held, error) || !scene_unworn(s, error))
+        return false;
+    if (*mine && (*mine)->Nw == (double)Nw && same_held(&(*mine)->held, &held)) {
+        *out = (*mine)->wear;
+        return true;
+    }
+    if (*mine) /* runs and fields may stand on it */
+        scene_forget(s, true);
+    if (!scene_unworn(s, error) || !find_path(s, s->answers.normal, &held, error) ||
+        (!(s->wears->last && s->wears->last->Nw == (double)Nw) && !make_worn(s, (double)Nw, error)))
+        return false;
+    *mine = counted_hold(&s->wears->last->base);
+    *out = (*mine)->wear;
+    return true;
+}
+
+bool scene_normal(scene *s, const fret_normal **normal, calc_error *error) {
+    const fret_wear *wear;
+    if (!scene_unworn(s, error) || !scene_worn(s, &wear, error))
+        return false;
+    *normal = wear ? fret_wear_law(wear) : s->answers.normal;
+    scene_used_law(s, *normal);
+    return true;
+}
+
+bool scene_is_worn(const scene *s) {
+    return s->answers.worn && s->in.v[IN_NW] > 0 && !s->before;
+}
+
+bool scene_is_power(const scene *s) {
+    return (!s->in.geometry || s->in.geometry->power) && !scene_is_worn(s);
+}
+
+void scene_take_wear(scene *s, scene *from) {
+    if (s->wears)
+        return;
+    s->wears = from->wears;
+    from->wears = NULL;
+}
+
+bool scene_wear_limit(scene *s, fret_wear **out, calc_error *error) {
+    fret_wear_held held;
+    if (!find_held(s, &held, error) || !scene_unworn(s, error))
+        return false;
+    const fret_status st = fret_wear_limit(s->answers.normal, &held, out);
+    if (st.code == FRET_GROSS_SLIP)
+        return calc_fail(
+            error, 0, 0, "nothing sticks in the end, so that wear has no limit: %s < %.6g %s has one",
+            held.by_displacement ? "dxA" : "FA", (double)st.limit, held.by_displacement ? "m" : "N");
+    return calc_status(error, &st);
+}
