@@ -149,9 +149,9 @@ static fret_estimate of_part(over *o, long double lo, long double hi, long doubl
 }
 
 /* Where parts end: of a place, where the scene has an edge, and pressure may be singular there, or where
- * friction's work has a kink, if that is what is asked for; a contact that reaches but little beyond a flat end
- * has another law nearer to it than that. The first lets no rule lie evenly about a pole, whose sides would
- * take each other away. */
+ * friction's work has a kink, if that is what is asked for; a contact that reaches but little beyond a flat
+ * end has another law nearer to it than that. The first lets no rule lie evenly about a pole, whose sides
+ * would take each other away. */
 enum { EDGES = 200 };
 static size_t edges(over *o, long double at[EDGES]) {
     static const char *const names[] = {"b", "a"};

@@ -115,7 +115,7 @@ static long double row_of(const sweep_rows *at, size_t row) {
 
 static long double place(const state *st, size_t row) {
     return sweep_value(st->s, &st->range,
-                    st->part ? st->part[row] : (long double)(st->first + row) / (long double)st->s->steps);
+                       st->part ? st->part[row] : (long double)(st->first + row) / (long double)st->s->steps);
 }
 
 static void give_swept(void *context, size_t row, long double x[]) {

@@ -134,14 +134,23 @@ static const struct {
     const char *unit, *phrase;
     bool prefixes;
 } named[] = {
-    {{0, 0, 0, 0}, "", "a number", false},   {{1, 0, 0, 0}, "N", "a force", true},
-    {{0, 1, 0, 0}, "m", "a length", true},   {{1, -2, 0, 0}, "Pa", "a pressure", true},
-    {{1, 1, 0, 0}, "J", "an energy", true},  {{1, -1, 0, 0}, "N/m", "a stiffness", true},
-    {{0, 2, 0, 0}, "m^2", "an area", false}, {{0, -1, 0, 0}, "m^-1", "an inverse length", false},
-    {{1, -1, 0, 2}, "kg", "a mass", false},  {{1, -4, 0, 2}, "kg/m^3", "a density", false},
-    {{0, 0, 0, 1}, "s", "a time", true},     {{0, 0, 0, -1}, "Hz", "a frequency", true},
-    {{0, 1, 0, -1}, "m/s", "a speed", true}, {{0, 1, 0, -2}, "m/s^2", "an acceleration", false},
+    {{0, 0, 0, 0}, "", "a number", false},
+    {{1, 0, 0, 0}, "N", "a force", true},
+    {{0, 1, 0, 0}, "m", "a length", true},
+    {{1, -2, 0, 0}, "Pa", "a pressure", true},
+    {{1, 1, 0, 0}, "J", "an energy", true},
+    {{1, -1, 0, 0}, "N/m", "a stiffness", true},
+    {{0, 2, 0, 0}, "m^2", "an area", false},
+    {{0, -1, 0, 0}, "m^-1", "an inverse length", false},
+    {{1, -1, 0, 2}, "kg", "a mass", false},
+    {{1, -4, 0, 2}, "kg/m^3", "a density", false},
+    {{0, 0, 0, 1}, "s", "a time", true},
+    {{0, 0, 0, -1}, "Hz", "a frequency", true},
+    {{0, 1, 0, -1}, "m/s", "a speed", true},
+    {{0, 1, 0, -2}, "m/s^2", "an acceleration", false},
     {{1, 1, 0, -1}, "J/s", "a power", true},
+    {{0, 3, 0, 0}, "m^3", "a volume", false},
+    {{-1, 2, 0, 0}, "m^3/J", "a volume for an energy", false},
 };
 enum { NAMED = sizeof named / sizeof *named };
 
