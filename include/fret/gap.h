@@ -18,7 +18,8 @@ typedef enum fret_gap_kind {
     FRET_GAP_FLAT_ROUNDED,    /* f = (r-b)^2/(2R), r > b: the usual fretting pad */
     FRET_GAP_EXACT_SPHERE,    /* f = R - sqrt(R^2-r^2), r <= 0.95 R */
     FRET_GAP_TABLE,           /* sampled gap, monotone piecewise cubic */
-    FRET_GAP_FLAT             /* the flat end of a rigid punch: f = 0 for r < b, and nothing beyond */
+    FRET_GAP_FLAT,            /* the flat end of a rigid punch: f = 0 for r < b, and nothing beyond */
+    FRET_GAP_WORN             /* what wear has left of another, as fret_wear_law has it: made there alone */
 } fret_gap_kind;
 
 enum { FRET_GAP_TERMS = 16 };
@@ -30,6 +31,7 @@ typedef struct fret_power {
 } fret_power;
 
 struct fret_table;
+struct fret_worn;
 
 typedef struct fret_gap {
     fret_gap_kind kind;
@@ -39,6 +41,7 @@ typedef struct fret_gap {
     double R;                       /* radius of curvature [m] */
     double slope;                   /* flank slope, tan of the angle to the base plane */
     const struct fret_table *table; /* TABLE only; borrowed */
+    const struct fret_worn *worn;   /* WORN only; borrowed */
 } fret_gap;
 
 /* kappa(n,k) = (n/2) B(n/2,(k+1)/2) (6)-(8): the profile of r^n is kappa x^n.
@@ -46,8 +49,8 @@ typedef struct fret_gap {
 fret_real fret_kappa(double n, double k);
 
 /* Checks the parameters of a gap. Errors: FRET_NOT_FINITE, FRET_NOT_POSITIVE naming the parameter;
- * FRET_OUTSIDE (no such kind, terms beyond those of the kind, no table). The functions below take one that
- * has passed. */
+ * FRET_OUTSIDE (no such kind, terms beyond those of the kind, no table, nothing worn). The functions below
+ * take one that has passed. */
 fret_status fret_gap_check(const fret_gap *gap);
 
 /* f(r) [m], r >= 0 [m]. Errors: FRET_NEGATIVE, FRET_OUTSIDE (beyond a sphere, a table or a flat punch),
@@ -56,7 +59,7 @@ fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f);
 
 /* g(x) [m] and, where slope is not NULL, g'(x), for |x| [m], -1 < k < 1. Errors as above, and FRET_BAD_K.
  * Accuracy 1e-17 relative; tables 2e-16, the rounding of their slopes. A table costs the logarithm of its
- * rows. */
+ * rows. Of a worn gap g is that of the k that it was worn with. */
 fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope);
 
 /* A sampled gap: r[0] = 0 < r[1] < ..., f[0] = 0, lengths in m. Copies the arrays. A million rows take

@@ -15,7 +15,7 @@
 typedef struct maker {
     fret_cells *all;
     const fret_gap *gap;
-    fret_real m, start;
+    fret_real m, start, end;     /* how far its cells reach */
     fret_real summit, at_summit; /* the largest depth so far, and its radius */
     fret_transform *rows;        /* of a sampled gap */
     size_t row, last;            /* the row that a cell lies in; the one that goes on to it from before */
@@ -173,6 +173,11 @@ static bool add_powers(maker *mk, const fret_term *term, int count, fret_real x0
         c->of[RISE][i] = term[i].G;
         c->of[RISE_Q][i] = term[i].n;
     }
+    if (isfinite(mk->end)) { /* x0 */
+        c->width = 1;
+        for (int by = BY_DEPTH; by <= BY_LOAD; by++)
+            c->rise[by] = fret_cell_rise(c, by, 1);
+    }
     return true;
 }
 
@@ -228,9 +233,10 @@ static bool make_sum(maker *mk) {
     const fret_power *power;
     fret_term term[FRET_MOST_TERMS];
     (void)fret_gap_powers(mk->gap, &power);
-    const fret_real x0 = power[0].r0;
+    const bool ends = isfinite(mk->end);
+    const fret_real x0 = ends ? mk->end : power[0].r0;
     const int count = fret_gap_series(mk->gap, &mk->all->rule, x0, term);
-    return add_powers(mk, term, count, x0, true) && (fret_gap_grows(mk->gap) || find_fall(mk));
+    return add_powers(mk, term, count, x0, true) && (ends || fret_gap_grows(mk->gap) || find_fall(mk));
 }
 
 /* A flat punch: g leaps at its edge, where the place of every depth is. The cell has no width. */
@@ -245,17 +251,17 @@ static bool make_punch(maker *mk) {
 static const fret_real FAR = 8;
 
 static bool make_flat(maker *mk) {
-    const fret_real b = mk->start, far = FAR * b;
+    const bool ends = isfinite(mk->end);
+    const fret_real b = mk->start, far = ends ? mk->end : FAR * b;
     fret_term term[FRET_MOST_TERMS];
-    const int count = fret_gap_far(mk->gap, &mk->all->rule, far, term);
     return add_cells(mk, b, (far - b) * (far + b), b * b / 2, true, true) &&
-           add_powers(mk, term, count, far, false);
+           (ends || add_powers(mk, term, fret_gap_far(mk->gap, &mk->all->rule, far, term), far, false));
 }
 
 /* The series of a sphere converges as this part of the square of its radius does. */
 static bool make_sphere(maker *mk) {
     static const fret_real NEAR = 0.3L;
-    const fret_real end = fret_gap_end(mk->gap), x = NEAR * end;
+    const fret_real end = mk->end, x = fminl(NEAR * fret_gap_end(mk->gap), end);
     fret_term term[FRET_MOST_TERMS];
     const int count = fret_gap_series(mk->gap, &mk->all->rule, x, term);
     return add_centre(mk, term, count < FRET_CELL_TERMS ? count : FRET_CELL_TERMS, x) &&
@@ -268,10 +274,11 @@ static bool make_rows(maker *mk) {
     const size_t first = fret_table_row(t, 0), last = fret_table_rows(t, fret_table_end(t)) - 1;
     fret_real before = 0; /* where the row before begins */
     mk->failed = fret_transform_make(t, &mk->all->rule, mk->stop, &mk->rows);
-    for (size_t i = first; i < last && !mk->failed.code; i++) {
+    for (size_t i = first; i < last && mk->start + fret_table_distance(t, i) < mk->end && !mk->failed.code;
+         i++) {
         const fret_real x = mk->start + fret_table_distance(t, i),
-                        end = mk->start + fret_table_distance(t, i + 1), whole = (end - x) * (end + x),
-                        away = i > first ? (x - before) * (x + before) : x * x;
+                        end = fminl(mk->start + fret_table_distance(t, i + 1), mk->end),
+                        whole = (end - x) * (end + x), away = i > first ? (x - before) * (x + before) : x * x;
         before = x;
         mk->row = i;
         mk->last = i > first ? i - 1 : i;
@@ -287,7 +294,65 @@ static bool make_rows(maker *mk) {
     return !mk->failed.code;
 }
 
+/* From the radius x on, whose rows are cubics already: as far at a time as the stiffness is a polynomial. */
+static bool make_worn(maker *mk, const struct fret_worn *w, fret_real x) {
+    const fret_real last = fminl((mk->end - w->inner) * (mk->end + w->inner), fret_table_end(w->g));
+    fret_real at = (x - w->inner) * (x + w->inner), slope[3];
+    for (size_t i = fret_table_rows(w->g, at) - 1; at < last;) {
+        const fret_real d = at - fret_table_distance(w->g, i),
+                        end = fminl(fret_table_distance(w->g, i + 1), last);
+        const bool part = x > 0 && x * x / 2 < end - at;
+        const fret_real width = part ? x * x / 2 : end - at;
+        if (mk->stop && *mk->stop)
+            return false;
+        if (x > 0) {
+            fret_cell *c = new_cell(mk, x);
+            if (!c)
+                return false;
+            fret_table_slope(w->g, i, slope);
+            c->width = width;
+            c->count[RISE] = 3;
+            c->of[RISE][0] = width * (slope[0] + d * (slope[1] + d * slope[2]) + w->lift);
+            c->of[RISE][1] = width * width * (slope[1] / 2 + d * slope[2]);
+            c->of[RISE][2] = width * width * width * slope[2] / 3;
+            (void)fret_cell_complete(c, &mk->nodes);
+        } else {
+            fret_term term[FRET_MOST_TERMS];
+            const fret_real next = sqrtl(end);
+            if (!add_centre(mk, term, fret_gap_series(mk->gap, &mk->all->rule, next, term), next))
+                return false;
+        }
+        at = part ? at + width : end;
+        i += !part;
+        x = sqrtl(w->inner * w->inner + at);
+    }
+    return true;
+}
+
 /* ---- all --------------------------------------------------------------------------------------- */
+
+/* From the centre outwards, within what has worn as it was before. */
+static bool make_all(maker *mk) {
+    const fret_gap *whole = mk->gap;
+    const fret_power *unused;
+    bool ok = true;
+    for (fret_real x = 0; ok && x < mk->all->end; x = mk->end) {
+        const struct fret_worn *w;
+        mk->end = mk->all->end;
+        mk->gap = whole;
+        for (; (w = fret_gap_worn(mk->gap)) && x < w->inner; mk->gap = &w->of)
+            mk->end = fminl(mk->end, w->inner);
+        ok = w                                       ? make_worn(mk, w, x)
+             : fret_gap_powers(mk->gap, &unused) > 0 ? make_sum(mk)
+             : fret_gap_sampled(mk->gap)             ? make_rows(mk)
+             : mk->start >= mk->all->end             ? make_punch(mk)
+             : mk->start > 0                         ? make_flat(mk)
+                                                     : make_sphere(mk);
+        fret_transform_free(mk->rows);
+        mk->rows = NULL;
+    }
+    return ok;
+}
 
 static bool make_runs(maker *mk) {
     fret_cells *all = mk->all;
@@ -302,7 +367,8 @@ static bool make_runs(maker *mk) {
             if (l > 0)
                 all->run[l][i] = fret_stretch_join(&all->run[l - 1][2 * i + 1], &all->run[l - 1][2 * i]);
             else
-                all->run[0][i] = c->powers ? (fret_stretch){0, 0, 0, 0} : fret_cell_below(c, 1);
+                all->run[0][i] =
+                    isinf(c->rise[BY_DEPTH]) ? (fret_stretch){0, 0, 0, 0} : fret_cell_below(c, 1);
         }
     }
     return true;
@@ -330,17 +396,10 @@ static fret_status cut_cells(const fret_gap *gap, double k, fret_stop stop, fret
     maker mk = {
         .all = all, .gap = gap, .m = ((fret_real)k + 1) / 2, .start = fret_gap_start(gap), .stop = stop};
     fret_chebyshev_make(&mk.nodes, FRET_CELL_TERMS, true);
-    const fret_power *unused;
-    const bool ok = fret_gap_powers(gap, &unused) ? make_sum(&mk)
-                    : fret_gap_sampled(gap)       ? make_rows(&mk)
-                    : mk.start >= all->end        ? make_punch(&mk)
-                    : mk.start > 0                ? make_flat(&mk)
-                                                  : make_sphere(&mk);
-    if (ok && make_runs(&mk))
+    if (make_all(&mk) && make_runs(&mk))
         find_most(all);
     else if (!mk.failed.code)
         mk.failed = fret_fail(FRET_INTERRUPTED, NULL, 0, 0);
-    fret_transform_free(mk.rows);
     if (mk.failed.code)
         fret_cells_free(all);
     else

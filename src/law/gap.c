@@ -172,6 +172,57 @@ static bool sampled_grows(const fret_gap *gap) {
     return fret_table_grows(gap->table);
 }
 
+/* ---- worn -------------------------------------------------------------------------------------- */
+
+static fret_real worn_place(const fret_gap *gap, fret_real r) {
+    return (r - gap->worn->inner) * (r + gap->worn->inner);
+}
+static fret_real worn_f(const fret_gap *gap, fret_real r) {
+    fret_real f = 0;
+    (void)fret_gap_f(&gap->worn->of, r, &f);
+    return r > gap->worn->inner ? f + fret_table_f(gap->worn->h, worn_place(gap, r)) : f;
+}
+static fret_real worn_start(const fret_gap *gap) {
+    return gap->worn->inner > 0 ? fret_gap_start(&gap->worn->of) : 0;
+}
+static fret_real worn_end(const fret_gap *gap) {
+    return sqrtl(gap->worn->inner * gap->worn->inner + fret_table_end(gap->worn->g));
+}
+static fret_real worn_tip(const fret_gap *gap) {
+    return gap->worn->inner > 0 ? fret_gap_tip(&gap->worn->of) : 2;
+}
+/* Without the moment I, which nothing asks of it. */
+static fret_profile worn_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
+    const struct fret_worn *w = gap->worn;
+    const fret_real a = worn_start(gap) + e, v = worn_place(gap, a);
+    fret_real c[3];
+    if (!(v > 0))
+        return fret_gap_profile(&w->of, rule, e);
+    const size_t row = fret_table_rows(w->g, v) - 1;
+    const fret_real x = v - fret_table_distance(w->g, row);
+    fret_table_slope(w->g, row, c);
+    return (fret_profile){w->at_inner + fret_table_f(w->g, v) + w->lift * v,
+                          2 * a * (c[0] + x * (c[1] + x * c[2]) + w->lift), (fret_real)NAN};
+}
+static int worn_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term *term) {
+    const struct fret_worn *w = gap->worn;
+    const fret_real m = (rule->k + 1) / 2;
+    fret_real factor[3], power = 1, kappa = 1;
+    if (w->inner > 0)
+        return fret_gap_series(&w->of, rule, a, term);
+    if (!fret_table_tip(w->g, a * a * (1 - 1e-15L), factor))
+        return 0;
+    factor[0] += w->lift;
+    for (int i = 0; i < 3; i++) {
+        power *= a * a;
+        kappa *= (i + 1) / (i + m);
+        term[i] = (fret_term){2 * (i + 1), factor[i] * power, kappa};
+    }
+    return 3;
+}
+
+/* ---- far away ---------------------------------------------------------------------------------- */
+
 /* Far beyond a flat end, with c = b/x,
  *   int_b^x (x^2-r^2)^(m-1) dr = x^(2m-1) (kappa(1,k) - sum (1-m)_j/j! c^(2j+1)/(2j+1)),
  *   int_b^x 2 r (x^2-r^2)^(m-1) dr = x^2m/m (1-c^2)^m:
@@ -217,7 +268,7 @@ typedef struct shape {
     int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);
     void (*far)(const fret_gap *, const fret_rule *, fret_real x0, fret_real *factor);
     bool powers, closed, sharp; /* reads power[]; of gap.h the other two */
-    bool sampled;               /* reads the table */
+    bool sampled, worn;         /* reads the table; worn */
     bool b, R, slope;           /* reads these, which must be positive */
 } shape;
 
@@ -265,6 +316,13 @@ static const shape shapes[] = {
                         .grows = sampled_grows,
                         .series = sampled_series,
                         .sampled = true},
+    [FRET_GAP_WORN] = {.f = worn_f,
+                       .profile = worn_profile,
+                       .start = worn_start,
+                       .end = worn_end,
+                       .tip = worn_tip,
+                       .series = worn_series,
+                       .worn = true},
 };
 
 enum { SHAPES = sizeof shapes / sizeof *shapes };
@@ -296,6 +354,8 @@ static fret_status check_kind(const fret_gap *gap) {
     const int most = s->closed ? 1 : FRET_GAP_TERMS;
     if (s->powers && (gap->terms < 1 || gap->terms > most))
         return fret_fail(FRET_OUTSIDE, "terms", gap->terms, most);
+    if (s->worn && !gap->worn)
+        return fret_fail(FRET_OUTSIDE, "worn", 0, 0);
     return s->sampled && !gap->table ? fret_fail(FRET_OUTSIDE, "table", 0, 0) : fret_ok();
 }
 
@@ -355,7 +415,7 @@ bool fret_gap_same(const fret_gap *a, const fret_gap *b) {
     const shape *s = shape_of(a);
     if (a->kind != b->kind || (s->b && a->b != b->b) || (s->R && a->R != b->R) ||
         (s->slope && a->slope != b->slope) || (s->sampled && a->table != b->table) ||
-        (s->powers && a->terms != b->terms))
+        (s->worn && a->worn != b->worn) || (s->powers && a->terms != b->terms))
         return false;
     for (int i = 0; s->powers && i < a->terms; i++)
         if (a->power[i].n != b->power[i].n || a->power[i].h != b->power[i].h ||
@@ -376,8 +436,19 @@ fret_gap fret_gap_unit(const fret_gap *gap, fret_real *radii, fret_real *depths)
     return unit;
 }
 
+const struct fret_worn *fret_gap_worn(const fret_gap *gap) {
+    return shape_of(gap)->worn ? gap->worn : NULL;
+}
+
+/* What nothing has worn yet. */
+static const fret_gap *unworn(const fret_gap *gap) {
+    for (const struct fret_worn *w; (w = fret_gap_worn(gap)); gap = &w->of)
+        ;
+    return gap;
+}
+
 bool fret_gap_sharp(const fret_gap *gap) {
-    return shape_of(gap)->sharp;
+    return shape_of(unworn(gap))->sharp;
 }
 
 bool fret_gap_closed(const fret_gap *gap) {
@@ -389,7 +460,7 @@ fret_gap fret_gap_of_table(const struct fret_table *table) {
 }
 
 bool fret_gap_sampled(const fret_gap *gap) {
-    return shape_of(gap)->sampled;
+    return shape_of(gap)->sampled || shape_of(gap)->worn;
 }
 
 bool fret_gap_grows(const fret_gap *gap) {
@@ -409,6 +480,7 @@ fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {
 }
 
 void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule) {
+    gap = unworn(gap);
     rule->k = k;
     if (!shape_of(gap)->powers)
         fret_rule_series(rule, k);

@@ -9,6 +9,17 @@
 #include "law/profile.h"
 #include "number/dd.h"
 
+/* A gap that has worn from the radius `inner` on, as rows in v = r^2 - inner^2: by how much g is more than at
+ * `inner`, but for lift times v, with which it grows throughout; and how much deeper it has worn than there,
+ * `tip`. Within it is the gap as it was. */
+struct fret_worn {
+    fret_gap of;
+    fret_real inner, at_inner, lift, tip;
+    struct fret_table *g, *h;
+};
+/* Of a worn gap, else NULL. */
+const struct fret_worn *fret_gap_worn(const fret_gap *gap);
+
 /* What fret_gap_profile needs to know of the exponent k. */
 void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule);
 

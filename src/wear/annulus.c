@@ -54,6 +54,17 @@ static void make_weights(fret_annulus *a, fret_real m, fret_real stiff) {
     }
 }
 
+fret_real fret_annulus_profile(fret_real k, const fret_real *x, const double *h, size_t count, fret_real at) {
+    const fret_real m = (k + 1) / 2;
+    fret_real sum = 0;
+    for (size_t j = 0; j + 1 < count && x[j] < at; j++) {
+        const fret_real end = fminl(x[j + 1], at), near = (at - end) * (at + end);
+        sum += between(m, near, (at - x[j]) * (at + x[j])) * (h[j + 1] - h[j]) /
+               ((x[j + 1] - x[j]) * (x[j + 1] + x[j]));
+    }
+    return h[0] + powl(at, 1 - k) * sum;
+}
+
 fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *held, fret_real depth,
                               const fret_real *x, size_t count, fret_annulus *out) {
     const fret_foundation *f = fret_normal_foundation(normal);
@@ -206,30 +217,6 @@ double fret_annulus_norm(const fret_annulus *a, const double *h) {
     for (size_t i = 0; i + 1 < a->count; i++)
         sum += h[i + 1] * h[i + 1] * (a->t[i + 1] - a->t[i]);
     return sqrt(sum);
-}
-
-void fret_annulus_fit(fret_annulus *a, const double *h, int passes, double *fit) {
-    enum { SOFT = 32 };
-    const bool tip = !(a->inner > 0);
-    double soft = h[0], most = h[0] + a->g0[0];
-    worn_profile(a, h, a->g);
-    for (size_t i = 1; i < a->count; i++) {
-        const double part = i < SOFT && !tip ? (double)i / SOFT : 1;
-        soft += (0.2 + 0.8 * part * part) * (a->g[i] - soft);
-        most = fmax(most, a->g0[i] + soft);
-        a->g[i] = tip ? most : most - a->g0[i];
-    }
-    for (; passes > 0; passes--) {
-        double before = a->g[0];
-        for (size_t i = 1; i + 1 < a->count; i++) {
-            const double now = a->g[i];
-            a->g[i] = (before + 2 * now + a->g[i + 1]) / 4;
-            before = now;
-        }
-    }
-    for (size_t i = 1; i < a->count && tip; i++)
-        a->g[i] -= a->g0[i];
-    gap_of(a, a->g, fit);
 }
 
 double fret_annulus_stiffness(fret_annulus *a, double *v) {

@@ -43,9 +43,8 @@ void fret_annulus_touch(fret_annulus *annulus);
  * a vector from one time to the next. */
 double fret_annulus_stiffness(fret_annulus *annulus, double *v);
 
-/* The depths h as a table of cubics can follow them: where g leaps beside the stick radius, within some nodes
- * instead of one, and nowhere falling; passes: how often each node takes half of its neighbours' mean. */
-void fret_annulus_fit(fret_annulus *annulus, const double *h, int passes, double *fit);
+/* What depths h at the radii x add to g anywhere, from the inner end on. */
+fret_real fret_annulus_profile(fret_real k, const fret_real *x, const double *h, size_t count, fret_real at);
 
 /* The size of depths: the root of the sum of squares by area. */
 double fret_annulus_norm(const fret_annulus *annulus, const double *h);
