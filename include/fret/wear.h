@@ -43,10 +43,9 @@ typedef void (*fret_wear_told)(double cycles, void *user);
  * Errors, the object as before: FRET_NOT_FINITE, FRET_NOT_POSITIVE, FRET_NEGATIVE naming what is held;
  * FRET_OUTSIDE (tolerance; a limit; cycles: more than can be run, limit: how many); FRET_GROSS_SLIP: F_A
  * beyond mu F_N (limit) at first or, at a held delta_z, later; FRET_SINGULAR (value: r [m]): the edge of a
- * flat punch wears at once; FRET_TABLE_SHORT (limit: its end): the worn contact reaches beyond the gap;
- * FRET_NOT_MONOTONE: no table of it makes a disc, as of a flat-ended cone at k < 0, or of a cone's tip that
- * has slipped and worn away far; those of fret_press_by_force; FRET_NO_MEMORY, FRET_INTERRUPTED
- * (fret_normal_stop of the law that it was made of). */
+ * flat punch wears at once; FRET_TABLE_SHORT (limit: its end): the worn contact reaches beyond the gap; those
+ * of fret_press_by_force; FRET_NO_MEMORY, FRET_INTERRUPTED (fret_normal_stop of the law that it was made of).
+ */
 fret_status fret_wear_run(fret_wear *wear, const fret_wear_held *held, double cycles, double tolerance,
                           fret_wear_told told, void *user);
 
@@ -55,15 +54,18 @@ fret_status fret_wear_run(fret_wear *wear, const fret_wear_held *held, double cy
  * the unworn gap, from those two that are held of
  *   delta_A = mu eta (delta_z - g_0(c)),   F_N = 2 int_0^c c_N (delta_z - g_0) dx,
  *   F_A = 2 delta_A int_0^c c_T dx.
- * delta_A and F_N held, c grows on the way there, and what wore before it stuck is not in this form: a sphere
- * that stuck within 0.6 a at first is worn 5 % wider and by 74 % more. Errors: those of held as above;
- * FRET_GROSS_SLIP: nothing sticks in the end, so that there is none (limit: the largest amplitude that has
- * one); FRET_TABLE_SHORT, FRET_NO_MEMORY, FRET_INTERRUPTED; FRET_NOT_MONOTONE: no table of it makes a disc,
- * as at k < -0.6. Accuracy 1e-13 of delta_z; its law is a table, which smooths the leap of g at c. */
+ * Runs arrive there with F_N and F_A held, or delta_z and delta_A, where c stays; and with delta_z and F_A,
+ * where it shrinks. With F_N and delta_A they do not: c grows on the way, and what wore before it stuck is
+ * not in this form: a sphere that stuck within 0.6 a at first is worn 5 % wider and by 74 % more. Errors:
+ * those of held as above; FRET_GROSS_SLIP: nothing sticks in the end, so that there is none (limit: the
+ * largest amplitude that has one); FRET_TABLE_SHORT, FRET_NO_MEMORY, FRET_INTERRUPTED. Accuracy 1e-13 of
+ * delta_z; of its law 1e-8, g leaping within 1e-9 c. */
 fret_status fret_wear_limit(const fret_normal *normal, const fret_wear_held *held, fret_wear **out);
 
-/* The contact of the worn gap, which is as any other: of no wear the one it was made of, else of a table of
- * some hundred rows. Belongs to wear, until that is run again or freed; contacts borrow it. */
+/* The contact of the worn gap, which is as any other, up to 4 times the ring: of no wear the one it was made
+ * of, else of g at the nodes, between which it is cubic in r^2, within the ring as it was. Where g would be
+ * level, or fall by what nodes do not tell, it grows by 1e-9 of itself over all of the gap. Belongs to wear,
+ * until that is run again or freed; contacts borrow it. */
 const fret_normal *fret_wear_law(const fret_wear *wear);
 
 /* Depth worn so far [m] at r >= 0 [m]; 0 outside the worn ring. Errors: FRET_NEGATIVE, FRET_NOT_FINITE. */

@@ -149,19 +149,3 @@ void fret_wear_end_free(fret_wear_end *e) {
     fret_field_free(e->field);
     e->field = NULL;
 }
-
-fret_real fret_wear_radius_of(const fret_normal *normal, fret_real from, fret_real f) {
-    const fret_real end = fret_gap_end(&normal->gap);
-    fret_real lo = from, hi = from, at = 0;
-    while (hi < end && !fret_gap_f(&normal->gap, hi, &at).code && at < f) {
-        lo = hi;
-        hi = fminl(2 * hi, end);
-    }
-    if (at < f && !(hi < end) && (fret_gap_f(&normal->gap, hi, &at).code || at < f))
-        return (fret_real)INFINITY;
-    for (int i = 0; i < 40; i++) { /* it need not be told to more digits */
-        const fret_real middle = (lo + hi) / 2;
-        *(!fret_gap_f(&normal->gap, middle, &at).code && at < f ? &lo : &hi) = middle;
-    }
-    return hi;
-}

@@ -22,7 +22,4 @@ void fret_wear_end_free(fret_wear_end *end);
 fret_status fret_wear_end_depth(const fret_wear_end *end, fret_real r, fret_real *h);
 fret_status fret_wear_end_volume(const fret_wear_end *end, fret_real *volume);
 
-/* The first radius beyond `from` where f, which may end, is as large; infinite: nowhere. */
-fret_real fret_wear_radius_of(const fret_normal *normal, fret_real from, fret_real f);
-
 #endif

@@ -328,6 +328,8 @@ fret_status fret_wear_limit(const fret_normal *normal, const fret_wear_held *hel
     st = fret_wear_end_make(normal, held, held->press, &end);
     if (!st.code)
         st = cut_ring(w, end.c, end.b + (end.b - end.c) / 20, 240, &r);
+    if (!st.code)
+        r.x[1] = end.c * (1 + 1e-9L); /* where g leaps */
     for (size_t i = 0; i < r.count && !st.code; i++) {
         fret_real h;
         st = fret_wear_end_depth(&end, r.x[i], &h);

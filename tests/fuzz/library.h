@@ -348,7 +348,7 @@ CALL(fret_kappa) {
 }
 /* kind, terms, b, R, slope, then n, h, r0 of each: of all others those of the last one */
 CALL(fret_gap_check) {
-    fret_gap gap = {.kind = (fret_gap_kind)whole(x[0], FRET_GAP_FLAT + 1),
+    fret_gap gap = {.kind = (fret_gap_kind)whole(x[0], FRET_GAP_WORN + 1),
                     .terms = (int)whole(x[1], 1000000),
                     .b = x[2],
                     .R = x[3],

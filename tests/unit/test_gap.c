@@ -126,7 +126,9 @@ static void errors(void) {
         }
     gap = (fret_gap){.kind = FRET_GAP_TABLE};
     CHECK_ERROR(fret_gap_check(&gap), FRET_OUTSIDE, "table");
-    gap.kind = (fret_gap_kind)(FRET_GAP_FLAT + 1);
+    gap = (fret_gap){.kind = FRET_GAP_WORN};
+    CHECK_ERROR(fret_gap_check(&gap), FRET_OUTSIDE, "worn");
+    gap.kind = (fret_gap_kind)(FRET_GAP_WORN + 1);
     CHECK_ERROR(fret_gap_check(&gap), FRET_OUTSIDE, "kind");
 }
 

@@ -137,14 +137,54 @@ static void limits_by_surfaces(void) {
         }
 }
 
+/* The contact of the limit ends at c, whatever k: it carries what is held, and loses nothing any more. */
+static void limits_press(void) {
+    static const double ks[] = {0, 0.6, -0.4, -0.7};
+    for (int shape = 0; shape < SHAPES; shape++)
+        for (int by = 0; by < 8; by++) {
+            const fret_normal *n = normal_of(shape, ks[by / 2]);
+            const fret_wear_held held = hold(n, by & 1, by & 1, 0.8);
+            fret_wear *w = NULL;
+            fret_press stuck;
+            fret_real inner, outer;
+            CHECK_OK(fret_wear_limit(n, &held, &w));
+            if (!w)
+                continue;
+            fret_wear_ring(w, &inner, &outer);
+            CHECK_OK(fret_press_by_radius(n, (double)inner, &stuck));
+            const fret_pressed c = press_worn(w, &held);
+            const fret_foundation *of = fret_normal_foundation(n);
+            const fret_real more = c.press.dz - stuck.dz, r = inner * 0.7L;
+            fret_pressed unworn = {n, mu, {.F = 0}};
+            fret_field *field = NULL, *flat = NULL;
+            fret_real p = 0, of_stuck = 0;
+            CHECK_OK(by & 1 ? fret_press_by_depth(n, held.press, &unworn.press)
+                            : fret_press_by_force(n, held.press, &unworn.press));
+            CHECK_REL(c.press.F, stuck.F + fret_normal_stiffness(n, inner) * more, 1e-8L);
+            CHECK_REL(c.press.a, inner, 1e-8L);
+            CHECK(loss_of(&c, &held) < 1e-6L * loss_of(&unworn, &held));
+            CHECK_OK(fret_field_of_press(c.normal, &c.press, &field));
+            CHECK_OK(fret_field_of_press(n, &stuck, &flat));
+            CHECK_OK(fret_field_pressure(field, r, &p));
+            CHECK_OK(fret_field_pressure(flat, r, &of_stuck));
+            CHECK_REL(p,
+                      of_stuck + of->cN0 * powl(of->c0, -of->k) / acosl(-1) * more *
+                                     powl((inner - r) * (inner + r), (of->k - 1) / 2),
+                      1e-8L);
+            fret_field_free(flat);
+            fret_field_free(field);
+            fret_wear_free(w);
+        }
+}
+
 /* What is run arrives there, and presses there as the limit does. */
 static void arrivals(void) {
     for (int shape = 0; shape < SHAPES; shape++)
-        for (int by = 0; by < 2; by++) { /* F_N and F_A, or depth and delta_A */
+        for (int by = 0; by < 3; by++) { /* F_N and F_A, depth and delta_A, depth and F_A */
             if (unit_skips((size_t)shape))
                 continue;
-            const fret_normal *n = normal_of(shape, shape == CONE ? 0.1 : 0);
-            const fret_wear_held held = hold(n, by, by, 0.7);
+            const fret_normal *n = normal_of(shape, shape == CONE ? 0.1 : shape == FLAT_CONE ? -0.2 : 0);
+            const fret_wear_held held = hold(n, by > 0, by == 1, by == 2 ? 0.95 : 0.7);
             fret_wear *w = run(n, &held, 1e9, 3e-3), *limit = NULL;
             fret_real c, b, inner, outer;
             CHECK_OK(fret_wear_limit(n, &held, &limit));
@@ -183,14 +223,14 @@ static void single_cycles(void) {
                     contact, &(fret_step){.tangential_by = FRET_TO_DX, .tangential = held.amplitude}));
                 CHECK_OK(fret_field_make(contact, &field));
                 fret_contact_state(contact, &at);
-                for (int m = 19; m > 0; m--) { /* where neither begins nor ends steeply */
-                    const fret_real r = at.c + (at.a - at.c) * m / 20;
+                for (int m = 19; m > 0; m--) { /* where neither begins nor ends steeply, nor has an edge */
+                    const fret_real r = at.c + (at.a - at.c) * m / 20, b = shapes[shape].b;
                     fret_real p, s, h;
                     CHECK_OK(fret_field_pressure(field, r, &p));
                     CHECK_OK(fret_field_slip(field, r, &s));
                     CHECK_OK(fret_wear_depth(w, r, &h));
                     most = fmaxl(most, alpha * 4 * mu * p * s);
-                    if (m > 3 && m < 16)
+                    if (m > 3 && m < 16 && !(shape == FLAT_CONE && fabsl(r - b) < 0.01L * b))
                         CHECK_ABS(h, alpha * 4 * mu * p * s, most, 0.01L);
                 }
                 fret_field_free(field);
@@ -223,6 +263,82 @@ static void volumes_and_work(void) {
             CHECK_REL(fret_wear_work(w), sum * cycles / (3 * PARTS), 4e-3L);
             fret_wear_free(w);
         }
+}
+
+/* The law is that of the gap: g as the transform of f by a table of many rows; the field carries F_N; and
+ * what is worn on, of the gap that was worn before, is as much as at once. */
+static void worn_gaps(void) {
+    enum { ROWS = 1500 };
+    static double r[ROWS], f[ROWS];
+    for (int shape = 0; shape < TABLE; shape++)
+        for (int gross = 0; gross < 2; gross++) {
+            const double k = gross ? -0.3 : shape == CONE ? 0.3 : 0;
+            const fret_normal *n = normal_of(shape, k);
+            const fret_wear_held held = hold(n, false, true, gross ? -1.3 : 0.6);
+            fret_wear *w = run(n, &held, gross ? 5e3 : 5e4, 1e-3), *more = make(fret_wear_law(w)),
+                      *whole = NULL;
+            const fret_normal *law = fret_wear_law(w);
+            struct fret_table *table = NULL;
+            fret_real inner, outer, at, p, load = 0, depth_at, unworn;
+            fret_wear_ring(w, &inner, &outer);
+            for (int i = 0; i < ROWS; i++) {
+                r[i] = 1.5 * (double)outer * i / (ROWS - 1);
+                CHECK_OK(fret_gap_f(fret_normal_gap(law), r[i], &at));
+                f[i] = (double)at;
+            }
+            CHECK_OK(fret_gap_f(fret_normal_gap(n), outer / 2, &unworn));
+            CHECK_OK(fret_gap_f(fret_normal_gap(law), outer / 2, &at));
+            CHECK_OK(fret_wear_depth(w, outer / 2, &depth_at));
+            at -= unworn + depth_at;
+            CHECK_OK(fret_wear_depth(w, 0, &depth_at));
+            CHECK_ABS(at, -depth_at, depth, 1e-14L);
+            CHECK_OK(fret_table_make(r, f, ROWS, NULL, &table));
+            const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = table};
+            for (int i = 1; i < 14; i++) {
+                const fret_real x = outer * i / 10;
+                fret_real g;
+                CHECK_OK(fret_gap_g(&gap, k, x, &g, NULL));
+                CHECK_ABS(fret_normal_profile(law, x), g, depth, shape == FLAT_CONE ? 5e-3L : 2e-3L);
+                CHECK_OK(fret_gap_g(fret_normal_gap(law), k, x, &g, NULL));
+                CHECK_ABS(fret_normal_profile(law, x), g, depth, 1e-14L);
+            }
+            const fret_pressed c = press_worn(w, &held);
+            fret_field *field = NULL;
+            CHECK_OK(fret_field_of_press(law, &c.press, &field));
+            for (int i = 0; i < 4000; i++) {
+                CHECK_OK(fret_field_pressure(field, c.press.a * sqrtl((i + 0.5L) / 4000), &p));
+                load += p * acosl(-1) * c.press.a * c.press.a / 4000;
+            }
+            CHECK_REL(load, c.press.F, shape == FLAT_CONE ? 1e-2L : 1e-4L);
+            CHECK_OK(fret_wear_copy(w, &whole));
+            CHECK_OK(fret_wear_run(whole, &held, 1e4, 1e-3, NULL, NULL));
+            CHECK_OK(fret_wear_run(more, &held, 1e4, 1e-3, NULL, NULL));
+            CHECK_REL(fret_wear_volume(w) + fret_wear_volume(more), fret_wear_volume(whole), 1e-3L);
+            fret_field_free(field);
+            fret_table_free(table);
+            fret_wear_free(whole);
+            fret_wear_free(more);
+            fret_wear_free(w);
+        }
+}
+
+/* A tip that has slipped and worn away: its contact loses what the run goes on with. */
+static void worn_tips(void) {
+    for (int by = 0; by < 6; by++) {
+        const fret_normal *n = normal_of(by < 3 ? CONE : FLAT_CONE, by % 3 * 0.3 - 0.3);
+        const fret_wear_held held = hold(n, by & 1, true, -1.3);
+        fret_wear *w = run(n, &held, 1e5, 2e-3), *on = NULL;
+        const fret_pressed c = press_worn(w, &held);
+        fret_real h;
+        CHECK_OK(fret_wear_depth(w, 0, &h));
+        CHECK(h > 0.2L * depth);
+        CHECK_REL(fret_wear_volume(w), alpha * fret_wear_work(w), 1.3L * 2e-3L);
+        CHECK_OK(fret_wear_copy(w, &on));
+        CHECK_OK(fret_wear_run(on, &held, 1, 2e-3, NULL, NULL));
+        CHECK_REL(loss_of(&c, &held), fret_wear_work(on) - fret_wear_work(w), 1e-3L);
+        fret_wear_free(on);
+        fret_wear_free(w);
+    }
 }
 
 /* A tenth of the tolerance, a tenth of the error. */
@@ -401,9 +517,12 @@ int main(int argc, char **argv) {
     CHECK_OK(fret_table_make(r, f, ROWS, NULL, &sampled));
     CASE(limits_of_spheres());
     CASE(limits_by_surfaces());
+    CASE(limits_press());
     CASE(arrivals());
     CASE(single_cycles());
     CASE(volumes_and_work());
+    CASE(worn_gaps());
+    CASE(worn_tips());
     CASE(tolerances());
     CASE(stick_radii());
     CASE(parts_and_copies());
