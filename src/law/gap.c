@@ -459,6 +459,10 @@ fret_gap fret_gap_of_table(const struct fret_table *table) {
     return (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
 }
 
+fret_gap fret_gap_of_worn(const struct fret_worn *worn) {
+    return (fret_gap){.kind = FRET_GAP_WORN, .worn = worn};
+}
+
 bool fret_gap_sampled(const fret_gap *gap) {
     return shape_of(gap)->sampled || shape_of(gap)->worn;
 }

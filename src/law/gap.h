@@ -54,8 +54,9 @@ int fret_gap_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fre
 /* The same of a flat-ended gap from the radius x0 = 4 b or more on. */
 int fret_gap_far(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_term term[FRET_MOST_TERMS]);
 
-/* The gap that a table is. */
+/* The gap that a table is, and that wear has left. */
 fret_gap fret_gap_of_table(const struct fret_table *table);
+fret_gap fret_gap_of_worn(const struct fret_worn *worn);
 
 /* Are two gaps that have passed the same? */
 bool fret_gap_same(const fret_gap *gap, const fret_gap *other);

@@ -60,7 +60,7 @@ static double error_of(const fret_annulus *a, const double *y0, const double *ra
     const double off = fret_annulus_norm(a, room);
     for (size_t i = 0; i < a->count; i++)
         room[i] = y[i] - y0[i];
-    return off / fmax(fret_annulus_norm(a, room), little * fret_annulus_norm(a, y));
+    return off > 0 ? off / fmax(fret_annulus_norm(a, room), little * fret_annulus_norm(a, y)) : off;
 }
 
 fret_status fret_blocks_run(fret_annulus *a, double *h, double cycles, double tolerance, fret_stop stop,

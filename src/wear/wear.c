@@ -20,8 +20,9 @@ typedef struct shape {
     atomic_size_t users;
     struct fret_worn worn;
     fret_normal *law;
-    fret_real outer;   /* where the ring that has worn ends */
-    fret_wear_end end; /* of the limit: it has a field */
+    fret_real outer;    /* where the nodes end */
+    fret_real from, to; /* what has worn; 0, 0: nothing */
+    fret_wear_end end;  /* of the limit: it has a field */
 } shape;
 
 struct fret_wear {
@@ -93,8 +94,8 @@ fret_status fret_wear_depth(const fret_wear *w, fret_real r, fret_real *h) {
 }
 
 void fret_wear_ring(const fret_wear *w, fret_real *inner, fret_real *outer) {
-    *inner = w->shape ? w->shape->worn.inner : 0;
-    *outer = is_limit(w) ? w->shape->end.b : w->shape ? w->shape->outer : 0;
+    *inner = is_limit(w) ? w->shape->end.c : w->shape ? w->shape->from : 0;
+    *outer = is_limit(w) ? w->shape->end.b : w->shape ? w->shape->to : 0;
 }
 
 fret_real fret_wear_volume(const fret_wear *w) {
@@ -141,9 +142,10 @@ static fret_status give_rows(const fret_normal *n, const worn_ring *r, fret_real
                              struct fret_worn *out) {
     const fret_real inner = r->x[0], outer = r->x[r->count - 1], end = fminl(fret_normal_end(n), 4 * outer);
     const size_t count = r->count + (end > outer ? OUTSIDE : 0);
-    double *t = calloc(3 * count, sizeof *t), *g = t + count, *h = t + 2 * count;
+    double *t = calloc(3 * count, sizeof *t);
     if (!t)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    double *const g = t + count, *const h = g + count;
     *out = (struct fret_worn){
         .of = n->gap, .inner = inner, .at_inner = fret_normal_profile(n, inner), .tip = r->h[0]};
     out->lift = 1e-9L * fret_normal_profile(n, outer) / ((end - inner) * (end + inner));
@@ -170,8 +172,13 @@ static fret_status give_shape(fret_wear *w, const worn_ring *r, fret_real least)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     s->users = 1;
     s->outer = r->x[r->count - 1];
+    for (size_t i = 0; i + 1 < r->count; i++)
+        if (r->h[i] > 0 || r->h[i + 1] > 0) {
+            s->from = s->to > 0 ? s->from : r->x[i];
+            s->to = r->x[i + 1];
+        }
     fret_status st = give_rows(w->normal, r, least, &s->worn);
-    const fret_gap gap = {.kind = FRET_GAP_WORN, .worn = &s->worn};
+    const fret_gap gap = fret_gap_of_worn(&s->worn);
     if (!st.code)
         st = fret_normal_reshape(w->normal, &gap, &s->law);
     if (st.code) {
@@ -215,6 +222,9 @@ static fret_real cap(const fret_gap *gap, fret_real r) {
     return FRET_PI * r * r * (f - fret_integral_smooth(cap_at, (void *)context));
 }
 
+/* A ring has some width, where nothing wears too. */
+static const fret_real LEAST = 1e-6L;
+
 /* How far the ring reaches that wears: from where the unworn contact or the limit sticks, to where the limit
  * ends; where nothing sticks in the end, to where all is worn that a held F_N can wear, or that a held depth
  * reaches. */
@@ -251,7 +261,7 @@ static fret_status ring_of(const fret_wear *w, const fret_wear_held *held, fret_
         return st;
     }
     st = fret_ok();
-    *outer = fmaxl(*outer, a + 0.01L * (a - *inner));
+    *outer = fmaxl(*outer, a + fmaxl(0.01L * (a - *inner), LEAST * a));
     if (w->shape) {
         *inner = fminl(*inner, w->shape->worn.inner);
         *outer = fmaxl(*outer, w->shape->outer);
@@ -327,9 +337,9 @@ fret_status fret_wear_limit(const fret_normal *normal, const fret_wear_held *hel
         return st;
     st = fret_wear_end_make(normal, held, held->press, &end);
     if (!st.code)
-        st = cut_ring(w, end.c, end.b + (end.b - end.c) / 20, 240, &r);
+        st = cut_ring(w, end.c, fmaxl(end.b + (end.b - end.c) / 20, (1 + LEAST) * end.c), 240, &r);
     if (!st.code)
-        r.x[1] = end.c * (1 + 1e-9L); /* where g leaps */
+        r.x[1] = fminl(r.x[1], end.c * (1 + 1e-9L)); /* where g leaps */
     for (size_t i = 0; i < r.count && !st.code; i++) {
         fret_real h;
         st = fret_wear_end_depth(&end, r.x[i], &h);
