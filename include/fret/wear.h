@@ -39,7 +39,7 @@ typedef void (*fret_wear_told)(double cycles, void *user);
  * is. tolerance: 1e-4 .. 0.1, of volume and work and, but for the steep places beside c and a, of the largest
  * depth; nodes and blocks of cycles follow from it. Measured: alpha W and V differ by
  * up to 1.3 of it; by 2 at k = -0.7, by 2.7 where a contact has grown 3.5 times as wide. told may be NULL.
- * Takes, at 1e-3, 0.1 to 2 s, towards the limit at k < 0 some 5. The law of the worn gap is made anew.
+ * Takes, at 1e-3, 0.1 to 2 s, towards the limit at k < 0 3 to 17. The law of the worn gap is made anew.
  * Errors, the object as before: FRET_NOT_FINITE, FRET_NOT_POSITIVE, FRET_NEGATIVE naming what is held;
  * FRET_OUTSIDE (tolerance; a limit; cycles: more than can be run, limit: how many); FRET_GROSS_SLIP: F_A
  * beyond mu F_N (limit) at first or, at a held delta_z, later; FRET_SINGULAR (value: r [m]): the edge of a
