@@ -478,7 +478,7 @@ def slivers(tests):
         done = tests.run("--format=json", "--quiet", "-c", "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry %s; press FN=100 N\n"
                          "(integral 2*pi*r*p(r) for r = 0 m .. a)" % (k, command))
         if done.returncode:
-            tests.check("%s, k = %g: integral of p over a hair" % (command, k), "does not converge" in done.stderr and (k, command) in (
+            tests.check("%s, k = %g: integral of p over a hair" % (command, k), re.search("does not converge|is a singular place", done.stderr) and (k, command) in (
                         (-0.7, "flat-cone b=0.2 mm slope=1"), (-0.7, "flat-paraboloid b=0.2 mm R=1 mm")), tests.report(done))
             continue
         told += 1
