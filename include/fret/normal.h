@@ -33,6 +33,8 @@ fret_status fret_normal_make(const fret_material *material, const fret_gap *gap,
                              fret_stop stop, fret_normal **out);
 /* One more user, who frees it too. */
 fret_normal *fret_normal_hold(fret_normal *normal);
+/* Are they of the same foundation and the same gap, a table by its address? */
+bool fret_normal_same(const fret_normal *a, const fret_normal *b);
 void fret_normal_free(fret_normal *normal);
 
 /* Long work on this contact, and on all that borrows it, ends when the flag is set. Functions with a status

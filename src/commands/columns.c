@@ -170,10 +170,10 @@ bool columns_turn_pull(const csv *c, csv_values *FN) {
     return true;
 }
 
-const char *columns_along(shell *sh, csv *c) {
+bool columns_at_rig(shell *sh, csv *c) {
     long double K_rig;
-    const bool contact = csv_has(c, "dx") || !scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet());
-    return csv_has(c, "drig") || !contact ? "drig" : "dx";
+    return csv_has(c, "drig") ||
+           (!csv_has(c, "dx") && scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet()));
 }
 
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {

@@ -40,8 +40,12 @@ csv_values *columns_take(csv *c, const char *name, dim d, calc_error *error);
 /* A normal force that is negative throughout is compression: turned. */
 bool columns_turn_pull(const csv *c, csv_values *FN);
 void columns_turn(const csv *c, csv_values *column);
-/* Of a loop: "drig" where the file has it, or has no dx and the scene a rig; else "dx". */
-const char *columns_along(shell *sh, csv *c);
+/* Of a loop: is its displacement the reading at a rig? Where the file has drig, or has no dx and the scene a
+ * rig. Its name is loop_column then. */
+bool columns_at_rig(shell *sh, csv *c);
+static inline const char *loop_column(bool rig) {
+    return rig ? "drig" : "dx";
+}
 /* Does F_x fall where d_x grows? */
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx);
 /* How these are told. */

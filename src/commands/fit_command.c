@@ -99,14 +99,15 @@ static bool read_loop(shell *sh, const lexer *lx, const heard *along, const choi
     calc_error *error = lx->error;
     if (!columns_read(lx, &along->hole[0], chosen, data))
         return false;
-    const char *by = csv_has(data, "FN") ? "FN" : csv_has(data, "dz") ? "dz" : NULL;
-    q->loop.normal_by = by && by[0] == 'd' ? BY_DISPLACEMENT : BY_FORCE;
-    const char *along_of = columns_along(sh, data);
-    q->loop.rig = strlen(along_of) > 2;
-    csv_values *dx = columns_take(data, along_of, DIM_LENGTH, error),
+    const bool force = csv_has(data, "FN"), depth = !force && csv_has(data, "dz");
+    q->loop.normal_by = depth ? BY_DISPLACEMENT : BY_FORCE;
+    q->loop.rig = columns_at_rig(sh, data);
+    csv_values *dx = columns_take(data, loop_column(q->loop.rig), DIM_LENGTH, error),
                *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL,
-               *normal =
-                   Fx && by ? columns_take(data, by, by[0] == 'd' ? DIM_LENGTH : DIM_FORCE, error) : NULL;
+               *normal = !Fx     ? NULL
+                         : depth ? columns_take(data, "dz", DIM_LENGTH, error)
+                         : force ? columns_take(data, "FN", DIM_FORCE, error)
+                                 : NULL;
     if ((!csv_has(data, "dx") && !q->loop.rig) || !csv_has(data, "Fx"))
         calc_append(&sh->calc, error, " (a loop needs dx and Fx, and may have FN or dz)");
     if (error->raised || !csv_settle(data, error))

@@ -52,37 +52,63 @@ static void note_unworn(shell *sh, bool worn) {
         shell_note(sh, "Nw = 0 again: wear is that of the last cycle");
 }
 
-static load_by by_of(const char *name) {
-    return *name == 'F' ? BY_FORCE : name[1] == 'r' ? BY_RIG : BY_DISPLACEMENT;
-}
+/* What a step or a cycle is given, by its word. */
+typedef enum given { TANGENTIAL, NORMAL, SWING, PHASE, POINTS, TIMES } given;
 
-/* Is it the normal force or displacement? Else it is the tangential one. */
-static bool is_normal(const char *name) {
-    return name[1] == 'N' || name[1] == 'z';
+static const struct given_row {
+    const char *name;
+    given is;
+    load_by by; /* of a target */
+} givens[] = {{"Fx", TANGENTIAL, BY_FORCE},
+              {"dx", TANGENTIAL, BY_DISPLACEMENT},
+              {"drig", TANGENTIAL, BY_RIG},
+              {"FN", NORMAL, BY_FORCE},
+              {"dz", NORMAL, BY_DISPLACEMENT},
+              {"FA", TANGENTIAL, BY_FORCE},
+              {"dxA", TANGENTIAL, BY_DISPLACEMENT},
+              {"drigA", TANGENTIAL, BY_RIG},
+              {"FNA", SWING, BY_NONE},
+              {"phase", PHASE, BY_NONE},
+              {"steps", POINTS, BY_NONE},
+              {"times", TIMES, BY_NONE}};
+
+static const struct given_row *given_of(const clause *a) {
+    const struct given_row *row = givens;
+    while (strcmp(row->name, a->name))
+        row++; /* the rows of `step` and `cycle` have no other words */
+    return row;
 }
 
 /* What a step or a cycle was given. last: the target that the error of the load belongs to. */
 static void load_of(const said *s, load_step *step, cycle_extra *extra, const heard **last) {
     *last = NULL;
     for (const heard *h = s->list; h < s->list + s->count; h++) {
-        const clause *a = h->of;
-        if (!a->argument) {
-            *(a->name[0] == 's' ? &step->points : &extra->times) = h->count;
-            continue;
-        }
-        if (a->in == 1 + IN_FNA || a->in == 1 + IN_PHASE) {
-            *(a->in == 1 + IN_PHASE ? &extra->phase : &step->normal_value) = (double)h->v.v;
-            continue;
-        }
-        *last = h;
-        if (is_normal(a->name)) {
-            step->normal = (unsigned char)by_of(a->name);
-            step->normal_value = (double)h->v.v;
-            step->relative |= h->increment ? RELATIVE_NORMAL : 0;
-        } else {
-            step->tangential = (unsigned char)by_of(a->name);
-            step->tangential_value = (double)h->v.v;
+        const struct given_row *row = given_of(h->of);
+        const double v = (double)h->v.v;
+        *last = row->by ? h : *last;
+        switch (row->is) {
+        case TANGENTIAL:
+            step->tangential = (unsigned char)row->by;
+            step->tangential_value = v;
             step->relative |= h->increment ? RELATIVE_TANGENTIAL : 0;
+            break;
+        case NORMAL:
+            step->normal = (unsigned char)row->by;
+            step->normal_value = v;
+            step->relative |= h->increment ? RELATIVE_NORMAL : 0;
+            break;
+        case SWING:
+            step->normal_value = v;
+            break;
+        case PHASE:
+            extra->phase = v;
+            break;
+        case POINTS:
+            step->points = h->count;
+            break;
+        default:
+            extra->times = h->count;
+            break;
         }
     }
 }
@@ -103,9 +129,8 @@ static bool live_values(shell *sh, lexer *lx, said *s) {
     return true;
 }
 
-static bool read_targets(shell *sh, lexer *lx, const command *self, said *s, load_step *step,
+static bool read_targets(shell *sh, lexer *lx, const command *self, bool cycle, said *s, load_step *step,
                          cycle_extra *extra, const heard **last) {
-    const bool cycle = self->run == do_cycle;
     *step = (load_step){.kind = cycle ? LOAD_CYCLE : LOAD_STEP};
     *extra = (cycle_extra){.times = 1};
     bool ok = said_read_some(sh, lx, command_form(self), s) && (!cycle || live_values(sh, lx, s));
@@ -124,8 +149,9 @@ bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counte
     const command *c = command_find(lx->text + lx->at, lx->len);
     said s;
     const heard *last;
+    const bool cycle = lex_is(lx, "cycle");
     lex_next(lx);
-    if (!read_targets(sh, lx, c, &s, step, extra, &last))
+    if (!read_targets(sh, lx, c, cycle, &s, step, extra, &last))
         return false;
     for (const heard *h = s.list; h < s.list + s.count; h++)
         if (h->live)
@@ -165,7 +191,7 @@ bool do_step(shell *sh, lexer *lx, const command *self) {
     load_step step;
     cycle_extra extra;
     const heard *last;
-    if (!read_targets(sh, lx, self, &s, &step, &extra, &last) || !said_end(lx, &s))
+    if (!read_targets(sh, lx, self, false, &s, &step, &extra, &last) || !said_end(lx, &s))
         return false;
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error))
         return heard_place(lx->error, last);
@@ -194,7 +220,7 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
     const heard *last;
     counted *bound[INPUTS] = {NULL};
     bool live = false, worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
-    if (!read_targets(sh, lx, self, &s, &step, &extra, &last))
+    if (!read_targets(sh, lx, self, true, &s, &step, &extra, &last))
         return false;
     scene_mark before;
     scene_save(&sh->calc.scene, &before, false);
@@ -505,11 +531,10 @@ static bool take_off(shell *sh, input offset, csv_values *v, size_t n, calc_erro
 
 /* dx or drig drives at constant F_N, and F_x is compared. */
 static bool read_compared(shell *sh, csv *data, rows *w, calc_error *error) {
-    const char *along = columns_along(sh, data);
-    csv_values *dx = columns_take(data, along, DIM_LENGTH, error),
+    w->rig = columns_at_rig(sh, data);
+    csv_values *dx = columns_take(data, loop_column(w->rig), DIM_LENGTH, error),
                *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL;
     w->kind = &kinds[1];
-    w->rig = strlen(along) > 2;
     w->column[1][1] = dx;
     w->compared = Fx;
     if (!(csv_has(data, "dx") || w->rig) || !csv_has(data, "Fx"))

@@ -235,6 +235,14 @@ static bool share_map(shell *sh, lexer *lx, panels *p) {
     return panel_list(sh, lx, &p->list[0]);
 }
 
+/* A replay compares no drawings. */
+static bool draw_plot(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
+    if (!sh->replaying || file)
+        return draw(sh, lx, f, NULL, file);
+    fprintf(sh->out, "%c\n", MARK_DRAWING);
+    return true;
+}
+
 bool do_plot(shell *sh, lexer *lx, const command *self) {
     static const char wants[] = "EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N";
     char file[FILE_NAME];
@@ -242,14 +250,10 @@ bool do_plot(shell *sh, lexer *lx, const command *self) {
     panels p = {.count = 0};
     plot_figure_init(&f);
     bool ok = read_figures(sh, lx, self, wants, &p, file);
-    const bool shared = ok && sh->share.of && p.count == 1 && panel_is_map(lx, &p.list[0]);
-    ok = ok && (shared ? share_map(sh, lx, &p) : draw_panels(sh, lx, &p, &f, NULL));
-    if (!ok || shared)
-        ;
-    else if (sh->replaying && !*file)
-        fprintf(sh->out, "%c\n", MARK_DRAWING);
-    else
-        ok = draw(sh, lx, &f, NULL, *file ? file : NULL);
+    if (ok && sh->share.of && p.count == 1 && panel_is_map(lx, &p.list[0]))
+        ok = share_map(sh, lx, &p);
+    else if (ok)
+        ok = draw_panels(sh, lx, &p, &f, NULL) && draw_plot(sh, lx, &f, *file ? file : NULL);
     plot_figure_free(&f);
     panels_free(sh, &p);
     return ok;

@@ -93,6 +93,12 @@ fret_normal *fret_normal_hold(fret_normal *n) {
     return n;
 }
 
+bool fret_normal_same(const fret_normal *a, const fret_normal *b) {
+    const fret_foundation *f = &a->foundation, *g = &b->foundation;
+    return f->k == g->k && f->c0 == g->c0 && f->cN0 == g->cN0 && f->cT0 == g->cT0 &&
+           fret_gap_same(fret_normal_gap(a), fret_normal_gap(b));
+}
+
 void fret_normal_free(fret_normal *n) {
     if (!n || --n->users > 0)
         return;

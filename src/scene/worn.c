@@ -91,18 +91,6 @@ static bool same_held(const fret_wear_held *a, const fret_wear_held *b) {
            a->amplitude == b->amplitude && a->mu == b->mu && a->alpha == b->alpha;
 }
 
-static bool same_law(const fret_normal *a, const fret_normal *b) {
-    const fret_foundation *f = fret_normal_foundation(a), *g = fret_normal_foundation(b);
-    const fret_gap *p = fret_normal_gap(a), *q = fret_normal_gap(b);
-    bool same = f->k == g->k && f->c0 == g->c0 && f->cN0 == g->cN0 && f->cT0 == g->cT0 &&
-                p->kind == q->kind && p->terms == q->terms && p->b == q->b && p->R == q->R &&
-                p->slope == q->slope && p->table == q->table;
-    for (int i = 0; same && i < p->terms; i++)
-        same = p->power[i].n == q->power[i].n && p->power[i].h == q->power[i].h &&
-               p->power[i].r0 == q->power[i].r0;
-    return same;
-}
-
 /* By the work of the first cycle and the volume that the depth spans. */
 static fret_status first_rest(const fret_normal *normal, const fret_wear_held *held, double *out) {
     fret_pressed contact = {.normal = normal, .mu = held->mu};
@@ -120,7 +108,7 @@ static fret_status first_rest(const fret_normal *normal, const fret_wear_held *h
 /* The path of the scene, which clones share; a new one where it wears otherwise. */
 static bool find_path(scene *s, const fret_normal *normal, const fret_wear_held *held, calc_error *error) {
     wear_path *p = s->wears;
-    if (p && same_held(&p->held, held) && same_law(p->normal, normal))
+    if (p && same_held(&p->held, held) && fret_normal_same(p->normal, normal))
         return true;
     counted_drop(p ? &p->base : NULL);
     s->wears = p = calloc(1, sizeof *p);

@@ -447,6 +447,15 @@ CALL(fret_normal_stop) {
     if (have_normal(w))
         fret_normal_stop(w->normal, x[0] > 0 ? w->stop : NULL);
 }
+CALL(fret_normal_same) {
+    fret_normal *other;
+    fret_material material = w->material;
+    material.body[0].E0 = x[0];
+    if (!have_normal(w) || !known_code(fret_normal_make(&material, &w->gap, w->normal, w->stop, &other)))
+        return;
+    w->sink[0] = fret_normal_same(w->normal, other);
+    fret_normal_free(other);
+}
 CALL(fret_normal_hold) {
     fret_normal *other;
     fret_material material = w->material;
@@ -454,6 +463,8 @@ CALL(fret_normal_hold) {
     if (!have_normal(w) || !known_code(fret_normal_make(&material, &w->gap, w->normal, w->stop, &other)))
         return;
     fret_normal *held = fret_normal_hold(other);
+    if (!fret_normal_same(held, other))
+        abort();
     fret_normal_free(other);
     (void)known_code(fret_press_by_force(held, x[1], &w->press));
     fret_normal_free(held);
@@ -772,6 +783,7 @@ static const struct row {
     ROW(fret_half_space),
     ROW(fret_foundation_make),
     ROW(fret_normal_make),
+    ROW(fret_normal_same),
     ROW(fret_normal_hold),
     ROW(fret_normal_error),
     ROW(fret_normal_free),

@@ -25,9 +25,9 @@ def plots_of(tests, name, steps):
                     any(label in line for line in tail) and any("+----" in line for line in tail), tests.report(done))
 
 
-def examples(tests, name, lines):
-    """The files that a text shows by `$ cat`, its calls of the program and its transcript; how many answers."""
-    where, files, calls, session, into = os.path.join(tests.dir, name), {}, [], [], None
+def parts(lines):
+    """The files that a text shows by `$ cat`, {name: text}; its calls of the program, each with its answer; its transcript."""
+    files, calls, session, into = {}, [], [], None
     for line in lines:
         if line.startswith("$ cat "):
             into = files.setdefault(line[6:], [])
@@ -39,10 +39,21 @@ def examples(tests, name, lines):
             session.append(line)
         else:
             into.append(line)
+    return ({name: "".join((line[4:] if text[0].startswith("    ") else line) + "\n" for line in text) for name, text in files.items()},
+            calls, session)
+
+
+def write(where, files):
+    for name, text in files.items():
+        with open(os.path.join(where, name), "w", encoding="utf-8") as f:
+            f.write(text)
+
+
+def examples(tests, name, lines):
+    """What a text shows, in a directory of its own; how many answers."""
+    where, (files, calls, session) = os.path.join(tests.dir, name), parts(lines)
     os.mkdir(where)
-    for file, text in files.items():
-        with open(os.path.join(where, file), "w", encoding="utf-8") as f:
-            f.write("".join((line[4:] if text[0].startswith("    ") else line) + "\n" for line in text))
+    write(where, files)
     steps = harness.read_transcript("\n".join(session))
     if steps:
         harness.replay(tests, name, steps, cwd=where)

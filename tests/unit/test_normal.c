@@ -210,6 +210,26 @@ static void places(void) {
     }
 }
 
+/* By the foundation and what the shape reads of the gap. */
+static void sameness(void) {
+    const fret_material steel = {.body = {{210e9, 0.3, false}, {210e9, 0.3, false}}, .c0 = 1};
+    fret_material soft = steel;
+    soft.body[1].E0 = 70e9;
+    const fret_gap round = {.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 0.01};
+    fret_gap other = round, unread = round;
+    other.R = 0.02;
+    unread.slope = 3;
+    fret_normal *n[4] = {NULL};
+    CHECK_OK(fret_normal_make(&steel, &round, NULL, NULL, &n[0]));
+    CHECK_OK(fret_normal_make(&steel, &unread, NULL, NULL, &n[1]));
+    CHECK_OK(fret_normal_make(&steel, &other, n[0], NULL, &n[2]));
+    CHECK_OK(fret_normal_make(&soft, &round, n[0], NULL, &n[3]));
+    CHECK(fret_normal_same(n[0], n[0]) && fret_normal_same(n[0], n[1]));
+    CHECK(!fret_normal_same(n[0], n[2]) && !fret_normal_same(n[0], n[3]));
+    for (int i = 0; i < 4; i++)
+        fret_normal_free(n[i]);
+}
+
 int main(int argc, char **argv) {
     unit_start("normal", argc, argv);
     CASE(reference());
@@ -219,5 +239,6 @@ int main(int argc, char **argv) {
     CASE(scales());
     CASE(places());
     CASE(errors());
+    CASE(sameness());
     return unit_finish();
 }
