@@ -440,6 +440,11 @@ const char *model_text(size_t id) {
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
                           "    fret> set model springs 100\n    fret> dW\n    dW = 1.90687 uJ\n",
+        [MODEL_BLOCKS] = "Wear of many cycles, in blocks: each wears by the slip and the pressure of the\n"
+                         "gap that those before leave, and is as long as an error of 1e-3 of volume and\n"
+                         "largest depth lets it be.\n\n" EXAMPLE "cycle FA=20 N\n"
+                         "    fret> wear alpha=1e4 um^3/J; wear cycles 10000; Vwear\n"
+                         "    Vwear = 192.33 um^3\n",
     };
     return texts[id];
 }

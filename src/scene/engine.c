@@ -17,6 +17,7 @@ const model_row models[MODELS] = {
                        .count = "the number of springs",
                        .chosen = true,
                        .steps = true},
+    [MODEL_BLOCKS] = {.name = "blocks", .title = "blocks of cycles"},
 };
 
 fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,

@@ -14,6 +14,7 @@ typedef enum model_id {
     MODEL_QUADRATURE,
     MODEL_PIECES,
     MODEL_SPRINGS,
+    MODEL_BLOCKS,
     MODELS
 } model_id;
 

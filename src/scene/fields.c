@@ -104,7 +104,7 @@ bool call_dWdA(scene *s, value r, long double *out, calc_error *error) {
 
 bool call_hwear(scene *s, value r, long double *out, calc_error *error) {
     long double alpha = 0;
-    s->used |= USED(MODEL_MEMORY);
+    s->used |= USED(MODEL_BLOCKS);
     return scene_get(s, IN_ALPHA_W, &alpha, error) && worn_depth(s, r.v, out, error);
 }
 

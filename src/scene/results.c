@@ -51,6 +51,7 @@ bool get_dW(scene *s, long double *out, calc_error *error) {
 bool get_Vwear(scene *s, long double *out, calc_error *error) {
     const fret_wear *wear;
     long double alpha = 0;
+    s->used |= USED(MODEL_BLOCKS);
     if (!scene_get(s, IN_ALPHA_W, &alpha, error) || !scene_worn(s, &wear, error))
         return false;
     *out = wear ? fret_wear_volume(wear) : 0;

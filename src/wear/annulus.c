@@ -31,7 +31,7 @@ static size_t row_p(const fret_annulus *a, size_t i) {
 
 /* (b^m - a^m)/m of distances. */
 static fret_real between(fret_real m, fret_real a, fret_real b) {
-    return (powl(b, m) - (a > 0 ? powl(a, m) : 0)) / m;
+    return (fret_pow(b, m) - (a > 0 ? fret_pow(a, m) : 0)) / m;
 }
 
 /* ---- making ------------------------------------------------------------------------------------ */
@@ -62,14 +62,14 @@ fret_real fret_annulus_profile(fret_real k, const fret_real *x, const double *h,
         sum += between(m, near, (at - x[j]) * (at + x[j])) * (h[j + 1] - h[j]) /
                ((x[j + 1] - x[j]) * (x[j + 1] + x[j]));
     }
-    return h[0] + powl(at, 1 - k) * sum;
+    return h[0] + fret_pow(at, 1 - k) * sum;
 }
 
 fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *held, fret_real depth,
                               const fret_real *x, size_t count, fret_annulus *out) {
     const fret_foundation *f = fret_normal_foundation(normal);
     const fret_point inner = fret_law_at_radius(normal, x[0]);
-    const fret_real m = (f->k + 1) / 2, stiff = f->cN0 * powl(f->c0, -f->k);
+    const fret_real m = (f->k + 1) / 2, stiff = f->cN0 * fret_pow(f->c0, -f->k);
     const size_t half = count * (count - 1) / 2;
     double **const part[] = {&out->t, &out->g0,   &out->x1k, &out->weight, &out->g,
                              &out->w, &out->slip, &out->p,   &out->change};
@@ -85,7 +85,7 @@ fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *h
     for (size_t i = 0; i < count; i++) {
         out->t[i] = (double)(x[i] * x[i]);
         out->g0[i] = (double)(fret_normal_profile(normal, x[i]) - inner.y);
-        out->x1k[i] = (double)powl(x[i], 1 - f->k);
+        out->x1k[i] = (double)fret_pow(x[i], 1 - f->k);
     }
     make_weights(out, m, stiff);
     out->inner = (double)fret_normal_stiffness(normal, x[0]);

@@ -56,7 +56,7 @@ def run(tests):
     settings, geometries = words("show settings", r"^set (\w+)"), words("help geometry", r"^    geometry ([\w-]+)")
     tests.check("what has an example", len(topics) >= 9 and len(settings) >= 8 and len(geometries) >= 10,
                 "%s\n%s\n%s" % (topics, settings, geometries))
-    shown = {*transcripts.command_names(tests), *topics, *settings, *geometries, "closed", "memory", "springs", "quadrature",
+    shown = {*transcripts.command_names(tests), *topics, *settings, *geometries, "closed", "memory", "springs", "quadrature", "blocks",
              "polynomials"}
     text = tests.run("-c", "help quantities").stdout
     quantities = re.findall(r"^    (\w+)(?:\(\w+\))?  ", text, re.M)
