@@ -44,7 +44,7 @@ MPFR  := $(wildcard /usr/include/mpfr.h /usr/local/include/mpfr.h)
 OBJ    = $(patsubst %.c,$(B)/%.o,$(1))
 SHARED = $(patsubst %.c,$(B)/shared/%.o,$(1))
 # the first number of the version that programs were linked with: it changes when they must be linked anew
-SONAME := libfret.so.0
+SONAME := libfret.so.$(firstword $(subst ., ,$(VERSION)))
 TESTS := $(patsubst tests/unit/%.c,$(B)/tests/%,$(UNIT))
 
 COMMA := ,
@@ -250,12 +250,13 @@ manual: $(B)/fret
 	@for page in 1 5; do $(B)/fret --manual=$$page > $(B)/manual/fret.$$page || exit 1; done
 	@$(B)/fret --manual=bash > $(B)/manual/fret.bash
 	@sh scripts/library-manual $(VERSION) $(HEADERS) > $(B)/manual/libfret.3
+	@$(B)/fret -c 'help news' > $(B)/manual/NEWS
 
 HEADERS := $(sort $(wildcard include/fret/*.h))
 SHARE    = $(DESTDIR)$(PREFIX)/share
 install: all manual
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(PREFIX)/include/fret \
-		$(SHARE)/man/man1 $(SHARE)/man/man3 $(SHARE)/man/man5 $(SHARE)/bash-completion/completions
+		$(SHARE)/man/man1 $(SHARE)/man/man3 $(SHARE)/man/man5 $(SHARE)/bash-completion/completions $(SHARE)/doc/fret
 	install -m 755 $(B)/fret $(DESTDIR)$(PREFIX)/bin/
 	install -m 644 $(B)/libfret.a $(DESTDIR)$(LIBDIR)/
 	install -m 755 $(B)/libfret.so $(DESTDIR)$(LIBDIR)/libfret.so.$(VERSION)
@@ -266,14 +267,15 @@ install: all manual
 	for n in 1 5; do install -m 644 $(B)/manual/fret.$$n $(SHARE)/man/man$$n/; done
 	install -m 644 $(B)/manual/libfret.3 $(SHARE)/man/man3/
 	install -m 644 $(B)/manual/fret.bash $(SHARE)/bash-completion/completions/fret
+	install -m 644 $(B)/manual/NEWS $(SHARE)/doc/fret/
 
-# What install put there, and the directory that is ours.
+# What install put there, and the directories that are ours.
 uninstall:
 	rm -f $(DESTDIR)$(PREFIX)/bin/fret $(DESTDIR)$(LIBDIR)/libfret.a $(DESTDIR)$(LIBDIR)/libfret.so \
 		$(DESTDIR)$(LIBDIR)/$(SONAME) $(DESTDIR)$(LIBDIR)/libfret.so.$(VERSION) $(DESTDIR)$(LIBDIR)/pkgconfig/fret.pc \
 		$(SHARE)/man/man1/fret.1 $(SHARE)/man/man5/fret.5 $(SHARE)/man/man3/libfret.3 \
-		$(SHARE)/bash-completion/completions/fret $(addprefix $(DESTDIR)$(PREFIX)/,$(HEADERS))
-	if [ -d $(DESTDIR)$(PREFIX)/include/fret ]; then rmdir $(DESTDIR)$(PREFIX)/include/fret; fi
+		$(SHARE)/bash-completion/completions/fret $(SHARE)/doc/fret/NEWS $(addprefix $(DESTDIR)$(PREFIX)/,$(HEADERS))
+	for d in $(DESTDIR)$(PREFIX)/include/fret $(SHARE)/doc/fret; do if [ -d $$d ]; then rmdir $$d; fi; done
 
 # Both commands of the head, and every compiler, in clean systems of Debian. For root, with
 # debootstrap: an hour.

@@ -55,8 +55,8 @@
 #include "fret/work.h"
 
 /* Of the headers: what is named in them stays until the first number grows. */
-#define FRET_VERSION_MAJOR 0
-#define FRET_VERSION_MINOR 1
+#define FRET_VERSION_MAJOR 1
+#define FRET_VERSION_MINOR 0
 #define FRET_VERSION_PATCH 0
 
 #endif

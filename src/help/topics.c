@@ -391,6 +391,12 @@ static const topic topics[] = {
      .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
                 "    fret> set digits 15; a\n"
                 "    a = 186.625557840862 um\n"},
+    {.name = "news",
+     .summary = "what you may rely on, and what is new",
+     .keywords = "version release changes stability compatibility promise",
+     .text = news_text,
+     .example = "    $ fret --version\n"
+                "    fret 1.0.0\n"},
     {.name = "limits",
      .summary = "what the theory leaves out",
      .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",

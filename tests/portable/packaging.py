@@ -21,8 +21,8 @@ def installed(tests):
     root = os.path.join(tests.dir, "root")
     done = make(tests, "install", root)
     there = files(root)
-    tests.check("make install", done.returncode == 0 and {"usr/bin/fret", "usr/lib/libfret.so.0", "usr/include/fret/fret.h",
-                                                          "usr/share/man/man1/fret.1"} <= set(there),
+    tests.check("make install", done.returncode == 0 and {"usr/bin/fret", "usr/lib/libfret.so.1", "usr/include/fret/fret.h",
+                                                          "usr/share/man/man1/fret.1", "usr/share/doc/fret/NEWS"} <= set(there),
                 done.stdout + done.stderr + "\n".join(there))
     for page in ("man1/fret.1", "man5/fret.5", "man3/libfret.3"):
         path = os.path.join(root, "usr/share/man", page)
@@ -44,7 +44,7 @@ def installed(tests):
         example(tests, "as it is installed", flags, {"LD_LIBRARY_PATH": os.path.join(root, "usr/lib")})
     done = make(tests, "uninstall", root)
     tests.check("make uninstall leaves nothing", done.returncode == 0 and not files(root) and
-                not os.path.exists(os.path.join(root, "usr/include/fret")), done.stderr + "\n".join(files(root)))
+                not any(os.path.exists(os.path.join(root, "usr", d)) for d in ("include/fret", "share/doc/fret")), done.stderr + "\n".join(files(root)))
 
 
 def completes(tests, path):
@@ -99,6 +99,14 @@ def elsewhere(tests):
         tests.check("package names for %s" % manager, done.returncode == 1 and re.search(words, done.stderr), done.stderr)
 
 
+def numbered(tests):
+    """The module for Python has the library's version, and loads that one."""
+    version = tests.run("--version").stdout.split()[1]
+    for path, words in (("pyproject.toml", 'version = "%s"' % version), ("fret/_library.py", '"libfret.so.%s"' % version.split(".")[0])):
+        with open(os.path.join(harness.ROOT, "scripts/python", path), encoding="utf-8") as f:
+            tests.check("the version in " + path, words in f.read(), words)
+
+
 def debian(tests):
     """The package is built with all that the program links, and nobody is made up as its maintainer."""
     with open(os.path.join(harness.ROOT, "scripts/debian/control.in"), encoding="utf-8") as f:
@@ -118,5 +126,5 @@ def begins(tests):
 
 def run(tests):
     """What is installed is the plain build."""
-    for room in (installed, embedded, elsewhere, debian, begins):
+    for room in (installed, embedded, elsewhere, numbered, debian, begins):
         room(tests)

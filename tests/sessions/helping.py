@@ -52,7 +52,7 @@ def run(tests):
 
     def words(statement, pattern):
         return re.findall(pattern, tests.run("-c", statement).stdout, re.M)
-    topics = " ".join(words("help", r"^Topics: (.*)\n +(.*)$")[0]).replace(",", "").split()
+    topics = words("help", r"^Topics: (.*(?:\n +.*)*)$")[0].replace(",", "").split()
     settings, geometries = words("show settings", r"^set (\w+)"), words("help geometry", r"^    geometry ([\w-]+)")
     tests.check("what has an example", len(topics) >= 9 and len(settings) >= 8 and len(geometries) >= 10,
                 "%s\n%s\n%s" % (topics, settings, geometries))

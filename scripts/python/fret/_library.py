@@ -138,7 +138,7 @@ def _find() -> ctypes.CDLL:
     """The library: FRET_LIBRARY, the one that `make` leaves in this checkout, or the system's."""
     built = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../build/libfret.so")
     named = os.environ.get("FRET_LIBRARY")
-    for path in [named] if named else [built, "libfret.so.0", "libfret.so"]:
+    for path in [named] if named else [built, "libfret.so.1", "libfret.so"]:
         try:
             return ctypes.CDLL(path)
         except OSError as error:
