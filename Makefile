@@ -277,7 +277,7 @@ uninstall:
 		$(SHARE)/bash-completion/completions/fret $(SHARE)/doc/fret/NEWS $(addprefix $(DESTDIR)$(PREFIX)/,$(HEADERS))
 	for d in $(DESTDIR)$(PREFIX)/include/fret $(SHARE)/doc/fret; do if [ -d $$d ]; then rmdir $$d; fi; done
 
-# Both commands of the head, and every compiler, in clean systems of Debian. For root, with
+# Both commands of the head, the packages, and every compiler, in clean systems of Debian. For root, with
 # debootstrap: an hour.
 CHROOTS ?= $(B)/chroots
 chroots:
