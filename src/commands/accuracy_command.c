@@ -183,10 +183,9 @@ static void say_study(shell *sh, const accuracy_study *study) {
     answer_end(&out, true);
 }
 
-bool do_accuracy(shell *sh, lexer *lx, const command *self) {
+bool do_accuracy(shell *sh, lexer *lx, said *all) {
     accuracy_study study;
-    said given;
-    if (!said_read(sh, lx, command_form(self), &given) || !accuracy_study_run(sh, &given, &study, lx->error))
+    if (!accuracy_study_run(sh, all, &study, lx->error))
         return false;
     if (sh->replaying) /* times, and what follows from them */
         fprintf(sh->out, "%c\n", MARK_DRAWING);

@@ -337,7 +337,6 @@ const grammar *export_form(size_t i) {
                         : NULL;
 }
 
-bool do_export(shell *sh, lexer *lx, const command *self) {
-    said all;
-    return said_read(sh, lx, command_form(self), &all) && exported[all.row].write(sh, lx, &all);
+bool do_export(shell *sh, lexer *lx, said *all) {
+    return exported[all->row].write(sh, lx, all);
 }

@@ -528,17 +528,15 @@ bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const 
            finish_axes(lx, &plain, p, &(axis_of){f->across, f->across_d}, &(axis_of){"residual", f->over_d});
 }
 
-bool do_fit(shell *sh, lexer *lx, const command *self) {
+bool do_fit(shell *sh, lexer *lx, said *all) {
     const size_t names = sh->calc.names.count;
     fit_question *q = calloc(1, sizeof *q);
     csv data = {0};
     named_columns columns;
     fit_answer a;
     fit_points kept = {.nodes = 0};
-    said all;
-    bool ok = (q || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all) &&
-              read_fit(sh, lx, &all, q, &data, &columns, names);
-    if (ok && is_by_cycle(lx, &all))
+    bool ok = (q || calc_no_memory(lx->error)) && read_fit(sh, lx, all, q, &data, &columns, names);
+    if (ok && is_by_cycle(lx, all))
         ok = !lx->error->raised && fit_by_cycle(sh, q, &data, lx->error);
     else if (ok) {
         q->points = &kept;

@@ -129,20 +129,15 @@ static bool live_values(shell *sh, lexer *lx, said *s) {
     return true;
 }
 
-static bool read_targets(shell *sh, lexer *lx, const command *self, bool cycle, said *s, load_step *step,
-                         cycle_extra *extra, const heard **last) {
+static bool read_targets(shell *sh, lexer *lx, bool cycle, said *s, load_step *step, cycle_extra *extra,
+                         const heard **last) {
     *step = (load_step){.kind = cycle ? LOAD_CYCLE : LOAD_STEP};
     *extra = (cycle_extra){.times = 1};
-    bool ok = said_read_some(sh, lx, command_form(self), s) && (!cycle || live_values(sh, lx, s));
+    if (cycle && !live_values(sh, lx, s))
+        return false;
     load_of(s, step, extra, last);
-    if (ok && (cycle ? !step->tangential : !step->tangential && !step->normal)) {
-        char usage[GRAMMAR_USAGE];
-        command_usage(self, usage);
-        ok = lex_fail(lx, "%s usage: %s", cycle ? "cycle by what amplitude?" : "step to where?", usage);
-    }
-    if (!ok)
-        said_drop(sh, s);
-    return ok;
+    return step->tangential || (!cycle && step->normal) ||
+           said_lacks(lx, s, cycle ? "cycle by what amplitude?" : "step to where?");
 }
 
 bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]) {
@@ -151,25 +146,20 @@ bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counte
     const heard *last;
     const bool cycle = lex_is(lx, "cycle");
     lex_next(lx);
-    if (!read_targets(sh, lx, c, cycle, &s, step, extra, &last))
-        return false;
-    for (const heard *h = s.list; h < s.list + s.count; h++)
+    bool ok =
+        said_read_some(sh, lx, command_form(c), &s) && read_targets(sh, lx, cycle, &s, step, extra, &last);
+    for (heard *h = s.list; ok && h < s.list + s.count; h++)
         if (h->live)
-            bound[h->of->in - 1] = h->live;
-    return true;
+            bound[h->of->in - 1] = counted_hold(h->live);
+    said_drop(sh, &s);
+    return ok;
 }
 
-bool do_press(shell *sh, lexer *lx, const command *self) {
+bool do_press(shell *sh, lexer *lx, said *all) {
     static const char *const names[] = {"FN", "a", "dz", NULL};
-    char usage[GRAMMAR_USAGE];
-    said s;
-    if (!at_argument(lx)) {
-        command_usage(self, usage);
-        return lex_fail(lx, "press by what? usage: %s", usage);
-    }
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    const heard *by = &s.list[0];
+    if (!all->count)
+        return said_lacks(lx, all, "press by what?");
+    const heard *by = &all->list[0];
     const bool worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
     const load_step step = {.kind = LOAD_PRESS,
                             .normal = (unsigned char)press_by((input)(by->of->in - 1)),
@@ -183,15 +173,14 @@ bool do_press(shell *sh, lexer *lx, const command *self) {
     return true;
 }
 
-bool do_step(shell *sh, lexer *lx, const command *self) {
+bool do_step(shell *sh, lexer *lx, said *all) {
     static const char *const names[] = {"Fx", "dx", "c", "drig", NULL}, *const oblique[] = {"FN",   "Fx",
                                                                                             "dx",   "c",
                                                                                             "drig", NULL};
-    said s;
     load_step step;
     cycle_extra extra;
     const heard *last;
-    if (!read_targets(sh, lx, self, false, &s, &step, &extra, &last) || !said_end(lx, &s))
+    if (!read_targets(sh, lx, false, all, &step, &extra, &last))
         return false;
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error))
         return heard_place(lx->error, last);
@@ -212,22 +201,20 @@ static void bind_all(inputs *in, void *context) {
             inputs_bind(in, i, counted_hold(bound[i]));
 }
 
-bool do_cycle(shell *sh, lexer *lx, const command *self) {
+bool do_cycle(shell *sh, lexer *lx, said *all) {
     static const char *const names[] = {"dW", "Fx", "dx", "c", "drig", NULL};
-    said s;
     load_step step;
     cycle_extra extra;
     const heard *last;
     counted *bound[INPUTS] = {NULL};
     bool live = false, worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
-    if (!read_targets(sh, lx, self, true, &s, &step, &extra, &last))
+    if (!read_targets(sh, lx, true, all, &step, &extra, &last))
         return false;
     scene_mark before;
     scene_save(&sh->calc.scene, &before, false);
-    bool ok = said_end(lx, &s) &&
-              (scene_load(&sh->calc.scene, &step, &extra, lx->error) || heard_place(lx->error, last));
+    bool ok = scene_load(&sh->calc.scene, &step, &extra, lx->error) || heard_place(lx->error, last);
     const bool loaded = ok;
-    for (const heard *h = s.list; ok && h < s.list + s.count; h++)
+    for (const heard *h = all->list; ok && h < all->list + all->count; h++)
         if (h->live) {
             bound[h->of->in - 1] = h->live;
             live = true;
@@ -238,9 +225,8 @@ bool do_cycle(shell *sh, lexer *lx, const command *self) {
         scene_back(&sh->calc.scene, &before);
     else
         scene_drop(&before);
-    if (ok && said_of(&s, "phase", 0) && !said_of(&s, "FNA", 0))
+    if (ok && said_of(all, "phase", 0) && !said_of(all, "FNA", 0))
         shell_note(sh, "phase does nothing without FNA");
-    said_drop(sh, &s);
     if (ok)
         report_event(sh, "cycle", names);
     note_unworn(sh, ok && worn);
@@ -321,24 +307,17 @@ static bool read_cycles(shell *sh, lexer *lx, const heard *cycles, wearing *w) {
     return true;
 }
 
-bool do_wear(shell *sh, lexer *lx, const command *self) {
+bool do_wear(shell *sh, lexer *lx, said *all) {
     static const char *const names[] = {"Nw", "Vwear", "a", "c", "p0", NULL};
-    char usage[GRAMMAR_USAGE];
-    wearing w = {.none = false};
-    said s;
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    const heard *cycles = said_of(&s, "cycles", 0);
-    command_usage(self, usage);
-    w.none = said_of(&s, "none", 0);
-    bool ok = s.count || lex_fail(lx, "wear by what law? usage: %s", usage);
-    if (said_of(&s, "limit", 0))
+    const heard *cycles = said_of(all, "cycles", 0);
+    wearing w = {.none = said_of(all, "none", 0)};
+    bool ok = all->count || said_lacks(lx, all, "wear by what law?");
+    if (said_of(all, "limit", 0))
         ok = tell_limit(sh, lx->error);
     else if (ok)
-        ok = (cycles ? read_cycles(sh, lx, cycles, &w) : read_law(sh, lx, &s, &w)) &&
+        ok = (cycles ? read_cycles(sh, lx, cycles, &w) : read_law(sh, lx, all, &w)) &&
              scene_edit(&sh->calc.scene, put_wear, &w, lx->error);
     counted_drop(w.live);
-    said_drop(sh, &s);
     if (ok && cycles)
         report_event(sh, "wear", names);
     return ok;
@@ -641,33 +620,30 @@ static bool follow_file(shell *sh, csv *data, calc_error *error) {
     return true;
 }
 
-bool do_follow(shell *sh, lexer *lx, const command *self) {
+bool do_follow(shell *sh, lexer *lx, said *all) {
     static const char *const names[] = {"FN", "Fx", "dx", "c", NULL};
-    said s;
     csv data;
     choices chosen;
-    if (!said_read(sh, lx, command_form(self), &s) || !choices_of(&s, NULL, &chosen, lx->error))
+    if (!choices_of(all, NULL, &chosen, lx->error))
         return false;
-    const bool ok = columns_read(lx, &s.list[0].hole[0], &chosen, &data) && follow_file(sh, &data, lx->error);
-    said_drop(sh, &s);
+    const bool ok =
+        columns_read(lx, &all->list[0].hole[0], &chosen, &data) && follow_file(sh, &data, lx->error);
     csv_free(&data);
     if (!ok)
-        return heard_place(lx->error, &s.list[0]);
+        return heard_place(lx->error, &all->list[0]);
     report_event(sh, "follow", names);
     return true;
 }
 
 /* ---- the ways back ----------------------------------------------------------------------------- */
 
-bool do_reset(shell *sh, lexer *lx, const command *self) {
-    said s;
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    scene_reset(&sh->calc.scene, said_of(&s, "all", 0) != NULL);
+bool do_reset(shell *sh, lexer *lx, said *all) {
+    (void)lx;
+    scene_reset(&sh->calc.scene, said_of(all, "all", 0) != NULL);
     return true;
 }
 
-bool do_undo(shell *sh, lexer *lx, const command *self) {
-    (void)self;
-    return at_end(lx) && (calc_undo(&sh->calc) || lex_fail(lx, "there is nothing to take back"));
+bool do_undo(shell *sh, lexer *lx, said *all) {
+    (void)all;
+    return calc_undo(&sh->calc) || lex_fail(lx, "there is nothing to take back");
 }

@@ -98,27 +98,25 @@ static bool read_columns(csv *data, bool *turned, csv_values **dx, csv_values **
     return true;
 }
 
-bool do_loop(shell *sh, lexer *lx, const command *self) {
-    said all;
+bool do_loop(shell *sh, lexer *lx, said *all) {
     choices chosen;
     csv data;
     csv_values *dx, *Fx;
     loop_answer l = {.cycle = NULL};
     bool turned;
     char more[128];
-    if (!said_read(sh, lx, command_form(self), &all) || !choices_of(&all, NULL, &chosen, lx->error))
+    if (!choices_of(all, NULL, &chosen, lx->error))
         return false;
-    bool ok = columns_read(lx, &all.list[0].hole[0], &chosen, &data) &&
+    bool ok = columns_read(lx, &all->list[0].hole[0], &chosen, &data) &&
               read_columns(&data, &turned, &dx, &Fx, lx->error) &&
               loop_find(dx->v, Fx->v, data.rows, &l, lx->error);
     if (ok) {
         snprintf(more, sizeof more, "%zu cycle%s%s", l.cycles, l.cycles == 1 ? "" : "s",
                  turned ? ", " TURNED_FX : "");
         columns_say(sh, &data, more);
-        ok = tell(sh, lx, &all, &data, &l);
+        ok = tell(sh, lx, all, &data, &l);
     }
     loop_free(&l);
     csv_free(&data);
-    said_drop(sh, &all);
-    return ok || heard_place(lx->error, &all.list[0]);
+    return ok || heard_place(lx->error, &all->list[0]);
 }

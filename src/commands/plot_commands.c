@@ -185,7 +185,7 @@ static bool draw_panels(shell *sh, lexer *lx, panels *p, plot_figure *f, motion 
 }
 
 /* Neither a figure nor a range: a figure may have been misspelt. wants: what else may stand there. */
-static bool fail_figure(const calc *c, lexer *lx, const command *self, const char *wants) {
+static bool fail_figure(const calc *c, lexer *lx, const grammar *row, const char *wants) {
     char word[LEX_NAME], all[CALC_ERROR_TEXT / 2] = "";
     const token_kind next = lex_peek(lx);
     size_t own;
@@ -208,19 +208,19 @@ static bool fail_figure(const calc *c, lexer *lx, const command *self, const cha
         return lex_fail(lx, "expected %s", wants);
     for (size_t i = 0; figure_name(i); i++)
         snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", figure_name(i));
-    return lex_fail(lx, "there is no figure '%s': %s %s, or EXPR, ... for VAR = LO .. HI", word, self->name,
+    return lex_fail(lx, "there is no figure '%s': %s %s, or EXPR, ... for VAR = LO .. HI", word, row->command,
                     all);
 }
 
 /* All figures, and the file, which is looked at before long work: empty where there is none. */
-static bool read_figures(shell *sh, lexer *lx, const command *self, const char *wants, panels *out,
+static bool read_figures(shell *sh, lexer *lx, const grammar *row, const char *wants, panels *out,
                          char *file) {
     lexer begin = *lx;
     file[0] = 0;
-    if (!read_panels(sh, lx, command_form(self), out))
+    if (!read_panels(sh, lx, row, out))
         return false;
     if (!panel_is_whole(&out->list[0]))
-        return !range_hides(lx, &out->list[0].said) && fail_figure(&sh->calc, &begin, self, wants);
+        return !range_hides(lx, &out->list[0].said) && fail_figure(&sh->calc, &begin, row, wants);
     const heard *to = last_said(out, "to");
     return !to || (hole_file(lx, &to->hole[0], file) &&
                    (plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to)));
@@ -243,13 +243,13 @@ static bool draw_plot(shell *sh, lexer *lx, const plot_figure *f, const char *fi
     return true;
 }
 
-bool do_plot(shell *sh, lexer *lx, const command *self) {
+bool do_plot(shell *sh, lexer *lx, said *all) {
     static const char wants[] = "EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N";
     char file[FILE_NAME];
     plot_figure f;
     panels p = {.count = 0};
     plot_figure_init(&f);
-    bool ok = read_figures(sh, lx, self, wants, &p, file);
+    bool ok = read_figures(sh, lx, all->by, wants, &p, file);
     if (ok && sh->share.of && p.count == 1 && panel_is_map(lx, &p.list[0]))
         ok = share_map(sh, lx, &p);
     else if (ok)
@@ -395,14 +395,14 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
     return ok;
 }
 
-bool do_animate(shell *sh, lexer *lx, const command *self) {
+bool do_animate(shell *sh, lexer *lx, said *all) {
     enum { FRAMES = 80 };
     char file[FILE_NAME];
     movie *m = calloc(1, sizeof *m);
     if (!m)
         return calc_no_memory(lx->error);
     *m = (movie){.sh = sh, .lx = lx, .frames = FRAMES, .error = lx->error};
-    bool ok = read_figures(sh, lx, self, "EXPR, ... along program, or a figure", &m->figures, file);
+    bool ok = read_figures(sh, lx, all->by, "EXPR, ... along program, or a figure", &m->figures, file);
     const heard *frames = ok ? last_said(&m->figures, "frames") : NULL;
     if (frames)
         m->frames = frames->count;

@@ -87,33 +87,24 @@ static void gather(edit *e, const said *s) {
 
 /* ---- material, second body, friction ----------------------------------------------------------- */
 
-bool do_material(shell *sh, lexer *lx, const command *self) {
-    said s;
+bool do_material(shell *sh, lexer *lx, said *all) {
     edit e = {.clear_material = true};
-    char usage[GRAMMAR_USAGE];
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    const heard *named = said_of(&s, "", 0);
+    const heard *named = said_of(all, "", 0);
     if (named)
         put_preset(&e, preset_row(named->choice), 0);
-    gather(&e, &s);
+    gather(&e, all);
     if (has_second(&e)) {
         e.clear_second = true;
         e.second = SECOND_GIVEN;
     }
-    bool ok = false;
-    command_usage(self, usage);
     const bool modulus = has(&e, IN_E0) || has(&e, IN_G0) || has(&e, IN_ESTAR);
     if (!modulus || !(has(&e, IN_NU) || has(&e, IN_ESTAR)))
-        lex_fail(lx, "%s is missing; usage: %s", modulus ? "nu" : "E0", usage);
-    else if (e.bound[IN_K] && !has(&e, IN_C0))
-        lex_fail(lx, "c0 is missing: with a k that follows others the depth where E = E0 matters");
-    else if (e.has[IN_K] && e.v[IN_K] != 0 && !has(&e, IN_C0))
-        lex_fail(lx, "c0 is missing: with k = %g the depth where E = E0 matters", e.v[IN_K]);
-    else
-        ok = scene_edit(&sh->calc.scene, apply, &e, lx->error);
-    said_drop(sh, &s);
-    return ok;
+        return said_lacks(lx, all, modulus ? "nu is missing;" : "E0 is missing;");
+    if (e.bound[IN_K] && !has(&e, IN_C0))
+        return lex_fail(lx, "c0 is missing: with a k that follows others the depth where E = E0 matters");
+    if (e.has[IN_K] && e.v[IN_K] != 0 && !has(&e, IN_C0))
+        return lex_fail(lx, "c0 is missing: with k = %g the depth where E = E0 matters", e.v[IN_K]);
+    return scene_edit(&sh->calc.scene, apply, &e, lx->error);
 }
 
 /* Inputs of the first body, and of the second: the same behind `second`. */
@@ -141,17 +132,12 @@ static bool second_holds(lexer *lx, const said *s, bool rigid) {
     return true;
 }
 
-bool do_second(shell *sh, lexer *lx, const command *self) {
-    said s;
+bool do_second(shell *sh, lexer *lx, said *all) {
     edit e = {.clear_second = true, .second = SECOND_GIVEN};
-    if (!said_read(sh, lx, command_form(self), &s))
+    const heard *named = said_of(all, "", 0);
+    gather(&e, all);
+    if (!second_holds(lx, all, named && named->choice == SECOND_WORDS - 1))
         return false;
-    const heard *named = said_of(&s, "", 0);
-    gather(&e, &s);
-    if (!second_holds(lx, &s, named && named->choice == SECOND_WORDS - 1)) {
-        said_drop(sh, &s);
-        return false;
-    }
     if (named && named->choice < SECOND_WORDS) {
         e.second = named->choice ? SECOND_RIGID : SECOND_SAME;
     } else if (named) {
@@ -166,58 +152,35 @@ bool do_second(shell *sh, lexer *lx, const command *self) {
         e.has[own] = false;
         e.bound[own] = NULL;
     }
-    bool ok = e.second != SECOND_GIVEN || has_second(&e)
-                  ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
-                  : lex_fail(lx, "expected E0=... nu=..., a material, rigid or same");
-    said_drop(sh, &s);
-    return ok;
+    return e.second != SECOND_GIVEN || has_second(&e)
+               ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
+               : lex_fail(lx, "expected E0=... nu=..., a material, rigid or same");
 }
 
-bool do_friction(shell *sh, lexer *lx, const command *self) {
-    said s;
+bool do_friction(shell *sh, lexer *lx, said *all) {
     edit e = {.clear_material = false};
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    edit_put(&e, IN_MU, s.list[0].v.v);
-    return scene_edit(&sh->calc.scene, apply, &e, lx->error) || heard_place(lx->error, &s.list[0]);
+    edit_put(&e, IN_MU, all->list[0].v.v);
+    return scene_edit(&sh->calc.scene, apply, &e, lx->error) || heard_place(lx->error, &all->list[0]);
 }
 
 /* Of a rig that is taken off nothing is left, its offsets neither. */
-bool do_rig(shell *sh, lexer *lx, const command *self) {
-    said s;
+bool do_rig(shell *sh, lexer *lx, said *all) {
     edit e = {.clear_rig = true};
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    gather(&e, &s);
-    const heard *none = said_of(&s, "none", 0);
-    char usage[GRAMMAR_USAGE];
-    command_usage(self, usage);
-    bool ok = false;
-    if (none ? s.count > 1 : !has(&e, IN_K_RIG))
-        lex_fail(lx,
-                 none ? "where there is no rig there are no offsets; usage: %s"
-                      : "stiffness is missing; usage: %s",
-                 usage);
-    else
-        ok = scene_edit(&sh->calc.scene, apply, &e, lx->error);
-    said_drop(sh, &s);
-    return ok;
+    const heard *none = said_of(all, "none", 0);
+    gather(&e, all);
+    if (none ? all->count > 1 : !has(&e, IN_K_RIG))
+        return said_lacks(lx, all,
+                          none ? "where there is no rig there are no offsets;" : "stiffness is missing;");
+    return scene_edit(&sh->calc.scene, apply, &e, lx->error);
 }
 
-bool do_bulk(shell *sh, lexer *lx, const command *self) {
-    said s;
+bool do_bulk(shell *sh, lexer *lx, said *all) {
     edit e = {.clear_material = false};
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    gather(&e, &s);
-    if (said_of(&s, "none", 0))
+    gather(&e, all);
+    if (said_of(all, "none", 0))
         edit_put(&e, IN_SB, 0);
-    char usage[GRAMMAR_USAGE];
-    command_usage(self, usage);
-    const bool ok = s.count ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
-                            : lex_fail(lx, "bulk of what stress? usage: %s", usage);
-    said_drop(sh, &s);
-    return ok;
+    return all->count ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
+                      : said_lacks(lx, all, "bulk of what stress?");
 }
 
 /* ---- geometry ---------------------------------------------------------------------------------- */
@@ -486,34 +449,27 @@ static bool put_angle(lexer *lx, edit *e, const heard *angle, bool half) {
 static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
     const heard *angle = said_of(s, "angle", 0), *half = said_of(s, "half_angle", 0),
                 *R1 = said_of(s, "R1", 0), *R2 = said_of(s, "R2", 0), *D = said_of(s, "D", 0);
-    char usage[GRAMMAR_USAGE];
     gather(e, s);
     if (D)
         edit_put(e, IN_RADIUS, D->v.v / 2);
     if ((angle && !put_angle(lx, e, angle, false)) || (half && !put_angle(lx, e, half, true)) ||
         ((R1 || R2) && !put_radii(lx, e, R1, R2)))
         return false;
-    grammar_usage(s->by, usage);
     for (input in = IN_N; in < INPUTS; in++)
         if (g->required & INPUT_BIT(in) && !has(e, in))
-            return lex_fail(lx, "a parameter is missing; usage: %s", usage);
+            return said_lacks(lx, s, "a parameter is missing;");
     if (g->allowed & INPUT_BIT(IN_A) && (has(e, IN_A) == has(e, IN_H) || has(e, IN_H) != has(e, IN_R0)))
-        return lex_fail(lx, "give either A or both h and r0; usage: %s", usage);
+        return said_lacks(lx, s, "give either A or both h and r0;");
     return true;
 }
 
-bool do_geometry(shell *sh, lexer *lx, const command *self) {
+bool do_geometry(shell *sh, lexer *lx, said *all) {
     fret_gap sum;
-    said s;
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    const geometry *g = geometry_row(s.row);
+    const geometry *g = geometry_row(all->row);
     edit e = {.geometry = g};
     e.sum = g->by == PARAMETERS_TERMS ? &sum : NULL;
-    const bool ok = g->by == PARAMETERS_FILE ? read_gap_file(sh, lx, &s, &e)
-                                             : (e.sum ? read_sum(sh, lx, &s.list[0].hole[0], &sum)
-                                                      : put_parameters(lx, g, &e, &s)) &&
-                                                   scene_edit(&sh->calc.scene, apply, &e, lx->error);
-    said_drop(sh, &s);
-    return ok;
+    if (g->by == PARAMETERS_FILE)
+        return read_gap_file(sh, lx, all, &e);
+    return (e.sum ? read_sum(sh, lx, &all->list[0].hole[0], &sum) : put_parameters(lx, g, &e, all)) &&
+           scene_edit(&sh->calc.scene, apply, &e, lx->error);
 }

@@ -106,19 +106,15 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
               q->name.text, lo, hi);
 }
 
-bool do_solve(shell *sh, lexer *lx, const command *self) {
-    said all;
+bool do_solve(shell *sh, lexer *lx, said *all) {
     solve_question q = {.given = false};
     solve_answer a;
     column c = {.name = NULL};
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    bool ok = read_solve(sh, lx, &all, &q) && solve(&q, &a, lx->error) && knob_column(&c, &q.name, lx->error);
+    bool ok = read_solve(sh, lx, all, &q) && solve(&q, &a, lx->error) && knob_column(&c, &q.name, lx->error);
     ok = ok && print_answers(sh, &c, &(long double){a.x}, 1, lx->error);
     if (ok)
         report_solve(sh, &q, &a);
     columns_free(&c, 1);
-    said_drop(sh, &all);
     return ok;
 }
 
@@ -181,16 +177,13 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
                   a->sharp && inner ? ", Newton's method" : "", a->evaluations);
 }
 
-static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
-    said all;
+static bool optimum(shell *sh, lexer *lx, said *all, bool most) {
     optimise_question q = {.c = &sh->calc, .e = &sh->list[0], .most = most};
     optimise_answer a;
     column columns[OPTIMISE_NAMES + 1] = {{.name = NULL}}, optimised = {.name = NULL};
     long double si[OPTIMISE_NAMES + 1];
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    lexer own = hole_lexer(lx, &all.list[0].hole[0]);
-    bool ok = read_one_expression(sh, &own, 0, &optimised) && read_over(sh, lx, &all, &q) &&
+    lexer own = hole_lexer(lx, &all->list[0].hole[0]);
+    bool ok = read_one_expression(sh, &own, 0, &optimised) && read_over(sh, lx, all, &q) &&
               optimise(&q, &a, lx->error) && column_fits(q.e, &optimised, (value){a.value, a.d}, lx->error);
     for (size_t i = 0; i < q.count && ok; i++) {
         ok = knob_column(&columns[i], &q.name[i], lx->error);
@@ -200,18 +193,17 @@ static bool optimum(shell *sh, lexer *lx, const command *self, bool most) {
     si[q.count] = ok ? a.value : 0;
     ok = ok && print_answers(sh, columns, si, q.count + 1, lx->error);
     if (ok)
-        report_optimum(sh, &q, &a, self->name);
+        report_optimum(sh, &q, &a, all->by->command);
     columns_free(columns, q.count + 1);
-    said_drop(sh, &all);
     return ok;
 }
 
-bool do_maximize(shell *sh, lexer *lx, const command *self) {
-    return optimum(sh, lx, self, true);
+bool do_maximize(shell *sh, lexer *lx, said *all) {
+    return optimum(sh, lx, all, true);
 }
 
-bool do_minimize(shell *sh, lexer *lx, const command *self) {
-    return optimum(sh, lx, self, false);
+bool do_minimize(shell *sh, lexer *lx, said *all) {
+    return optimum(sh, lx, all, false);
 }
 
 /* ---- uncertainty ------------------------------------------------------------------------------- */
@@ -436,15 +428,14 @@ static unsigned usual_samples(shell *sh) {
     return reach->swings ? 200 : 10000;
 }
 
-bool do_uncertainty(shell *sh, lexer *lx, const command *self) {
+bool do_uncertainty(shell *sh, lexer *lx, said *all) {
     uncertainty_question q = {.c = &sh->calc, .e = sh->list, .samples = usual_samples(sh), .seed = 1};
     uncertainty_answer *a = calloc(1, sizeof *a);
     column columns[UNCERTAIN_VALUES];
-    said all;
-    bool ok = (a || calc_no_memory(lx->error)) && said_read(sh, lx, command_form(self), &all);
-    ok = ok && read_expressions_in(sh, lx, &all.list[0].hole[0], columns, UNCERTAIN_VALUES, &q.expressions);
-    ok = ok && read_uncertain(sh, lx, &all, &q);
-    const heard *from = ok ? said_of(&all, "from", 0) : NULL;
+    bool ok = a || calc_no_memory(lx->error);
+    ok = ok && read_expressions_in(sh, lx, &all->list[0].hole[0], columns, UNCERTAIN_VALUES, &q.expressions);
+    ok = ok && read_uncertain(sh, lx, all, &q);
+    const heard *from = ok ? said_of(all, "from", 0) : NULL;
     if (ok && sh->share.of && !from)
         ok = share_samples(sh, &q, a, lx->error);
     else

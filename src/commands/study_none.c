@@ -12,9 +12,9 @@ static bool without(const char *what, calc_error *error) {
     return calc_fail(error, 0, 0, "%s needs GSL, which this program was built without", what);
 }
 
-bool do_fit(shell *sh, lexer *lx, const command *self) {
+bool do_fit(shell *sh, lexer *lx, said *all) {
     (void)sh;
-    return without(self->name, lx->error);
+    return without(all->by->command, lx->error);
 }
 
 void fit_forget(shell *sh) {

@@ -32,14 +32,12 @@ static bool history_rows(scene *s, long double K_rig, answer *a, calc_error *err
     return !error->raised;
 }
 
-bool do_history(shell *sh, lexer *lx, const command *self) {
+bool do_history(shell *sh, lexer *lx, said *all) {
     const fret_contact *contact;
     long double K_rig = INFINITY;
     column columns[HISTORY] = {{.name = NULL}};
     target to;
-    said all;
-    if (!scene_history(&sh->calc.scene, &contact, lx->error) ||
-        !said_read(sh, lx, command_form(self), &all) || !target_open(sh, lx, &all, &to))
+    if (!scene_history(&sh->calc.scene, &contact, lx->error) || !target_open(sh, lx, all, &to))
         return false;
     answer a;
     answer_begin_as(&a, &sh->set, to.to, to.format);
@@ -48,7 +46,7 @@ bool do_history(shell *sh, lexer *lx, const command *self) {
     for (size_t i = 0; i < count; i++)
         ok = ok && column_si(&columns[i], history_names[i],
                              quantity_find(history_names[i], strlen(history_names[i]))->d);
-    ok = ok && answer_columns(&a, self->name, columns, count);
+    ok = ok && answer_columns(&a, all->by->command, columns, count);
     if (ok) {
         ok = history_rows(&sh->calc.scene, K_rig, &a, lx->error);
         answer_end(&a, ok);
@@ -320,47 +318,42 @@ bool table_map(shell *sh, lexer *lx, said *all) {
     return ok;
 }
 
-bool do_table(shell *sh, lexer *lx, const command *self) {
+bool do_table(shell *sh, lexer *lx, said *all) {
     enum { ROWS = 20, ACROSS = 5 };
     column columns[COLUMNS - 2];
     size_t count = 0;
     range r;
     grid_range two;
     file_rows at;
-    said all;
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    const span *first = &all.list[0].hole[0];
-    bool ok = rows_open(sh, lx, &all, &at);
-    const bool ranged = at.given || said_of(&all, "for", 0) || said_of(&all, "along", 0);
-    ok = ok && (ranged || (!range_hides(lx, &all) &&
+    const span *first = &all->list[0].hole[0];
+    bool ok = rows_open(sh, lx, all, &at);
+    const bool ranged = at.given || said_of(all, "for", 0) || said_of(all, "along", 0);
+    ok = ok && (ranged || (!range_hides(lx, all) &&
                            calc_fail(lx->error, first->at, first->len,
                                      "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N")));
     ok = ok && read_expressions_in(sh, lx, first, columns, COLUMNS - 2, &count);
     if (!ok && at.given)
         columns_missed(sh, lx, &at.data);
     else if (ok && at.given)
-        ok = range_read_rows(sh, lx, &all, &at, count, &r) &&
-             run_table(sh, lx, &all, &r.sweep, NULL, &at, columns, count);
-    else if (ok && said_of(&all, "for", 1))
-        ok = grid_range_read(sh, lx, &all, &two, ROWS, ACROSS) &&
-             run_table(sh, lx, &all, &two.grid.a, &two.grid, NULL, columns, count);
+        ok = range_read_rows(sh, lx, all, &at, count, &r) &&
+             run_table(sh, lx, all, &r.sweep, NULL, &at, columns, count);
+    else if (ok && said_of(all, "for", 1))
+        ok = grid_range_read(sh, lx, all, &two, ROWS, ACROSS) &&
+             run_table(sh, lx, all, &two.grid.a, &two.grid, NULL, columns, count);
     else
-        ok = ok && range_read(sh, lx, &all, 0, &r) && range_options(sh, lx, &all, 0, &r, ROWS) &&
-             run_table(sh, lx, &all, &r.sweep, NULL, NULL, columns, count);
+        ok = ok && range_read(sh, lx, all, 0, &r) && range_options(sh, lx, all, 0, &r, ROWS) &&
+             run_table(sh, lx, all, &r.sweep, NULL, NULL, columns, count);
     columns_free(columns, count);
     rows_close(&at);
-    said_drop(sh, &all);
     return ok;
 }
 
 /* ---- two scenes --------------------------------------------------------------------------------- */
 
-bool do_compare(shell *sh, lexer *lx, const command *self) {
-    said s;
+bool do_compare(shell *sh, lexer *lx, said *all) {
     sweep two = {.along = true};
-    bool ok = said_read(sh, lx, command_form(self), &s);
-    const heard *by = ok ? said_of(&s, "", 0) : NULL;
+    bool ok = true;
+    const heard *by = said_of(all, "", 0);
     if (by) {
         lexer name = hole_lexer(lx, &by->hole[0]);
         ok = knob_known(&sh->calc, &name, &two.with) && range_read_values(sh, lx, &by->hole[1], &two) &&
@@ -374,6 +367,5 @@ bool do_compare(shell *sh, lexer *lx, const command *self) {
     }
     if (ok && by)
         shell_note(sh, "live shows both; compare off ends it");
-    said_drop(sh, &s);
     return ok;
 }

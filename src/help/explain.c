@@ -276,15 +276,12 @@ static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *
     return (text_end(&text, ok) || calc_no_memory(lx->error)) && ok;
 }
 
-bool do_explain(shell *sh, lexer *lx, const command *self) {
+bool do_explain(shell *sh, lexer *lx, said *all) {
     const expr *e = NULL, *asked = NULL;
     trial *changed = NULL;
     value v = {0};
-    said all;
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    const bool conditioning = said_of(&all, "conditioning", 0);
-    lexer own = hole_lexer(lx, &all.list[0].hole[0]);
+    const bool conditioning = said_of(all, "conditioning", 0);
+    lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     const bool alone = own.at + own.len == own.end && !conditioning;
     if (lex_is(&own, "mismatch") && alone)
         return explain_mismatch(sh, lx);

@@ -512,51 +512,43 @@ static bool read_word(lexer *lx, const said *all, char word[LEX_NAME]) {
     return at_end(lx);
 }
 
-bool do_help(shell *sh, lexer *lx, const command *self) {
+bool do_help(shell *sh, lexer *lx, said *all) {
     char word[LEX_NAME] = "";
     text_out t;
-    said all;
-    if (!said_read(sh, lx, command_form(self), &all) || (all.count && !read_word(lx, &all, word)))
+    if (all->count && !read_word(lx, all, word))
         return false;
     if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
-    if (all.count)
+    if (all->count)
         help_on(t.to, word);
     else
         overview(t.to);
     return text_end(&t, true) || calc_no_memory(lx->error);
 }
 
-bool do_cite(shell *sh, lexer *lx, const command *self) {
+bool do_cite(shell *sh, lexer *lx, said *all) {
     text_out t;
-    said all;
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
+    (void)all;
     if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     help_cite(t.to);
     return text_end(&t, true) || calc_no_memory(lx->error);
 }
 
-bool do_apropos(shell *sh, lexer *lx, const command *self) {
+bool do_apropos(shell *sh, lexer *lx, said *all) {
     char words[HEARD + 1][LEX_NAME] = {""};
     bool known = true; /* no word is longer than any name */
     text_out t;
-    said all;
-    if (lx->kind == T_END)
-        return lex_fail(lx, "apropos what? such as: apropos radius");
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    for (unsigned i = 0; i < all.count; i++) {
-        hole_word(lx, &all.list[i], words[i]);
+    for (unsigned i = 0; i < all->count; i++) {
+        hole_word(lx, &all->list[i], words[i]);
         known = known && *words[i];
     }
-    const span *last = &all.list[all.count - 1].hole[0];
-    const size_t at = all.list[0].at, len = last->at + last->len - at;
+    const span *last = &all->list[all->count - 1].hole[0];
+    const size_t at = all->list[0].at, len = last->at + last->len - at;
     if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
         return calc_no_memory(lx->error);
     if (!known || (!list_about(t.to, words, false) && !list_about(t.to, words, true)))
         fprintf(t.to, "nothing on '%.*s'%s\n", LEX_SHOWN(len), lx->text + at,
-                all.count > 1 ? "; try one word" : "");
+                all->count > 1 ? "; try one word" : "");
     return text_end(&t, true) || calc_no_memory(lx->error);
 }

@@ -315,18 +315,15 @@ static bool play(shell *sh, lexer *lx, const script *s, bool tour, target *page)
 }
 
 /* A name with a `.` or a `/` is that of a file. */
-bool do_demo(shell *sh, lexer *lx, const command *self) {
-    said all;
+bool do_demo(shell *sh, lexer *lx, said *all) {
     lesson_text own = {.title = NULL};
     target page = {.to = NULL};
     char name[FILE_NAME] = "tour";
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    const heard *named = said_of(&all, "", 0), *to = said_of(&all, "to", 0);
+    const heard *named = said_of(all, "", 0), *to = said_of(all, "to", 0);
     if (named && !hole_file(lx, &named->hole[0], name))
         return false;
     const bool file = strpbrk(name, "./") != NULL;
-    const script *s = file ? NULL : built_in(name, &all.list[0].hole[0], lx->error);
+    const script *s = file ? NULL : built_in(name, &all->list[0].hole[0], lx->error);
     bool ok = file ? lesson_read(sh, name, &own, lx->error) || heard_place(lx->error, named) : s != NULL;
     const script taught = {.title = own.title, .line = (const char *const *)own.line};
     ok = ok && (!to || open_page(lx, to, &page)) && play(sh, lx, s ? s : &taught, !named, &page);

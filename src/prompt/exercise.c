@@ -276,12 +276,9 @@ static bool tell_answer(exercise *x) {
     return ok;
 }
 
-bool do_ask(shell *sh, lexer *lx, const command *self) {
-    said all;
+bool do_ask(shell *sh, lexer *lx, said *all) {
     exercise x = {.sh = sh};
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    bool ok = read_exercise(&x, lx, &all);
+    bool ok = read_exercise(&x, lx, all);
     if (ok) {
         tell_question(&x);
         if ((sh->interactive || sh->waits) && !answer_is_data(&sh->set) && isatty(STDOUT_FILENO) &&
@@ -290,6 +287,5 @@ bool do_ask(shell *sh, lexer *lx, const command *self) {
         ok = shell_stop ? calc_interrupted(lx->error) : tell_answer(&x) || calc_no_memory(lx->error);
     }
     exercise_free(&x);
-    said_drop(sh, &all);
     return ok;
 }

@@ -11,13 +11,10 @@
 
 /* ---- save -------------------------------------------------------------------------------------- */
 
-bool do_save(shell *sh, lexer *lx, const command *self) {
+bool do_save(shell *sh, lexer *lx, said *all) {
     target t;
-    said s;
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    const bool history = *s.list[0].of->name;
-    const span *name = &s.list[0].hole[0];
+    const bool history = *all->list[0].of->name;
+    const span *name = &all->list[0].hole[0];
     if (history && sh->replaying)
         return true;
     if (history && !sh->typed.to)
@@ -50,32 +47,28 @@ static char *beginning(shell *sh) {
     return NULL;
 }
 
-bool do_record(shell *sh, lexer *lx, const command *self) {
+bool do_record(shell *sh, lexer *lx, said *all) {
     char name[FILE_NAME];
-    said s;
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    if (said_of(&s, "off", 0))
+    if (said_of(all, "off", 0))
         return record_end(sh, true) || lex_fail(lx, "nothing is being recorded");
-    if (!hole_file(lx, &s.list[0].hole[0], name))
+    if (!hole_file(lx, &all->list[0].hole[0], name))
         return false;
     char *text = beginning(sh);
     if (!text)
         return calc_no_memory(lx->error);
     const bool ok = record_begin(sh, name, text, lx->error);
     free(text);
-    return ok || heard_place(lx->error, &s.list[0]);
+    return ok || heard_place(lx->error, &all->list[0]);
 }
 
-bool do_replay(shell *sh, lexer *lx, const command *self) {
+bool do_replay(shell *sh, lexer *lx, said *all) {
     char name[FILE_NAME];
-    said s;
-    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
+    if (!hole_file(lx, &all->list[0].hole[0], name))
         return false;
     const int status = shell_replay(name, 0, &sh->set, sh->out, lx->error);
     if (status == EXIT_OK)
         return true;
     if (!lx->error->raised)
         calc_fail(lx->error, 0, 0, "%s does not come out again", name);
-    return heard_place(lx->error, &s.list[0]);
+    return heard_place(lx->error, &all->list[0]);
 }

@@ -105,13 +105,10 @@ static bool can_read(const char *name, calc_error *error) {
     return true;
 }
 
-bool do_live(shell *sh, lexer *lx, const command *self) {
+bool do_live(shell *sh, lexer *lx, said *all) {
     char name[FILE_NAME];
-    said s;
-    if (!said_read(sh, lx, command_form(self), &s))
-        return false;
-    const bool script = s.count > 0;
-    if (script && !hole_file(lx, &s.list[0].hole[0], name))
+    const bool script = all->count > 0;
+    if (script && !hole_file(lx, &all->list[0].hole[0], name))
         return false;
     if (sh->replaying) /* the transcript goes on with the statements that were run on the screen */
         return !script || can_read(name, lx->error);

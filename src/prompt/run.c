@@ -73,16 +73,11 @@ static void add_usage(const command *c, calc_error *error) {
     }
 }
 
-static bool run_command(shell *sh, lexer *lx, const command *c) {
-    const size_t at = lx->at, len = lx->len;
+static bool run_row(shell *sh, lexer *lx, const command *c, said *all) {
     scene_mark *before = NULL;
-    lex_next(lx);
-    const bool bare = lx->kind == T_END;
-    if (lx->error->raised && !grammar_first(command_form(c), HOLE_FILE))
-        return false;
     if (c->changes && !(before = undo_mark(&sh->calc)))
         return calc_no_memory(lx->error);
-    bool ok = c->run(sh, lx, c);
+    bool ok = c->run(sh, lx, all);
     if (c->changes && (ok || c->keeps))
         undo_scene(&sh->calc, before);
     else if (c->changes)
@@ -93,6 +88,20 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
     }
     if (ok && (c->changes || c->returns))
         shell_warn(sh);
+    return ok;
+}
+
+static bool run_command(shell *sh, lexer *lx, const command *c) {
+    const size_t at = lx->at, len = lx->len;
+    const grammar *form = command_form(c);
+    said all;
+    lex_next(lx);
+    const bool bare = lx->kind == T_END;
+    if (lx->error->raised && !grammar_first(form, HOLE_FILE))
+        return false;
+    said_begin(&all, form);
+    const bool ok = (c->reads || said_read(sh, lx, form, &all)) && run_row(sh, lx, c, &all);
+    said_drop(sh, &all);
     if (bare)
         add_usage(c, lx->error);
     return ok || calc_place(lx->error, at, lx->end > at + len ? lx->end - at : len);

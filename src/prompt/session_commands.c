@@ -6,34 +6,29 @@
 #include "statement/command.h"
 #include "statement/setting_table.h"
 
-bool do_source(shell *sh, lexer *lx, const command *self) {
+bool do_source(shell *sh, lexer *lx, said *all) {
     enum { NESTING = 16 };
     char name[FILE_NAME];
-    said s;
-    if (!said_read(sh, lx, command_form(self), &s) || !hole_file(lx, &s.list[0].hole[0], name))
+    if (!hole_file(lx, &all->list[0].hole[0], name))
         return false;
     if (sh->nesting == NESTING)
-        return calc_fail(lx->error, s.list[0].hole[0].at, 1, "scripts are nested more than %d deep", NESTING);
+        return calc_fail(lx->error, all->list[0].hole[0].at, 1, "scripts are nested more than %d deep",
+                         NESTING);
     file_in in;
     if (!file_in_open(&in, name, &shell_stop, lx->error))
-        return heard_place(lx->error, &s.list[0]);
+        return heard_place(lx->error, &all->list[0]);
     sh->nesting++;
     const int status = shell_stream(sh, &in);
     sh->nesting--;
     return status == EXIT_OK;
 }
 
-bool do_set(shell *sh, lexer *lx, const command *self) {
-    said all;
-    if (!said_read(sh, lx, command_form(self), &all))
-        return false;
-    return all.by->shape ? setting_apply(sh, lx, &all) : show_text(sh, show_settings, lx->error);
+bool do_set(shell *sh, lexer *lx, said *all) {
+    return all->by->shape ? setting_apply(sh, lx, all) : show_text(sh, show_settings, lx->error);
 }
 
-bool do_quit(shell *sh, lexer *lx, const command *self) {
-    (void)self;
-    if (!at_end(lx))
-        return false;
+bool do_quit(shell *sh, lexer *lx, said *all) {
+    (void)lx, (void)all;
     sh->quit = true;
     return true;
 }

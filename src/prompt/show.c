@@ -434,8 +434,6 @@ bool show_text(shell *sh, show_part *part, calc_error *error) {
     return (text_end(&t, ok) && ok) || calc_no_memory(error);
 }
 
-bool do_show(shell *sh, lexer *lx, const command *self) {
-    said all;
-    return said_read(sh, lx, command_form(self), &all) &&
-           show_text(sh, shown[all.count ? all.list[0].choice : 0].show, lx->error); /* else the scene */
+bool do_show(shell *sh, lexer *lx, said *all) {
+    return show_text(sh, shown[all->count ? all->list[0].choice : 0].show, lx->error); /* else the scene */
 }

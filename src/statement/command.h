@@ -8,7 +8,9 @@
 
 typedef struct command {
     const char *name;
-    bool (*run)(shell *sh, lexer *lx, const struct command *self); /* the cursor after the command word */
+    /* What has been said is read, the cursor at the end; it is dropped by who calls. */
+    bool (*run)(shell *sh, lexer *lx, said *all);
+    bool reads;          /* by itself: the cursor is behind the command word */
     const char *takes;   /* behind the command word, see grammar.h: it is read by this, and its usage */
     const char *summary; /* one line */
     const char *help;    /* what it does; ends with an example as a transcript, indented by four */
@@ -43,7 +45,7 @@ static inline void command_usage(const command *c, char buf[GRAMMAR_USAGE]) {
 bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]);
 
 /* Rooms of handlers. */
-typedef bool command_run(shell *sh, lexer *lx, const command *self);
+typedef bool command_run(shell *sh, lexer *lx, said *all);
 /* scene_commands.c, load_commands.c */
 command_run do_material, do_second, do_geometry, do_friction, do_rig, do_bulk, do_wear;
 command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;

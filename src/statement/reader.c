@@ -676,10 +676,7 @@ static bool lacks_name(const lexer *lx, const grammar *f) {
 }
 
 bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
-    out->by = f;
-    out->wakes = false;
-    out->count = 0;
-    out->open = NULL;
+    said_begin(out, f);
     if (!read_head(lx, out) || !read_first(sh, lx, out))
         return false;
     f = out->by;
@@ -708,23 +705,29 @@ static bool misspelt(lexer *lx, const said *s) {
 }
 
 /* `sphere 10 mm`, `nu 0.3`: an argument without its name, or its `=`. */
-static bool half_named(lexer *lx, const grammar *f) {
-    const clause *a = f->clause, *end = a + f->count;
+static bool half_named(lexer *lx, const said *s) {
+    const clause *a = s->by->clause, *end = a + s->by->count;
     const bool bare = lx->kind == T_NUMBER || lx->kind == T_MINUS || lx->kind == T_OPEN;
-    char usage[GRAMMAR_USAGE];
+    char lack[LEX_NAME + 60];
     while (a < end && !(a->argument && (bare || lex_is(lx, a->name))))
         a++;
     if (a == end)
         return false;
-    grammar_usage(f, usage);
-    return bare ? !lex_fail(lx, "unexpected '%.*s': a value needs its name; usage: %s", LEX_WORD(lx), usage)
-                : !lex_fail(lx, "expected = after %.*s; usage: %s", LEX_WORD(lx), usage);
+    snprintf(lack, sizeof lack,
+             bare ? "unexpected '%.*s': a value needs its name;" : "expected = after %.*s;", LEX_WORD(lx));
+    return !said_lacks(lx, s, lack);
+}
+
+bool said_lacks(lexer *lx, const said *s, const char *lack) {
+    char usage[GRAMMAR_USAGE];
+    grammar_usage(s->by, usage);
+    return lex_fail(lx, "%s usage: %s", lack, usage);
 }
 
 bool said_end(lexer *lx, const said *s) {
     if (lx->kind == T_COMMA)
         return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", s->by->command);
-    return !misspelt(lx, s) && !half_named(lx, s->by) && at_end(lx);
+    return !misspelt(lx, s) && !half_named(lx, s) && at_end(lx);
 }
 
 bool said_hides(const lexer *lx, const said *s, const char *word) {

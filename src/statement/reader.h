@@ -50,6 +50,13 @@ typedef struct said {
     span changed; /* the NAME of `NAME =` whose value it ends with; len 0: none */
 } said;
 
+/* Nothing has been said of the row so far. */
+static inline void said_begin(said *s, const grammar *f) {
+    s->by = f;
+    s->wakes = false;
+    s->count = 0;
+    s->open = NULL;
+}
 /* All to the end of the statement, the cursor behind the command word. */
 bool said_read(shell *sh, lexer *lx, const grammar *f, said *out);
 /* The same as far as the row goes, and the end behind it: no comma, no word misspelt. Of a statement that is
@@ -59,6 +66,8 @@ bool said_cut(const lexer *lx);
 /* May the clause come, or come again, behind those that have been said? Else an error says why not. */
 bool said_may_come(const lexer *lx, const said *s, const clause *a);
 bool said_end(lexer *lx, const said *s);
+/* An error: `lack` tells what is missing, and how the row is used follows. */
+bool said_lacks(lexer *lx, const said *s, const char *lack);
 /* What is live goes, unless it has been taken over, and what became known. */
 void said_drop(shell *sh, said *s);
 /* The names alone, where another statement comes between; and known again. */
