@@ -11,28 +11,25 @@
 
 /* ---- using ------------------------------------------------------------------------------------- */
 
+/* One of several? */
+static bool is_one_of(const heard *file) {
+    return !strcmp(file->of->name, "at") || !strcmp(file->of->name, "over");
+}
+
 /* The file that a `using` stands behind; NULL: there is none. */
 static const heard *file_before(const said *all, const heard *using) {
     for (const heard *h = using; h-- > all->list;)
-        if (!strcmp(h->of->name, "at") || !strcmp(h->of->name, "over"))
+        if (is_one_of(h))
             return h;
     return NULL;
 }
 
-bool choices_of(const said *all, const heard *of, choices *out, calc_error *error) {
-    out->count = 0;
-    for (const heard *h = all->list; h < all->list + all->count; h++) {
-        if (strcmp(h->of->name, "using") || (of && file_before(all, h) != of))
-            continue;
-        if (out->count == CHOICES)
-            return calc_fail(error, h->at, h->len, "more than %d columns", CHOICES);
-        out->name[out->count] = h->hole[0];
-        out->column[out->count++] = h->hole[1];
-    }
-    return true;
+/* Does a `using` tell of this file? */
+static bool is_chosen(const said *all, const heard *h, const heard *file) {
+    return !strcmp(h->of->name, "using") && (!is_one_of(file) || file_before(all, h) == file);
 }
 
-bool choices_placed(const said *all, calc_error *error) {
+bool columns_placed(const said *all, calc_error *error) {
     for (const heard *h = all->list; h < all->list + all->count; h++)
         if (!strcmp(h->of->name, "using") && !file_before(all, h))
             return calc_fail(error, h->at, h->len, "using stands behind at FILE.csv or over FILE.csv");
@@ -66,8 +63,9 @@ static csv_values *column_at(csv *c, lexer *lx) {
 }
 
 /* Where the file has no unit, or none that is known, one may stand behind the column. */
-static bool read_choice(csv *c, const lexer *lx, const span *name, const span *part) {
-    lexer own = hole_lexer(lx, part);
+static bool read_choice(csv *c, const lexer *lx, const heard *h) {
+    const span *name = &h->hole[0];
+    lexer own = hole_lexer(lx, &h->hole[1]);
     char called[CSV_NAME];
     unit u;
     csv_values *column = column_at(c, &own);
@@ -92,14 +90,14 @@ static bool read_choice(csv *c, const lexer *lx, const span *name, const span *p
     return true;
 }
 
-bool columns_read(const lexer *lx, const span *file, const choices *chosen, csv *out) {
+bool columns_read(const lexer *lx, const said *all, const heard *file, csv *out) {
     char name[FILE_NAME];
     *out = (csv){.path = NULL};
-    if (!hole_file(lx, file, name) || !csv_read(name, &shell_stop, out, lx->error))
-        return calc_place(lx->error, file->at, file->len);
-    for (size_t i = 0; i < chosen->count; i++)
-        if (!read_choice(out, lx, &chosen->name[i], &chosen->column[i]))
-            return calc_place(lx->error, chosen->column[i].at, chosen->column[i].len);
+    if (!hole_file(lx, &file->hole[0], name) || !csv_read(name, &shell_stop, out, lx->error))
+        return heard_place(lx->error, file);
+    for (const heard *h = all->list; h < all->list + all->count; h++)
+        if (is_chosen(all, h, file) && !read_choice(out, lx, h))
+            return calc_place(lx->error, h->hole[1].at, h->hole[1].len);
     return true;
 }
 

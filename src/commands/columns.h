@@ -12,22 +12,12 @@
 #include "study/points.h"
 #include "text/csv.h"
 
-/* What `using` has said. */
-enum { CHOICES = 16 };
-typedef struct choices {
-    span name[CHOICES], column[CHOICES];
-    size_t count;
-} choices;
-
-/* Those of a file, the clauses behind its own and before the next file's; of: NULL, all of a statement with
- * one file. False: too many. */
-bool choices_of(const said *all, const heard *of, choices *out, calc_error *error);
 /* Does every `using` stand behind the file that it tells of, `at FILE` or `over FILE`? */
-bool choices_placed(const said *all, calc_error *error);
+bool columns_placed(const said *all, calc_error *error);
 
-/* The file that stands in the hole, its columns called as chosen. Errors have their place. Free with csv_free
+/* The file of a clause, its columns called as `using` says. Errors have their place. Free with csv_free
  * whatever comes. */
-bool columns_read(const lexer *lx, const span *file, const choices *chosen, csv *out);
+bool columns_read(const lexer *lx, const said *all, const heard *file, csv *out);
 
 /* Of the same dimension, an angle being none of a number? */
 bool same_dim(dim a, dim b);

@@ -66,14 +66,14 @@ static bool read_side(shell *sh, const lexer *lx, const span *part, expr *e) {
     return expr_parse_at(&sh->calc, &own, e) && at_end(&own);
 }
 
-static bool read_equation(shell *sh, lexer *lx, said *all, const choices *chosen, fit_question *q, csv *data,
-                          named_columns *columns, size_t names) {
+static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, named_columns *columns,
+                          size_t names) {
     const heard *sides = said_of(all, "for", 0), *to = said_of(all, "to", 0);
     char layout[CALC_ERROR_TEXT / 2];
     _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
     if (!to)
         return lex_fail(lx, "expected to FILE.csv");
-    if (!columns_read(lx, &to->hole[0], chosen, data) || !columns_wake(sh, data, names, columns, lx->error))
+    if (!columns_read(lx, all, to, data) || !columns_wake(sh, data, names, columns, lx->error))
         return false;
     q->left = &sh->list[0];
     q->right = &sh->list[1];
@@ -94,10 +94,10 @@ static bool read_equation(shell *sh, lexer *lx, said *all, const choices *chosen
     return true;
 }
 
-static bool read_loop(shell *sh, const lexer *lx, const heard *along, const choices *chosen, fit_question *q,
+static bool read_loop(shell *sh, const lexer *lx, const said *all, const heard *along, fit_question *q,
                       csv *data) {
     calc_error *error = lx->error;
-    if (!columns_read(lx, &along->hole[0], chosen, data))
+    if (!columns_read(lx, all, along, data))
         return false;
     const bool force = csv_has(data, "FN"), depth = !force && csv_has(data, "dz");
     q->loop.normal_by = depth ? BY_DISPLACEMENT : BY_FORCE;
@@ -148,15 +148,13 @@ static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data
                      size_t names) {
     const heard *along = said_of(all, "along", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
-    choices chosen;
     q->c = &sh->calc;
-    if (!read_names(sh, &own, q) || !choices_of(all, NULL, &chosen, lx->error) ||
-        !read_noise(lx, all, &q->loop))
+    if (!read_names(sh, &own, q) || !read_noise(lx, all, &q->loop))
         return false;
     if (!along && !said_of(all, "for", 0))
         return lex_fail(lx, "expected for EXPR = EXPR to FILE.csv, or along FILE.csv");
-    return along ? read_loop(sh, lx, along, &chosen, q, data)
-                 : read_equation(sh, lx, all, &chosen, q, data, columns, names);
+    return along ? read_loop(sh, lx, all, along, q, data)
+                 : read_equation(sh, lx, all, q, data, columns, names);
 }
 
 /* ---- fit: what is said ------------------------------------------------------------------------- */

@@ -623,11 +623,7 @@ static bool follow_file(shell *sh, csv *data, calc_error *error) {
 bool do_follow(shell *sh, lexer *lx, said *all) {
     static const char *const names[] = {"FN", "Fx", "dx", "c", NULL};
     csv data;
-    choices chosen;
-    if (!choices_of(all, NULL, &chosen, lx->error))
-        return false;
-    const bool ok =
-        columns_read(lx, &all->list[0].hole[0], &chosen, &data) && follow_file(sh, &data, lx->error);
+    const bool ok = columns_read(lx, all, &all->list[0], &data) && follow_file(sh, &data, lx->error);
     csv_free(&data);
     if (!ok)
         return heard_place(lx->error, &all->list[0]);

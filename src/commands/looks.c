@@ -13,26 +13,26 @@ typedef struct reading {
     const said *all;
     const heard *said;
     plot_panel *p;
+    size_t at; /* of what is set, in it */
     looks *out;
 } reading;
 
-static bool read_text(const reading *r, char **text) {
+/* What the row sets, of the panel. */
+static void *place(const reading *r) {
+    return (char *)r->p + r->at;
+}
+
+static bool read_text(const reading *r) {
     const span *quoted = &r->said->hole[0];
+    char **text = place(r);
     free(*text);
     *text = strndup(r->lx->text + quoted->at + 1, quoted->len - 2);
     return *text || calc_no_memory(r->lx->error);
 }
 
-static bool read_title(const reading *r) {
-    return read_text(r, &r->p->title);
-}
-
-static bool read_xlabel(const reading *r) {
-    return read_text(r, &r->p->xlabel);
-}
-
-static bool read_ylabel(const reading *r) {
-    return read_text(r, &r->p->ylabel);
+static bool read_flag(const reading *r) {
+    *(bool *)place(r) = true;
+    return true;
 }
 
 static bool read_limits(const reading *r) {
@@ -70,23 +70,13 @@ static bool read_flip(const reading *r) {
     return true;
 }
 
-static bool read_key(const reading *r) {
-    r->p->key_off = true;
-    return true;
-}
-
-static bool read_points(const reading *r) {
-    r->p->points = true;
-    return true;
-}
-
 static bool read_over(const reading *r) {
     const span *name = &r->said->hole[0];
     looks *l = r->out;
     if (l->files == OVER)
         return calc_fail(r->lx->error, name->at, name->len, "more than %d files", OVER);
-    l->over[l->files] = *name;
-    return choices_of(r->all, r->said, &l->chosen[l->files++], r->lx->error);
+    l->over[l->files++] = r->said;
+    return true;
 }
 
 static bool read_residuals(const reading *r) {
@@ -96,18 +86,25 @@ static bool read_residuals(const reading *r) {
 
 /* Taken with its file. */
 static bool read_using(const reading *r) {
-    return choices_placed(r->all, r->lx->error);
+    return columns_placed(r->all, r->lx->error);
 }
 
 static const struct {
     const char *line;
     bool (*read)(const reading *r);
-} rows[] = {{"[title TEXT]*", read_title},       {"[xlabel TEXT]*", read_xlabel},
-            {"[ylabel TEXT]*", read_ylabel},     {"[xrange LO .. HI]*", read_limits},
-            {"[yrange LO .. HI]*", read_limits}, {"[log AXES]*", read_log},
-            {"[flip AXES]*", read_flip},         {"[key OFF]*", read_key},
-            {"[points]*", read_points},          {"[over FILE]*", read_over},
-            {"[residuals]*", read_residuals},    {"[using NAME = COLUMN, ...]*", read_using}};
+    size_t at; /* of what it sets, in the panel */
+} rows[] = {{"[title TEXT]*", read_text, offsetof(plot_panel, title)},
+            {"[xlabel TEXT]*", read_text, offsetof(plot_panel, xlabel)},
+            {"[ylabel TEXT]*", read_text, offsetof(plot_panel, ylabel)},
+            {"[xrange LO .. HI]*", read_limits, 0},
+            {"[yrange LO .. HI]*", read_limits, 0},
+            {"[log AXES]*", read_log, 0},
+            {"[flip AXES]*", read_flip, 0},
+            {"[key OFF]*", read_flag, offsetof(plot_panel, key_off)},
+            {"[points]*", read_flag, offsetof(plot_panel, points)},
+            {"[over FILE]*", read_over, 0},
+            {"[residuals]*", read_residuals, 0},
+            {"[using NAME = COLUMN, ...]*", read_using, 0}};
 enum { ROWS = sizeof rows / sizeof *rows };
 
 const char *look_line(size_t i) {
@@ -116,9 +113,11 @@ const char *look_line(size_t i) {
 
 bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out) {
     out->sh = sh;
+    out->all = all;
     for (const heard *h = all->list; h < all->list + all->count; h++)
         for (size_t i = 0; i < ROWS; i++)
-            if (h->of->text == rows[i].line + 1 && !rows[i].read(&(reading){sh, lx, all, h, p, out}))
+            if (h->of->text == rows[i].line + 1 &&
+                !rows[i].read(&(reading){sh, lx, all, h, p, rows[i].at, out}))
                 return false;
     return true;
 }
@@ -209,19 +208,20 @@ static bool find_columns(csv *c, const axis_of *x, const axis_of *y, csv_values 
     return !error->raised && is_fit(c, *of_x, x, error) && is_fit(c, *of_y, y, error) && csv_settle(c, error);
 }
 
+const char *file_of(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 static bool lay_file(lexer *lx, const looks *l, size_t file, plot_panel *p, const axis_of *x,
                      const axis_of *y) {
-    const span *of = &l->over[file];
+    const heard *of = l->over[file];
     csv c;
     csv_values *of_x, *of_y;
-    char name[FILE_NAME];
-    if (!hole_file(lx, of, name))
-        return false;
-    const char *slash = strrchr(name, '/');
-    bool ok = columns_read(lx, of, &l->chosen[file], &c) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
+    bool ok = columns_read(lx, l->all, of, &c) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
     if (!ok)
-        calc_place(lx->error, of->at, of->len);
-    plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, slash ? slash + 1 : name, lx->error) : NULL;
+        heard_place(lx->error, of);
+    plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, file_of(c.path), lx->error) : NULL;
     for (size_t j = 0; s && ok && j < c.rows; j++)
         ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);
     if (ok && s)

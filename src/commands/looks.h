@@ -20,8 +20,8 @@ typedef struct limits {
 typedef struct looks {
     limits x, y;
     size_t files;
-    span over[OVER];
-    choices chosen[OVER]; /* of their columns */
+    const said *all; /* where they are said: */
+    const heard *over[OVER];
     shell *sh;
     bool residuals;
 } looks;

@@ -99,15 +99,12 @@ static bool read_columns(csv *data, bool *turned, csv_values **dx, csv_values **
 }
 
 bool do_loop(shell *sh, lexer *lx, said *all) {
-    choices chosen;
     csv data;
     csv_values *dx, *Fx;
     loop_answer l = {.cycle = NULL};
     bool turned;
     char more[128];
-    if (!choices_of(all, NULL, &chosen, lx->error))
-        return false;
-    bool ok = columns_read(lx, &all->list[0].hole[0], &chosen, &data) &&
+    bool ok = columns_read(lx, all, &all->list[0], &data) &&
               read_columns(&data, &turned, &dx, &Fx, lx->error) &&
               loop_find(dx->v, Fx->v, data.rows, &l, lx->error);
     if (ok) {

@@ -78,7 +78,8 @@ static bool give_values(shell *sh, lexer *lx, const grid *g, const grid_values *
     p->logx = p->logx || g->a.log;
     p->logy = p->logy || g->b.log;
     if (l->files)
-        return calc_fail(lx->error, l->over[0].at, l->over[0].len, "points cannot lie over a map");
+        return calc_fail(lx->error, l->over[0]->hole[0].at, l->over[0]->hole[0].len,
+                         "points cannot lie over a map");
     const axis_unit of_x = scale(m->x, of->a, m->nx, NULL, x.d), of_y = scale(m->y, of->b, m->ny, NULL, y.d),
                     of_z = scale(m->z, of->v, m->nx * m->ny, c, d);
     m->label = plot_label(c->name, of_z.text);

@@ -508,10 +508,10 @@ static bool take_residuals(panel_job *job, const lexer *lx, range *r, file_rows 
     if (!l->residuals)
         return true;
     if (l->files != 1 || r->sweep.along || r->sweep.at || job->against)
-        return calc_fail(lx->error, l->over[0].at, l->over[0].len,
+        return calc_fail(lx->error, l->over[0]->hole[0].at, l->over[0]->hole[0].len,
                          "residuals are of EXPR, ... for NAME = LO .. HI over one FILE.csv");
     job->measured = from;
-    return rows_over(lx, &l->over[0], &l->chosen[0], &r->sweep, from);
+    return rows_over(lx, l->all, l->over[0], &r->sweep, from);
 }
 
 /* EXPR, ... against EXPR, and such again behind commas: what is drawn, then the abscissas. */
@@ -571,7 +571,7 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
              ((job->moved && job->figure) || range_options(sh, lx, all, 0, &r, 0));
     ok = ok && take_residuals(job, lx, &r, &at) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
     if (!ok && job->measured)
-        calc_place(lx->error, job->looks->over[0].at, job->looks->over[0].len);
+        heard_place(lx->error, job->looks->over[0]);
     if (ok && at.given && !(job->m && job->m->at))
         rows_say(sh, &at);
     rows_close(&at);
@@ -681,7 +681,7 @@ static bool draw_panel(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *
     plot_panel *p = plot_panel_add(f, lx->error);
     if (!p)
         return calc_place(lx->error, as->at, 1);
-    looks l = {.over = {{0, 0}}};
+    looks l = {.files = 0};
     panel_job job = {.sh = sh,
                      .p = p,
                      .looks = &l,

@@ -7,13 +7,12 @@
 
 bool rows_open(shell *sh, const lexer *lx, said *all, file_rows *out) {
     const heard *at = said_of(all, "at", 0);
-    choices chosen;
     out->given = at != NULL;
     out->data = (csv){.path = NULL};
-    if (!choices_placed(all, lx->error) || !at)
+    if (!columns_placed(all, lx->error) || !at)
         return !lx->error->raised;
     all->wakes = true;
-    return (choices_of(all, at, &chosen, lx->error) && columns_read(lx, &at->hole[0], &chosen, &out->data) &&
+    return (columns_read(lx, all, at, &out->data) &&
             columns_wake(sh, &out->data, all->names, &out->names, lx->error)) ||
            heard_place(lx->error, at);
 }
@@ -51,17 +50,17 @@ bool rows_range(shell *sh, const lexer *lx, said *all, file_rows *r, size_t coun
     return true;
 }
 
-bool rows_over(const lexer *lx, const span *file, const choices *chosen, sweep *over, file_rows *out) {
+bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over, file_rows *out) {
     const axis_of axis = {over->var.text, over->var.d};
     out->given = true;
-    if (!columns_read(lx, file, chosen, &out->data))
+    if (!columns_read(lx, all, file, &out->data))
         return false;
     const csv_values *x = looks_column(&out->data, &axis, true, lx->error);
     if (!x && !lx->error->raised)
         calc_fail(lx->error, 0, 0, "no column of %.200s, or more than one, is as %s", out->data.path,
                   axis.name);
     if (!x || !csv_settle(&out->data, lx->error))
-        return calc_place(lx->error, file->at, file->len);
+        return heard_place(lx->error, file);
     out->names.column[0] = (column_knob){over->var, x->v};
     out->names.turned = false;
     out->at = (sweep_rows){1, out->names.column};

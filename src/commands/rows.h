@@ -23,7 +23,7 @@ void rows_close(file_rows *r);
  */
 bool rows_range(shell *sh, const lexer *lx, said *all, file_rows *r, size_t count, sweep *out);
 /* The rows of a file over a range of one name, which it has a column for. */
-bool rows_over(const lexer *lx, const span *file, const choices *chosen, sweep *over, file_rows *out);
+bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over, file_rows *out);
 /* What was understood, behind what has been compared. */
 void rows_say(shell *sh, const file_rows *r);
 

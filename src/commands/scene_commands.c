@@ -379,13 +379,13 @@ static void report_apex(shell *sh, const apex *top) {
 }
 
 /* As `show` writes the columns again. */
-static bool write_choices(const lexer *lx, const choices *chosen, char text[CHOSEN], calc_error *error) {
+static bool write_choices(const lexer *lx, said *all, char text[CHOSEN], calc_error *error) {
+    const heard *h;
     size_t n = 0;
     *text = 0;
-    for (size_t i = 0; i < chosen->count && n < CHOSEN; i++)
-        n += (size_t)snprintf(text + n, CHOSEN - n, "%s%.*s=%.*s", i ? ", " : " using ",
-                              (int)chosen->name[i].len, lx->text + chosen->name[i].at,
-                              (int)chosen->column[i].len, lx->text + chosen->column[i].at);
+    for (size_t i = 0; (h = said_of(all, "using", i)) && n < CHOSEN; i++)
+        n += (size_t)snprintf(text + n, CHOSEN - n, "%s%.*s=%.*s", i ? ", " : " using ", (int)h->hole[0].len,
+                              lx->text + h->hole[0].at, (int)h->hole[1].len, lx->text + h->hole[1].at);
     return n < CHOSEN || calc_fail(error, 0, 0, "the names of the columns are too long");
 }
 
@@ -395,14 +395,12 @@ static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
     smoothing how = {.by = SMOOTH_NOT};
     smooth_answer smoothed = {.pieces = 0};
     apex top = {.both = false};
-    choices chosen;
     csv data;
     how.height = said_of(s, "height", 0) != NULL;
-    if (!hole_file(lx, &s->list[0].hole[0], name) || !choices_of(s, NULL, &chosen, lx->error) ||
-        !write_choices(lx, &chosen, how.columns, lx->error) ||
+    if (!hole_file(lx, &s->list[0].hole[0], name) || !write_choices(lx, s, how.columns, lx->error) ||
         (smoothly && !read_smoothing(sh, lx, &smoothly->hole[0], &how)))
         return false;
-    bool ok = columns_read(lx, &s->list[0].hole[0], &chosen, &data);
+    bool ok = columns_read(lx, s, &s->list[0], &data);
     if (ok) {
         struct fret_table *gap = table_of(&data, how, &smoothed, &top, lx->error);
         e->table = gap ? shared_table_make(gap, name, how) : NULL;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "commands/columns.h"
 #include "commands/expressions.h"
 #include "commands/range.h"
 #include "statement/progress.h"
@@ -336,22 +337,21 @@ static bool take_given(csv *file, uncertainty_question *q, const csv_values *giv
     return true;
 }
 
-static bool sum_given(const lexer *lx, uncertainty_question *q, uncertainty_answer *a, const heard *from) {
+static bool sum_given(const lexer *lx, const said *all, uncertainty_question *q, uncertainty_answer *a,
+                      const heard *from) {
     const csv_values *given[UNCERTAIN_VALUES];
     const double *values[UNCERTAIN_VALUES];
-    char name[FILE_NAME], is[128], has[128];
-    csv file = {0};
-    bool ok =
-        hole_file(lx, &from->hole[0], name) &&
-        ((csv_read(name, &shell_stop, &file, lx->error) && take_given(&file, q, given, values, lx->error)) ||
-         heard_place(lx->error, from)) &&
-        uncertainty(q, a, lx->error);
+    char is[128], has[128];
+    csv file;
+    bool ok = columns_read(lx, all, from, &file) &&
+              (take_given(&file, q, given, values, lx->error) || heard_place(lx->error, from)) &&
+              uncertainty(q, a, lx->error);
     for (size_t k = 0; k < q->expressions && ok; k++) {
         dim_describe(a->value[k].d, is, sizeof is);
         dim_describe(given[k]->d, has, sizeof has);
         ok = dim_equal(a->value[k].d, given[k]->d) ||
              calc_fail(lx->error, q->e[k].at, q->e[k].len, "this is %s, and %s of %.200s is %s", is,
-                       given[k]->name, name, has);
+                       given[k]->name, file.path, has);
     }
     csv_free(&file);
     return ok;
@@ -439,7 +439,7 @@ bool do_uncertainty(shell *sh, lexer *lx, said *all) {
     if (ok && sh->share.of && !from)
         ok = share_samples(sh, &q, a, lx->error);
     else
-        ok = ok && (from ? sum_given(lx, &q, a, from) : uncertainty(&q, a, lx->error)) &&
+        ok = ok && (from ? sum_given(lx, all, &q, a, from) : uncertainty(&q, a, lx->error)) &&
              print_uncertain(sh, &q, a, columns, lx->error);
     columns_free(columns, q.expressions);
     free(a);
