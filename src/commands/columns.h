@@ -7,6 +7,8 @@
 #ifndef COMMANDS_COLUMNS_H
 #define COMMANDS_COLUMNS_H
 
+#include <string.h>
+
 #include "language/expr.h"
 #include "statement/reader.h"
 #include "study/points.h"
@@ -18,6 +20,12 @@ bool columns_placed(const said *all, calc_error *error);
 /* The file of a clause, its columns called as `using` says. Errors have their place. Free with csv_free
  * whatever comes. */
 bool columns_read(const lexer *lx, const said *all, const heard *file, csv *out);
+
+/* Without its directories. */
+static inline const char *columns_file(const csv *c) {
+    const char *slash = strrchr(c->path, '/');
+    return slash ? slash + 1 : c->path;
+}
 
 /* Of the same dimension, an angle being none of a number? */
 bool same_dim(dim a, dim b);

@@ -247,16 +247,6 @@ static bool run_borders(shell *sh, range *over, regimes *r) {
     return ok;
 }
 
-/* An axis with its ends: the points come in SI. */
-static bool finish_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
-                        const sweep_range *ends) {
-    const axis_unit u = axis_unit_for(NULL, axis->d, fmax(fabs((double)ends->lo), fabs((double)ends->hi)));
-    looks_divide(p, x_axis, u.scale);
-    *(x_axis ? &p->xlo : &p->ylo) = (double)(ends->lo / u.scale);
-    *(x_axis ? &p->xhi : &p->yhi) = (double)(ends->hi / u.scale);
-    return looks_axis(lx, l, p, x_axis, axis, &u);
-}
-
 /* Where all sticks, its rim slips, or all slips, over the amplitude of displacement and an input. */
 static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     range r[2];
@@ -280,7 +270,9 @@ static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const
         if (r[i].listed || !(ends[i].lo < ends[i].hi))
             return calc_fail(lx->error, r[i].own.at, r[i].own.end - r[i].own.at,
                              "expected LO .. HI, LO below HI");
-        axis[i] = (axis_of){s->var.text, s->var.d};
+        axis[i] = (axis_of){.name = s->var.text, .d = s->var.d};
+        *(i ? &p->ylo : &p->xlo) = (double)ends[i].lo;
+        *(i ? &p->yhi : &p->xhi) = (double)ends[i].hi;
     }
     p->logx = p->logx || r[0].sweep.log;
     p->logy = p->logy || r[1].sweep.log;
@@ -291,14 +283,13 @@ static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const
     if (!p->title)
         return calc_no_memory(lx->error);
     return run_borders(sh, &r[amplitude[0]], &drawn) && draw_regimes(&drawn) &&
-           looks_lay_over(lx, l, p, &axis[0], &axis[1]) && finish_axis(lx, l, p, true, &axis[0], &ends[0]) &&
-           finish_axis(lx, l, p, false, &axis[1], &ends[1]);
+           looks_lay_over(lx, l, p, &axis[0], &axis[1]) && looks_axis(lx, l, p, true, &axis[0]) &&
+           looks_axis(lx, l, p, false, &axis[1]);
 }
 
 /* Error against time, one curve a model. */
 bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     static const axis_of time = {.name = "time of a cycle [s]"}, loss = {.name = "relative error"};
-    static const axis_unit plain = {.scale = 1};
     accuracy_study study;
     char text[400], load[360];
     plot_series *series = NULL;
@@ -321,6 +312,6 @@ bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks
     if (!p->title || !p->xlabel || !p->ylabel)
         return calc_no_memory(lx->error);
     p->logx = p->logy = p->points = p->airy = true;
-    return looks_lay_over(lx, l, p, &time, &loss) && looks_axis(lx, l, p, true, &time, &plain) &&
-           looks_axis(lx, l, p, false, &loss, &plain);
+    return looks_lay_over(lx, l, p, &time, &loss) && looks_axis(lx, l, p, true, &time) &&
+           looks_axis(lx, l, p, false, &loss);
 }

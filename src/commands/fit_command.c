@@ -438,7 +438,6 @@ static void place_points(const fit_question *q, struct fitted *f) {
 static bool keep_fit(shell *sh, const fit_question *q, const fit_answer *a, const csv *data,
                      calc_error *error) {
     struct fitted *f = calloc(1, sizeof *f);
-    const char *slash = strrchr(data->path, '/');
     if (!f)
         return calc_no_memory(error);
     fit_forget(sh);
@@ -451,7 +450,7 @@ static bool keep_fit(shell *sh, const fit_question *q, const fit_answer *a, cons
     f->over = f->measured + f->rows;
     f->curve = f->over + f->rows;
     place_points(q, f);
-    snprintf(f->file, sizeof f->file, "%s", slash ? slash + 1 : data->path);
+    snprintf(f->file, sizeof f->file, "%s", columns_file(data));
     snprintf(f->up, sizeof f->up, "%.*s", q->left ? LEX_SHOWN(q->left->len) : 2,
              q->left ? q->left->text + q->left->at : "Fx");
     f->up_d = q->left ? a->d : DIM_FORCE;
@@ -477,21 +476,6 @@ static plot_series *add_places(plot_panel *p, plot_role role, const char *title,
     return s;
 }
 
-static bool finish_axes(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y) {
-    const axis_of *of[] = {y, x};
-    for (size_t i = 0; i < 2; i++) {
-        const plot_series *s = p->series[0];
-        double most = 0;
-        for (size_t j = 0; j < s->count; j++)
-            most = fmax(most, fabs(i ? s->x[j] : s->y[j]));
-        const axis_unit u = axis_unit_for(NULL, of[i]->d, most);
-        looks_divide(p, i, u.scale);
-        if (!looks_axis(lx, l, p, i, of[i], &u))
-            return false;
-    }
-    return true;
-}
-
 /* The key has the curve to each name. */
 bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     const struct fitted *f = sh->fitted;
@@ -506,7 +490,8 @@ bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) 
         ok = s != NULL;
     }
     p->airy = true;
-    return ok && finish_axes(lx, l, p, &(axis_of){f->across, f->across_d}, &(axis_of){f->up, f->up_d});
+    return ok && looks_axis(lx, l, p, true, &(axis_of){.name = f->across, .d = f->across_d}) &&
+           looks_axis(lx, l, p, false, &(axis_of){.name = f->up, .d = f->up_d});
 }
 
 bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
@@ -523,7 +508,8 @@ bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const 
         return calc_no_memory(lx->error);
     p->airy = true;
     return add_places(p, PLOT_MEASURED, NULL, f->over, f->rows, lx->error) &&
-           finish_axes(lx, &plain, p, &(axis_of){f->across, f->across_d}, &(axis_of){"residual", f->over_d});
+           looks_axis(lx, &plain, p, true, &(axis_of){.name = f->across, .d = f->across_d}) &&
+           looks_axis(lx, &plain, p, false, &(axis_of){.name = "residual", .d = f->over_d});
 }
 
 bool do_fit(shell *sh, lexer *lx, said *all) {

@@ -2,6 +2,8 @@
 /* The table of looks, and measured points from files. Touches the panel only. */
 #include "commands/looks.h"
 
+#include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -208,11 +210,6 @@ static bool find_columns(csv *c, const axis_of *x, const axis_of *y, csv_values 
     return !error->raised && is_fit(c, *of_x, x, error) && is_fit(c, *of_y, y, error) && csv_settle(c, error);
 }
 
-const char *file_of(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 static bool lay_file(lexer *lx, const looks *l, size_t file, plot_panel *p, const axis_of *x,
                      const axis_of *y) {
     const heard *of = l->over[file];
@@ -221,7 +218,7 @@ static bool lay_file(lexer *lx, const looks *l, size_t file, plot_panel *p, cons
     bool ok = columns_read(lx, l->all, of, &c) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
     if (!ok)
         heard_place(lx->error, of);
-    plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, file_of(c.path), lx->error) : NULL;
+    plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, columns_file(&c), lx->error) : NULL;
     for (size_t j = 0; s && ok && j < c.rows; j++)
         ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);
     if (ok && s)
@@ -239,6 +236,51 @@ bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, 
 
 /* ---- axes -------------------------------------------------------------------------------------- */
 
+/* All numbers along an axis. */
+static void see_all(const plot_panel *p, bool x_axis, void (*see)(double *v, void *context), void *context) {
+    for (size_t i = 0; i < p->count; i++) {
+        const plot_series *s = p->series[i];
+        for (size_t j = 0; j < s->count; j++) {
+            see(x_axis ? &s->x[j] : &s->y[j], context);
+            if (!x_axis && s->y2)
+                see(&s->y2[j], context);
+        }
+    }
+    for (size_t i = 0; i < (x_axis ? p->map.nx : p->map.ny); i++)
+        see(x_axis ? &p->map.x[i] : &p->map.y[i], context);
+}
+
+static void span_over(double *v, void *context) {
+    axis_extent *e = context;
+    if (!isfinite(*v))
+        return;
+    e->lo = fmin(e->lo, *v);
+    e->hi = fmax(e->hi, *v);
+    e->least = *v > 0 ? fmin(e->least, *v) : e->least;
+}
+
+axis_extent looks_extent(const plot_panel *p, bool x_axis) {
+    axis_extent e = {INFINITY, -INFINITY, INFINITY};
+    see_all(p, x_axis, span_over, &e);
+    return e;
+}
+
+static void divide(double *v, void *context) {
+    *v = (double)(*v / *(const long double *)context);
+}
+
+/* What the unit is to fit: the largest value, on a logarithmic axis the middle. */
+static double typical(const plot_panel *p, bool x_axis) {
+    const double lo = fabs(x_axis ? p->xlo : p->ylo), hi = fabs(x_axis ? p->xhi : p->yhi);
+    const bool given = isfinite(lo) && isfinite(hi);
+    const axis_extent e = looks_extent(p, x_axis);
+    const double most = given         ? fmax(lo, hi)
+                        : e.lo > e.hi ? 0
+                                      : fmax(fabs(e.lo), fabs(e.hi)),
+                 least = given ? fmin(lo, hi) : e.least;
+    return (x_axis ? p->logx : p->logy) && least > 0 && least < most ? sqrt(least) * sqrt(most) : most;
+}
+
 axis_unit axis_unit_for(const column *c, dim d, double size) {
     axis_unit u;
     column own = c ? *c : (column){.row = NULL};
@@ -247,31 +289,22 @@ axis_unit axis_unit_for(const column *c, dim d, double size) {
     return u;
 }
 
-void looks_divide(plot_panel *p, bool x_axis, long double scale) {
-    for (size_t i = 0; i < p->count; i++) {
-        plot_series *s = p->series[i];
-        for (size_t j = 0; j < s->count; j++) {
-            double *v = x_axis ? &s->x[j] : &s->y[j];
-            *v = (double)(*v / scale);
-            if (!x_axis && s->y2)
-                s->y2[j] = (double)(s->y2[j] / scale);
-        }
-    }
-}
-
-bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
-                const axis_unit *u) {
+bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis) {
     const limits *given = x_axis ? &l->x : &l->y;
     char **label = x_axis ? &p->xlabel : &p->ylabel;
-    if (!*label)
-        *label = plot_label(axis->name, u->text);
-    if (!*label)
-        return calc_no_memory(lx->error);
+    double *end[] = {x_axis ? &p->xlo : &p->ylo, x_axis ? &p->xhi : &p->yhi};
+    axis_unit own = {.scale = 0}, *u = axis->unit ? axis->unit : &own;
     for (int i = 0; given->given && i < 2; i++) {
         if (!value_dim(lx, x_axis ? "xrange" : "yrange", given->at, given->len, given->end[i], axis->d))
             return false;
-        const double v = (double)(given->end[i].v / u->scale);
-        *(x_axis ? i ? &p->xhi : &p->xlo : i ? &p->yhi : &p->ylo) = v;
+        *end[i] = (double)given->end[i].v;
     }
-    return true;
+    if (u->scale == 0)
+        *u = axis_unit_for(axis->like, axis->d, typical(p, x_axis));
+    see_all(p, x_axis, divide, &u->scale);
+    for (int i = 0; i < 2; i++)
+        divide(end[i], &u->scale);
+    if (!*label)
+        *label = plot_label(axis->name, u->text);
+    return *label || calc_no_memory(lx->error);
 }

@@ -32,10 +32,18 @@ const char *axes_name(size_t i);
 /* All that have been said. */
 bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out);
 
+/* The unit of an axis; scale 0: it is not known yet. */
+typedef struct axis_unit {
+    long double scale;
+    char text[COLUMN_UNIT];
+} axis_unit;
+
 /* An axis as the points on it stand, in SI. */
 typedef struct axis_of {
     const char *name;
     dim d;
+    const column *like; /* asks for a unit, or not; or NULL */
+    axis_unit *unit;    /* to be kept, or as it has been; or NULL */
 } axis_of;
 
 /* The column of that name, read, or with an error not whole or not of that dimension; else, if alone, the
@@ -43,18 +51,16 @@ typedef struct axis_of {
 const csv_values *looks_column(csv *c, const axis_of *axis, bool alone, calc_error *error);
 /* Adds the measured points, in SI. */
 bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, const axis_of *y);
-/* The unit of an axis. */
-typedef struct axis_unit {
-    long double scale;
-    char text[COLUMN_UNIT];
-} axis_unit;
+/* What is drawn along an axis: the ends, and the least above 0. Of nothing lo is above hi. */
+typedef struct axis_extent {
+    double lo, hi, least;
+} axis_extent;
+axis_extent looks_extent(const plot_panel *p, bool x_axis);
 
-/* The one that its column asks for (c may be NULL), or with a prefix that fits the size. */
+/* The unit that the column asks for (c may be NULL), or with a prefix that fits the size. */
 axis_unit axis_unit_for(const column *c, dim d, double size);
-/* All points into that unit. */
-void looks_divide(plot_panel *p, bool x_axis, long double scale);
-/* The label, where none was given, and the limits in that unit. */
-bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis,
-                const axis_unit *u);
+/* All that is drawn, and the limits, into the unit of the axis: one that suits them, unless it is known or
+ * asked for. The label, where none was given. */
+bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axis_of *axis);
 
 #endif

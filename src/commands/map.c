@@ -42,16 +42,14 @@ static double largest(const long double *v, size_t n) {
     return most;
 }
 
-static axis_unit scale(double *to, const long double *v, size_t n, const column *c, dim d) {
-    const axis_unit u = axis_unit_for(c, d, largest(v, n));
+static void copy(double *to, const long double *v, size_t n, long double scale) {
     for (size_t i = 0; i < n; i++)
-        to[i] = (double)(v[i] / u.scale);
-    return u;
+        to[i] = (double)(v[i] / scale);
 }
 
 /* Of stress inside, over a plane through the middle: z goes down, and where it is the surface, the contact is
- * marked. scale: of x. */
-static bool show_body(shell *sh, const grid *g, double scale_of_x, plot_panel *p, calc_error *error) {
+ * marked. */
+static bool show_body(shell *sh, const grid *g, plot_panel *p, calc_error *error) {
     const char *x = g->a.var.text, *z = g->b.var.text;
     const plot_map *m = &p->map;
     const fret_press *press;
@@ -65,7 +63,7 @@ static bool show_body(shell *sh, const grid *g, double scale_of_x, plot_panel *p
     p->flipy = true;
     if (m->y[0] * m->y[m->ny - 1] > 0 || !scene_press(sh->calc.now, &press, error_quiet()))
         return true;
-    const double a = (double)press->a / scale_of_x, lo = fmax(-a, fmin(m->x[0], m->x[m->nx - 1])),
+    const double a = (double)press->a, lo = fmax(-a, fmin(m->x[0], m->x[m->nx - 1])),
                  hi = fmin(a, fmax(m->x[0], m->x[m->nx - 1]));
     plot_series *s = lo < hi ? plot_series_add(p, PLOT_CURVE, NULL, error) : NULL;
     return s ? (plot_point(s, lo, 0) && plot_point(s, hi, 0)) || calc_no_memory(error) : !error->raised;
@@ -74,17 +72,19 @@ static bool show_body(shell *sh, const grid *g, double scale_of_x, plot_panel *p
 static bool give_values(shell *sh, lexer *lx, const grid *g, const grid_values *of, const looks *l,
                         const column *c, dim d, plot_panel *p) {
     plot_map *m = &p->map;
-    const axis_of x = {g->a.var.text, g->a.var.d}, y = {g->b.var.text, g->b.var.d};
+    const axis_of x = {.name = g->a.var.text, .d = g->a.var.d}, y = {.name = g->b.var.text, .d = g->b.var.d};
     p->logx = p->logx || g->a.log;
     p->logy = p->logy || g->b.log;
     if (l->files)
         return calc_fail(lx->error, l->over[0]->hole[0].at, l->over[0]->hole[0].len,
                          "points cannot lie over a map");
-    const axis_unit of_x = scale(m->x, of->a, m->nx, NULL, x.d), of_y = scale(m->y, of->b, m->ny, NULL, y.d),
-                    of_z = scale(m->z, of->v, m->nx * m->ny, c, d);
-    m->label = plot_label(c->name, of_z.text);
-    return (m->label || calc_no_memory(lx->error)) && show_body(sh, g, (double)of_x.scale, p, lx->error) &&
-           looks_axis(lx, l, p, true, &x, &of_x) && looks_axis(lx, l, p, false, &y, &of_y);
+    const axis_unit z = axis_unit_for(c, d, largest(of->v, m->nx * m->ny));
+    copy(m->x, of->a, m->nx, 1);
+    copy(m->y, of->b, m->ny, 1);
+    copy(m->z, of->v, m->nx * m->ny, z.scale);
+    m->label = plot_label(c->name, z.text);
+    return (m->label || calc_no_memory(lx->error)) && show_body(sh, g, p, lx->error) &&
+           looks_axis(lx, l, p, true, &x) && looks_axis(lx, l, p, false, &y);
 }
 
 static bool run_map(shell *sh, lexer *lx, const grid *g, column *c, const looks *l, plot_panel *p) {

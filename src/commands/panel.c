@@ -175,7 +175,7 @@ static bool is_over(const panel_job *job, const sweep *s, long double time) {
 
 /* What is measured less what the expressions say. */
 static bool subtract(panel_job *job, const long double *values, long double *left) {
-    const axis_of axis = {job->columns[0].name, job->found.d[0]};
+    const axis_of axis = {.name = job->columns[0].name, .d = job->found.d[0]};
     comparison *c = &job->residuals;
     if (!c->with)
         c->with = rows_compared(job->measured, &axis, true, job->error);
@@ -233,24 +233,11 @@ static bool mark_now(panel_job *job) {
     return now && (!job->lost || calc_no_memory(job->error));
 }
 
-/* The ends of what is drawn. */
-static void ends_of(const plot_panel *p, bool x_axis, double *lo, double *hi) {
-    *lo = INFINITY;
-    *hi = -INFINITY;
-    for (size_t i = 0; i < p->count; i++)
-        for (size_t j = 0; j < p->series[i]->count; j++) {
-            const double v = x_axis ? p->series[i]->x[j] : p->series[i]->y[j];
-            *lo = isfinite(v) ? fmin(*lo, v) : *lo;
-            *hi = isfinite(v) ? fmax(*hi, v) : *hi;
-        }
-}
-
 /* Lines across where the abscissa is a quantity of the figure, if that is one curve over a place. */
 static bool mark_places(panel_job *job) {
     plot_panel *p = job->p;
     const char *marks = job->figure && job->figure->marks ? job->figure->marks : "";
-    double lo, hi;
-    ends_of(p, false, &lo, &hi);
+    const axis_extent y = looks_extent(p, false);
     for (; *marks && !job->s->along && !job->s->curves && !job->s->at; marks++) {
         const quantity *q = quantity_find(marks, 1);
         long double at = 0;
@@ -259,8 +246,8 @@ static bool mark_places(panel_job *job) {
         plot_series *s = add_series(job, PLOT_CURVE, NULL, true);
         if (!s)
             return false;
-        add_point(job, s, (double)at, fmin(lo, 0));
-        add_point(job, s, (double)at, hi);
+        add_point(job, s, (double)at, fmin(y.lo, 0));
+        add_point(job, s, (double)at, y.hi);
         p->word[p->words++].text = q->name;
     }
     return !job->lost || calc_no_memory(job->error);
@@ -268,10 +255,8 @@ static bool mark_places(panel_job *job) {
 
 /* Their names beside them: they are the last series, in the unit of the axis. */
 static void name_marks(plot_panel *p) {
-    double lo, hi;
-    ends_of(p, true, &lo, &hi);
-    lo = isfinite(p->xlo) ? p->xlo : lo;
-    hi = isfinite(p->xhi) ? p->xhi : hi;
+    const axis_extent e = looks_extent(p, true);
+    const double lo = isfinite(p->xlo) ? p->xlo : e.lo, hi = isfinite(p->xhi) ? p->xhi : e.hi;
     for (size_t i = 0; i < p->words; i++) {
         const double x = p->series[p->count - p->words + i]->x[0];
         const double part = p->logx ? log(x / lo) / log(hi / lo) : (x - lo) / (hi - lo);
@@ -282,33 +267,9 @@ static void name_marks(plot_panel *p) {
 
 /* ---- axes -------------------------------------------------------------------------------------- */
 
-/* What the unit of an axis is to fit: the largest value, on a logarithmic axis the middle. */
-static double typical(const plot_panel *p, bool x_axis, const limits *given) {
-    const bool log = x_axis ? p->logx : p->logy;
-    double most = 0, least = INFINITY;
-    for (size_t i = 0; i < p->count && !given->given; i++)
-        for (size_t j = 0; j < p->series[i]->count; j++) {
-            const double v = x_axis ? p->series[i]->x[j] : p->series[i]->y[j];
-            if (isfinite(v))
-                most = fmax(most, fabs(v));
-            if (v > 0)
-                least = fmin(least, v);
-        }
-    if (given->given) {
-        const double lo = fabs((double)given->end[0].v), hi = fabs((double)given->end[1].v);
-        most = fmax(lo, hi);
-        least = fmin(lo, hi);
-    }
-    return log && least > 0 && least < most ? sqrt(least) * sqrt(most) : most;
-}
-
 /* Points without a place on their axes are gaps, too. */
 static void note_logarithms(shell *sh, const plot_panel *p) {
-    bool lost = false;
-    for (size_t i = 0; i < p->count && !lost; i++)
-        for (size_t j = 0; j < p->series[i]->count && !lost; j++)
-            lost = (p->logx && p->series[i]->x[j] <= 0) || (p->logy && p->series[i]->y[j] <= 0);
-    if (lost)
+    if ((p->logx && looks_extent(p, true).lo <= 0) || (p->logy && looks_extent(p, false).lo <= 0))
         shell_note(sh, "a logarithmic axis has no place for what is not above 0");
 }
 
@@ -328,16 +289,6 @@ static void shared_name(const panel_job *job, size_t first, size_t end, char *na
         }
         snprintf(name + n, size - n, "%s%s", n ? ", " : "", job->columns[i].name);
     }
-}
-
-/* In the unit that was asked for, or one with a prefix that fits. */
-static bool scale_axis(panel_job *job, lexer *lx, bool x_axis, const column *c, const axis_of *axis) {
-    const looks *l = job->looks;
-    axis_unit own, *u = job->m ? &job->m->unit[job->index][x_axis] : &own;
-    if (!job->m || !job->m->at)
-        *u = axis_unit_for(c, axis->d, typical(job->p, x_axis, x_axis ? &l->x : &l->y));
-    looks_divide(job->p, x_axis, u->scale);
-    return looks_axis(lx, l, job->p, x_axis, axis, u);
 }
 
 /* The ordinate, and where there is no title their root mean square. */
@@ -375,20 +326,25 @@ static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
         return false;
     shared_name(job, 0, count, name, sizeof name);
     shared_name(job, count, all, abscissas, sizeof abscissas);
-    const axis_of ax = {!x                 ? s->var.text
-                        : job->against > 1 ? abscissas
-                                           : x->name,
-                        x ? f->d[across] : s->var.d},
-                  ay = {main_count(job) > 1 ? name : c[0].name, f->d[first]};
+    axis_unit own[2] = {{.scale = 0}, {.scale = 0}}, *kept = job->m ? job->m->unit[job->index] : own;
+    const axis_of ax = {.name = !x                 ? s->var.text
+                                : job->against > 1 ? abscissas
+                                                   : x->name,
+                        .d = x ? f->d[across] : s->var.d,
+                        .like = x,
+                        .unit = &kept[1]};
+    axis_of ay = {
+        .name = main_count(job) > 1 ? name : c[0].name, .d = f->d[first], .like = &c[0], .unit = &kept[0]};
     job->p->logx = job->p->logx || s->log;
     if (!job->p->title && job->figure)
         job->p->title = strdup(job->figure->title);
     if (!job->p->title && job->figure)
         return calc_no_memory(lx->error);
-    return (job->measured ? name_residuals(job, ay.d, residuals)
-                          : looks_lay_over(lx, job->looks, job->p, &ax, &ay)) &&
-           scale_axis(job, lx, true, x, &ax) &&
-           scale_axis(job, lx, false, &c[0], job->measured ? &(axis_of){residuals, ay.d} : &ay);
+    if (!(job->measured ? name_residuals(job, ay.d, residuals)
+                        : looks_lay_over(lx, job->looks, job->p, &ax, &ay)))
+        return false;
+    ay.name = job->measured ? residuals : ay.name;
+    return looks_axis(lx, job->looks, job->p, true, &ax) && looks_axis(lx, job->looks, job->p, false, &ay);
 }
 
 /* ---- motion ------------------------------------------------------------------------------------ */

@@ -51,7 +51,7 @@ bool rows_range(shell *sh, const lexer *lx, said *all, file_rows *r, size_t coun
 }
 
 bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over, file_rows *out) {
-    const axis_of axis = {over->var.text, over->var.d};
+    const axis_of axis = {.name = over->var.text, .d = over->var.d};
     out->given = true;
     if (!columns_read(lx, all, file, &out->data))
         return false;

@@ -96,7 +96,8 @@ static bool compare_columns(table_job *job) {
         bool alone = true;
         for (size_t j = 0; j < job->count; j++)
             alone = alone && (j == i || !dim_equal(own->d, job->columns[job->first + j].d));
-        const csv_values *with = rows_compared(job->at, &(axis_of){own->name, own->d}, alone, job->error);
+        const csv_values *with =
+            rows_compared(job->at, &(axis_of){.name = own->name, .d = own->d}, alone, job->error);
         if (job->error->raised)
             return false;
         if (!with)
