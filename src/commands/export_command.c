@@ -9,54 +9,39 @@
 
 #include "commands/range.h"
 #include "commands/study_commands.h"
+#include "commands/tables.h"
 #include "language/along.h"
 #include "language/trial.h"
 #include "scene/functions.h"
-#include "statement/answer.h"
 #include "statement/progress.h"
-#include "statement/target.h"
 #include "study/jenkins.h"
 
 typedef struct export_table {
-    answer a;
+    si_table t;
     size_t rows, all; /* that there have been, that will be */
     const volatile sig_atomic_t *stop;
     calc_error *error;
 } export_table;
 
 static bool put_row(export_table *t, const long double *si) {
-    answer_row(&t->a, si);
+    answer_row(&t->t.a, si);
     progress_part((double)++t->rows / (double)t->all);
     return !calc_stopped(t->stop, t->error);
 }
 
-static const char *const names[] = {"dxA", "Kp", "Kpp", "branch", "dx", "Fx", "FN"};
-enum { HARMONIC = 0, LOOP = 3, NAMES = sizeof names / sizeof *names }; /* the first of each */
-
-/* As `to FILE` has it: columns from one of the names on, the rows by `write`. */
-static bool write_table(shell *sh, lexer *lx, said *all, size_t first, size_t count, size_t rows,
+/* As `to FILE` has it: columns of these names, the rows by `write`. */
+static bool write_table(shell *sh, lexer *lx, said *all, const char *const *names, size_t rows,
                         bool (*write)(export_table *t, void *context), void *context) {
     export_table t = {.all = rows, .stop = sh->calc.scene.stop, .error = lx->error};
-    column columns[NAMES] = {{.name = NULL}};
-    target to;
-    bool ok = true;
-    if (!target_open(sh, lx, all, &to))
+    if (!table_open(sh, lx, all, &t.t))
         return false;
-    for (size_t i = 0; i < count; i++) {
-        const char *name = names[first + i];
-        const quantity *q = quantity_find(name, strlen(name));
-        ok = ok && column_si(&columns[i], name, q ? q->d : DIM_NONE);
+    for (; *names; names++) {
+        const quantity *q = quantity_find(*names, strlen(*names));
+        table_column(&t.t, *names, q ? q->d : DIM_NONE);
     }
-    answer_begin_as(&t.a, &sh->set, to.to, to.format);
-    ok = (ok && answer_columns(&t.a, "export", columns, count)) || calc_no_memory(lx->error);
-    if (ok) {
-        ok = write(&t, context);
-        answer_end(&t.a, ok);
-    }
-    progress_wipe();
-    columns_free(columns, count);
+    const bool ok = table_begin(sh, &t.t, "export", lx->error) && write(&t, context);
     calc_word(&sh->calc, lx->error);
-    return target_close(sh, lx, &to, ok);
+    return table_close(sh, lx, &t.t, ok);
 }
 
 static size_t steps_of(said *all, size_t usual) {
@@ -103,9 +88,10 @@ static bool write_harmonic(export_table *t, void *context) {
 }
 
 static bool export_harmonic(shell *sh, lexer *lx, said *all) {
+    static const char *const names[] = {"dxA", "Kp", "Kpp", NULL};
     amplitudes by;
     return read_amplitudes(sh, lx, all, &by) &&
-           write_table(sh, lx, all, HARMONIC, 3, by.steps + 1, write_harmonic, &by);
+           write_table(sh, lx, all, names, by.steps + 1, write_harmonic, &by);
 }
 
 /* ---- loop -------------------------------------------------------------------------------------- */
@@ -125,6 +111,7 @@ static bool write_loop(export_table *t, void *context) {
 }
 
 static bool export_loop(shell *sh, lexer *lx, said *all) {
+    static const char *const names[] = {"branch", "dx", "Fx", "FN", NULL};
     const size_t steps = steps_of(all, 100);
     const scene *s = &sh->calc.scene;
     trial_along a;
@@ -133,7 +120,7 @@ static bool export_loop(shell *sh, lexer *lx, said *all) {
     trial *t = trial_open(&sh->calc, lx->error);
     bool ok = t && trial_along_begin(&a, t, ALONG_CYCLE, s->end, 2 * steps, false, lx->error);
     if (ok) {
-        ok = write_table(sh, lx, all, LOOP, 4, 2 * (steps + 1), write_loop, &a);
+        ok = write_table(sh, lx, all, names, 2 * (steps + 1), write_loop, &a);
         trial_along_end(&a);
     }
     calc_word(&sh->calc, lx->error);

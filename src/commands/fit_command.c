@@ -8,6 +8,7 @@
 #include "commands/expressions.h"
 #include "commands/figures.h"
 #include "commands/study_commands.h"
+#include "commands/tables.h"
 #include "measured/loop.h"
 #include "study/determined.h"
 #include "study/fit.h"
@@ -280,16 +281,17 @@ static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, cal
 
 enum { CYCLE_COLUMNS = 2 * FIT_NAMES + 4 };
 
-static bool cycle_columns(const fit_question *q, column *c) {
+static void cycle_columns(const fit_question *q, si_table *t) {
     char name[2 * LEX_NAME];
-    bool ok = column_si(&c[0], "cycle", DIM_NONE) && column_si(&c[1], "line", DIM_NONE);
-    for (size_t i = 0; i < q->count && ok; i++) {
+    table_column(t, "cycle", DIM_NONE);
+    table_column(t, "line", DIM_NONE);
+    for (size_t i = 0; i < q->count; i++) {
         snprintf(name, sizeof name, "%s deviation", q->name[i].text);
-        ok = column_si(&c[2 + 2 * i], q->name[i].text, q->name[i].d) &&
-             column_si(&c[3 + 2 * i], name, q->name[i].d);
+        table_column(t, q->name[i].text, q->name[i].d);
+        table_column(t, name, q->name[i].d);
     }
-    return ok && column_si(&c[2 + 2 * q->count], "dW", DIM_ENERGY) &&
-           column_si(&c[3 + 2 * q->count], "slides", DIM_NONE);
+    table_column(t, "dW", DIM_ENERGY);
+    table_column(t, "slides", DIM_NONE);
 }
 
 /* Rows of one cycle, begun where the one before has ended. */
@@ -342,19 +344,15 @@ static bool cycle_rows(shell *sh, answer *out, const fit_question *q, const csv 
     return true;
 }
 
-static bool fit_by_cycle(shell *sh, const fit_question *q, const csv *data, calc_error *error) {
+static bool fit_by_cycle(shell *sh, lexer *lx, said *all, const fit_question *q, const csv *data) {
     loop_answer l;
-    answer out;
-    column columns[CYCLE_COLUMNS] = {{.name = NULL}};
-    bool ok = loop_find(q->loop.dx, q->loop.Fx, q->rows, &l, error);
+    si_table t;
+    bool ok = loop_find(q->loop.dx, q->loop.Fx, q->rows, &l, lx->error) && table_open(sh, lx, all, &t);
     if (ok) {
-        answer_begin(&out, &sh->set, sh->out);
-        ok = cycle_columns(q, columns) && answer_columns(&out, "cycles", columns, 4 + 2 * q->count);
-        const bool rows = ok && cycle_rows(sh, &out, q, data, &l, error);
-        ok = (answer_end(&out, rows) && ok) || calc_no_memory(error);
-        ok = ok && rows;
+        cycle_columns(q, &t);
+        ok = table_begin(sh, &t, "cycles", lx->error) && cycle_rows(sh, &t.a, q, data, &l, lx->error);
+        ok = table_close(sh, lx, &t, ok);
     }
-    columns_free(columns, CYCLE_COLUMNS);
     loop_free(&l);
     return ok;
 }
@@ -521,7 +519,7 @@ bool do_fit(shell *sh, lexer *lx, said *all) {
     fit_points kept = {.nodes = 0};
     bool ok = (q || calc_no_memory(lx->error)) && read_fit(sh, lx, all, q, &data, &columns, names);
     if (ok && is_by_cycle(lx, all))
-        ok = !lx->error->raised && fit_by_cycle(sh, q, &data, lx->error);
+        ok = !lx->error->raised && fit_by_cycle(sh, lx, all, q, &data);
     else if (ok) {
         q->points = &kept;
         ok =

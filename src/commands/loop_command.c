@@ -5,9 +5,8 @@
 
 #include "commands/columns.h"
 #include "commands/study_commands.h"
+#include "commands/tables.h"
 #include "measured/loop.h"
-#include "statement/answer.h"
-#include "statement/target.h"
 
 /* What is told of a cycle, in the order of its table; the flag at the end is 1 or 0 there. */
 static const struct {
@@ -29,27 +28,28 @@ static double value_at(const loop_cycle *c, size_t i) {
     return *(const double *)(const void *)((const char *)c + told[i].at);
 }
 
-static bool write_table(answer *a, const csv *data, const loop_answer *l, calc_error *error) {
-    column columns[LOOP_COLUMNS] = {{.name = NULL}};
-    bool ok = column_si(&columns[0], "cycle", DIM_NONE) && column_si(&columns[1], "line", DIM_NONE) &&
-              column_si(&columns[LOOP_COLUMNS - 1], "slides", DIM_NONE);
-    for (size_t i = 0; i < TOLD && ok; i++)
-        ok = column_si(&columns[2 + i], told[i].name, told[i].d);
-    ok = ok && answer_columns(a, "loop", columns, LOOP_COLUMNS);
-    for (size_t k = 0; k < l->cycles && ok; k++) {
+static bool write_table(shell *sh, si_table *t, const csv *data, const loop_answer *l, calc_error *error) {
+    table_column(t, "cycle", DIM_NONE);
+    table_column(t, "line", DIM_NONE);
+    for (size_t i = 0; i < TOLD; i++)
+        table_column(t, told[i].name, told[i].d);
+    table_column(t, "slides", DIM_NONE);
+    if (!table_begin(sh, t, "loop", error))
+        return false;
+    for (size_t k = 0; k < l->cycles; k++) {
         const loop_cycle *c = &l->cycle[k];
         long double row[LOOP_COLUMNS] = {(long double)(k + 1), (long double)data->row[c->first].line};
         for (size_t i = 0; i < TOLD; i++)
             row[2 + i] = value_at(c, i);
         row[LOOP_COLUMNS - 1] = c->slides;
-        answer_row(a, row);
+        answer_row(&t->a, row);
     }
-    ok = (answer_end(a, ok) && ok) || calc_no_memory(error);
-    columns_free(columns, LOOP_COLUMNS);
-    return ok;
+    return true;
 }
 
-static void report_cycles(answer *a, const csv *data, const loop_answer *l) {
+static void report_cycles(const shell *sh, const csv *data, const loop_answer *l) {
+    answer said_once, *a = &said_once;
+    answer_begin(a, &sh->set, sh->out);
     for (size_t k = 0; k < l->cycles; k++) {
         const loop_cycle *c = &l->cycle[k];
         answer_words(a, "cycle %zu, from line %zu\n", k + 1, data->row[c->first].line);
@@ -76,14 +76,12 @@ static void report_cycles(answer *a, const csv *data, const loop_answer *l) {
 }
 
 static bool tell(shell *sh, lexer *lx, said *all, const csv *data, const loop_answer *l) {
-    target to;
-    answer a;
-    if (!target_open(sh, lx, all, &to))
+    si_table t;
+    if (!table_open(sh, lx, all, &t))
         return false;
-    answer_begin_as(&a, &sh->set, to.to, to.format);
-    if (to.file.to)
-        return target_close(sh, lx, &to, write_table(&a, data, l, lx->error));
-    report_cycles(&a, data, l);
+    if (t.to.file.to)
+        return table_close(sh, lx, &t, write_table(sh, &t, data, l, lx->error));
+    report_cycles(sh, data, l);
     return true;
 }
 

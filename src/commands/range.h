@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Ranges of tables and plots as they have been said: for NAME = LO .. HI, along a load, with NAME = v1, v2,
- * ...
- */
+ * ...; the rows of a file, `at FILE` and `over FILE residuals`, and what they have to compare with. */
 #ifndef COMMANDS_RANGE_H
 #define COMMANDS_RANGE_H
 
-#include "commands/rows.h"
+#include "commands/looks.h"
 #include "statement/command.h"
 #include "statement/output.h"
 #include "study/sweep.h"
@@ -14,6 +13,39 @@
 static inline bool range_hides(const lexer *lx, const said *all) {
     return said_hides(lx, all, "for") || said_hides(lx, all, "along");
 }
+
+/* Of `at FILE`; nothing where that has not been said. */
+typedef struct file_rows {
+    bool given;
+    csv data;
+    named_columns names;
+    sweep_rows at;
+} file_rows;
+
+/* Reads the file, and makes its columns known to what is parsed then, until said_drop. To be closed whatever
+ * comes. */
+bool rows_open(shell *sh, const lexer *lx, said *all, file_rows *out);
+void rows_close(file_rows *r);
+/* The rows of a file over a range of one name, which it has a column for. */
+bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over, file_rows *out);
+/* What was understood, behind what has been compared. */
+void rows_say(shell *sh, const file_rows *r);
+
+/* An expression against a column of the file. */
+typedef struct comparison {
+    const csv_values *with; /* NULL: there is nothing to compare */
+    size_t of;              /* the expression */
+    size_t rows, worst_row;
+    long double squares, worst, largest; /* of differences; the largest value of the column */
+} comparison;
+
+/* What the file has in that row more than `ours`. */
+long double rows_differ(comparison *c, size_t row, long double ours);
+/* The root mean square; NaN: there is no difference. */
+long double rows_rms(const comparison *c);
+/* What an expression is to be compared with, or NULL: the column of its name, else, of an expression that is
+ * alone in its dimension, the only one of that which is not used and has not the name of another quantity. */
+const csv_values *rows_compared(file_rows *r, const axis_of *expression, bool alone, calc_error *error);
 
 /* What a load along which it goes begins with; NULL after the last. */
 const char *load_name(size_t i);

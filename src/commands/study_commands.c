@@ -9,8 +9,8 @@
 #include "commands/columns.h"
 #include "commands/expressions.h"
 #include "commands/range.h"
+#include "commands/tables.h"
 #include "statement/progress.h"
-#include "statement/target.h"
 #include "study/optimise.h"
 #include "study/solve.h"
 #include "study/uncertainty.h"
@@ -254,61 +254,51 @@ static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_qu
 enum { SAMPLES_COLUMNS = UNCERTAIN_VALUES + 1 };
 
 typedef struct samples_job {
-    answer a;
-    bool begun, goes_on;
+    shell *sh;
+    si_table t;
     const uncertainty_answer *of;
-    column columns[SAMPLES_COLUMNS];
     size_t count, rows, all;
+    calc_error *error;
 } samples_job;
 
 /* Values are in SI, whatever unit they are asked in: what is read again is the same. Their names are of a
  * kind that a file of columns can have, and their number comes last: what has been cut off lacks it. */
 static bool begin_samples(samples_job *job) {
     char name[CSV_NAME];
-    bool ok = true;
-    for (size_t k = 0; k < job->count && ok; k++) {
+    for (size_t k = 0; k < job->count; k++) {
         snprintf(name, sizeof name, "v%zu", k + 1);
-        ok = column_si(&job->columns[k], name, job->of->value[k].d);
+        table_column(&job->t, name, job->of->value[k].d);
     }
-    ok = ok && column_si(&job->columns[job->count], "sample", DIM_NONE);
-    if (job->goes_on)
-        answer_goes_on(&job->a, job->columns, job->count + 1);
-    return ok && (job->goes_on || answer_columns(&job->a, "samples", job->columns, job->count + 1));
+    table_column(&job->t, "sample", DIM_NONE);
+    return table_begin(job->sh, &job->t, "samples", job->error);
 }
 
 static bool give_sample(void *context, size_t sample, const value v[]) {
     samples_job *job = context;
     long double row[SAMPLES_COLUMNS];
-    job->a.lost = job->a.lost || (!job->begun && !begin_samples(job));
-    job->begun = true;
-    if (job->a.lost)
+    if (!job->t.begun && !begin_samples(job))
         return false;
     for (size_t k = 0; k < job->count; k++)
         row[k] = v[k].v;
     row[job->count] = (long double)(sample + 1);
-    answer_row(&job->a, row);
+    answer_row(&job->t.a, row);
     progress_part((double)++job->rows / (double)job->all);
-    return !ferror(job->a.to); /* the end tells of it */
+    return !ferror(job->t.to.to); /* the end tells of it */
 }
 
-static bool share_samples(shell *sh, uncertainty_question *q, uncertainty_answer *a, calc_error *error) {
-    target to = {.to = sh->out, .format = sh->set.format};
-    samples_job job = {.of = a, .count = q->expressions};
-    if (!target_share(sh, &to, q->samples, &q->from, &q->to, error))
+static bool share_samples(shell *sh, lexer *lx, said *all, uncertainty_question *q, uncertainty_answer *a) {
+    samples_job job = {.sh = sh, .of = a, .count = q->expressions, .error = lx->error};
+    if (!table_open(sh, lx, all, &job.t) ||
+        !target_share(sh, &job.t.to, q->samples, &q->from, &q->to, lx->error))
         return false;
     q->take = give_sample;
     q->context = &job;
     job.all = q->to - q->from;
-    job.goes_on = target_goes_on(sh, &to);
-    answer_begin_as(&job.a, &sh->set, to.to, to.format);
-    const bool ok = uncertainty(q, a, error);
+    const bool ok = uncertainty(q, a, lx->error) && !lx->error->raised;
     progress_wipe();
-    if (!answer_end(&job.a, ok))
-        calc_no_memory(error);
     if (ok && a->missing.raised)
         shell_note(sh, "some samples lack a value: %s", a->missing.text);
-    columns_free(job.columns, SAMPLES_COLUMNS);
-    return target_close(sh, NULL, &to, ok && !error->raised);
+    return table_close(sh, lx, &job.t, ok);
 }
 
 /* All samples are there, in their order, and every value, or that there is none. */
@@ -437,7 +427,7 @@ bool do_uncertainty(shell *sh, lexer *lx, said *all) {
     ok = ok && read_uncertain(sh, lx, all, &q);
     const heard *from = ok ? said_of(all, "from", 0) : NULL;
     if (ok && sh->share.of && !from)
-        ok = share_samples(sh, &q, a, lx->error);
+        ok = share_samples(sh, lx, all, &q, a);
     else
         ok = ok && (from ? sum_given(lx, all, &q, a, from) : uncertainty(&q, a, lx->error)) &&
              print_uncertain(sh, &q, a, columns, lx->error);

@@ -7,9 +7,8 @@
 
 #include "commands/expressions.h"
 #include "commands/map.h"
-#include "statement/answer.h"
+#include "commands/tables.h"
 #include "statement/progress.h"
-#include "statement/target.h"
 
 /* ---- history ----------------------------------------------------------------------------------- */
 
@@ -35,26 +34,15 @@ static bool history_rows(scene *s, long double K_rig, answer *a, calc_error *err
 bool do_history(shell *sh, lexer *lx, said *all) {
     const fret_contact *contact;
     long double K_rig = INFINITY;
-    column columns[HISTORY] = {{.name = NULL}};
-    target to;
-    if (!scene_history(&sh->calc.scene, &contact, lx->error) || !target_open(sh, lx, all, &to))
+    si_table t;
+    if (!scene_history(&sh->calc.scene, &contact, lx->error) || !table_open(sh, lx, all, &t))
         return false;
-    answer a;
-    answer_begin_as(&a, &sh->set, to.to, to.format);
-    bool ok = true;
     const size_t count = HISTORY - !scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet());
     for (size_t i = 0; i < count; i++)
-        ok = ok && column_si(&columns[i], history_names[i],
-                             quantity_find(history_names[i], strlen(history_names[i]))->d);
-    ok = ok && answer_columns(&a, all->by->command, columns, count);
-    if (ok) {
-        ok = history_rows(&sh->calc.scene, K_rig, &a, lx->error);
-        answer_end(&a, ok);
-    } else {
-        calc_no_memory(lx->error);
-    }
-    columns_free(columns, HISTORY);
-    return target_close(sh, lx, &to, ok);
+        table_column(&t, history_names[i], quantity_find(history_names[i], strlen(history_names[i]))->d);
+    const bool ok = table_begin(sh, &t, all->by->command, lx->error) &&
+                    history_rows(&sh->calc.scene, K_rig, &t.a, lx->error);
+    return table_close(sh, lx, &t, ok);
 }
 
 /* ---- table ------------------------------------------------------------------------------------- */

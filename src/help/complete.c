@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "commands/columns.h"
 #include "commands/expressions.h"
 #include "help/help.h"
 #include "number/array.h"
@@ -86,10 +87,6 @@ static void add_knobs(place *p, const char *end) {
     for (size_t i = 0; i < p->sh->calc.names.count; i++)
         if (p->sh->calc.names.row[i].known && !p->sh->calc.names.row[i].definition)
             add_word(p, p->sh->calc.names.row[i].text, end);
-}
-
-static bool same_dim(dim a, dim b) {
-    return dim_equal(a, b) && (a.rad != 0) == (b.rad != 0);
 }
 
 /* Units of the dimension; any: of all. Where no unit alone has the dimension, all again. */

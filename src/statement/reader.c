@@ -704,17 +704,21 @@ static bool misspelt(lexer *lx, const said *s) {
     return meant && !lex_fail(lx, "unexpected '%.*s': did you mean %s?", LEX_WORD(lx), meant->name);
 }
 
-/* `sphere 10 mm`, `nu 0.3`: an argument without its name, or its `=`. */
+/* `sphere 10 mm`, `nu 0.3`: an argument without its name, or its `=`; or what is none where one begins. */
 static bool half_named(lexer *lx, const said *s) {
     const clause *a = s->by->clause, *end = a + s->by->count;
     const bool bare = lx->kind == T_NUMBER || lx->kind == T_MINUS || lx->kind == T_OPEN;
     char lack[LEX_NAME + 60];
     while (a < end && !(a->argument && (bare || lex_is(lx, a->name))))
         a++;
-    if (a == end)
+    const bool none = a == end;
+    if (none && (s->count || lx->kind == T_END || !s->by->count || !s->by->clause->argument))
         return false;
     snprintf(lack, sizeof lack,
-             bare ? "unexpected '%.*s': a value needs its name;" : "expected = after %.*s;", LEX_WORD(lx));
+             none   ? "unexpected '%.*s';"
+             : bare ? "unexpected '%.*s': a value needs its name;"
+                    : "expected = after %.*s;",
+             LEX_WORD(lx));
     return !said_lacks(lx, s, lack);
 }
 

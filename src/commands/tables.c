@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writing tables. */
+#include "commands/tables.h"
+
+#include "statement/progress.h"
+
+bool table_open(shell *sh, const lexer *lx, said *all, si_table *t) {
+    t->count = 0;
+    t->begun = t->lost = t->kept = false;
+    return target_open(sh, lx, all, &t->to);
+}
+
+void table_column(si_table *t, const char *name, dim d) {
+    t->lost = !column_si(&t->column[t->count++], name, d) || t->lost;
+}
+
+bool table_begin(shell *sh, si_table *t, const char *event, calc_error *error) {
+    answer_begin_as(&t->a, &sh->set, t->to.to, t->to.format);
+    if (t->lost)
+        return calc_no_memory(error);
+    if (target_goes_on(sh, &t->to))
+        answer_goes_on(&t->a, t->column, t->count);
+    else if (!answer_columns(&t->a, event, t->column, t->count))
+        return calc_no_memory(error);
+    return t->begun = true;
+}
+
+bool table_close(shell *sh, lexer *lx, si_table *t, bool ok) {
+    progress_wipe();
+    if (t->begun && !answer_end(&t->a, ok || t->kept))
+        ok = calc_no_memory(lx->error);
+    columns_free(t->column, t->count);
+    return target_close(sh, lx, &t->to, ok);
+}
