@@ -370,25 +370,26 @@ static bool is_by_cycle(const lexer *lx, said *all) {
 
 /* ---- the figure -------------------------------------------------------------------------------- */
 
-typedef struct place {
-    double x, y;
-} place;
-
 /* The last fit, as it is drawn. */
 struct fitted {
-    char file[FILE_NAME];
-    size_t rows, nodes;
-    place *measured, *over, *curve; /* over: what is left over; one piece of memory */
-    char across[LEX_NAME], up[COLUMN_UNIT], words[FIT_NAMES][LEX_NAME + ESTIMATE_TEXT];
-    size_t names;
-    dim across_d, up_d, over_d;
-    double rms;
+    fit_question q; /* its expressions have gone with their statement */
+    csv data;
+    named_columns columns;
+    fit_answer a;
+    fit_points points;
+    char up[COLUMN_UNIT]; /* the ordinate: the left side, or Fx */
 };
 
+static void fitted_free(struct fitted *f) {
+    if (f) {
+        fit_points_free(&f->points);
+        csv_free(&f->data);
+    }
+    free(f);
+}
+
 void fit_forget(shell *sh) {
-    if (sh->fitted)
-        free(sh->fitted->measured);
-    free(sh->fitted);
+    fitted_free(sh->fitted);
     sh->fitted = NULL;
 }
 
@@ -407,71 +408,55 @@ static const column_knob *abscissa(const fit_question *q) {
     return found;
 }
 
+static double across(const fit_question *q, const column_knob *over, size_t row) {
+    return !q->left ? q->loop.dx[row] : over ? over->v[row] : (double)(row + 1);
+}
+
+static bool add_rows(const struct fitted *f, plot_panel *p, const char *title, const double *y,
+                     calc_error *error) {
+    const column_knob *over = abscissa(&f->q);
+    plot_series *s = plot_series_add(p, PLOT_MEASURED, title, error);
+    for (size_t i = 0; s && i < f->q.rows; i++)
+        if (!plot_point(s, across(&f->q, over, i), y[i]))
+            return calc_no_memory(error);
+    return s;
+}
+
+typedef struct place {
+    double x, y;
+} place;
+
 static int by_abscissa(const void *a, const void *b) {
     const double x = ((const place *)a)->x, y = ((const place *)b)->x;
     return (x > y) - (x < y);
 }
 
-static void place_points(const fit_question *q, struct fitted *f) {
-    const fit_points *p = q->points;
-    const column_knob *over = abscissa(q);
-    for (size_t i = 0; i < f->rows; i++) {
-        const double x = !q->left ? q->loop.dx[i] : over ? over->v[i] : (double)(i + 1);
-        f->measured[i] = (place){x, p->left[i]};
-        f->over[i] = (place){x, p->residual[i]};
-        if (!p->nodes)
-            f->curve[i] = (place){x, p->right[i]};
-    }
-    for (size_t i = 0; i < p->nodes; i++)
-        f->curve[i] = (place){p->x[i], p->y[i]};
-    if (q->left)
-        qsort(f->curve, f->nodes, sizeof *f->curve, by_abscissa);
-    f->across_d = !q->left ? DIM_LENGTH : over ? over->name.d : DIM_NONE;
-    snprintf(f->across, sizeof f->across, "%s",
-             q->left       ? over ? over->name.text : "row"
-             : q->loop.rig ? "drig"
-                           : "dx");
+static bool add_curve(const struct fitted *f, plot_series *s, calc_error *error) {
+    const fit_points *k = &f->points;
+    const column_knob *over = abscissa(&f->q);
+    const size_t n = k->nodes ? k->nodes : f->q.rows;
+    place *at = malloc(n * sizeof *at);
+    bool ok = at;
+    for (size_t i = 0; ok && i < n; i++)
+        at[i] = k->nodes ? (place){k->x[i], k->y[i]} : (place){across(&f->q, over, i), k->right[i]};
+    if (ok && f->q.left)
+        qsort(at, n, sizeof *at, by_abscissa);
+    for (size_t i = 0; ok && i < n; i++)
+        ok = plot_point(s, at[i].x, at[i].y);
+    free(at);
+    return ok || calc_no_memory(error);
 }
 
-static bool keep_fit(shell *sh, const fit_question *q, const fit_answer *a, const csv *data,
-                     calc_error *error) {
-    struct fitted *f = calloc(1, sizeof *f);
-    if (!f)
-        return calc_no_memory(error);
-    fit_forget(sh);
-    sh->fitted = f;
-    f->rows = q->rows;
-    f->nodes = q->points->nodes ? q->points->nodes : q->rows;
-    f->measured = malloc((2 * f->rows + f->nodes) * sizeof *f->measured);
-    if (!f->measured)
-        return fit_forget(sh), calc_no_memory(error);
-    f->over = f->measured + f->rows;
-    f->curve = f->over + f->rows;
-    place_points(q, f);
-    snprintf(f->file, sizeof f->file, "%s", columns_file(data));
-    snprintf(f->up, sizeof f->up, "%.*s", q->left ? LEX_SHOWN(q->left->len) : 2,
-             q->left ? q->left->text + q->left->at : "Fx");
-    f->up_d = q->left ? a->d : DIM_FORCE;
-    f->over_d = a->d;
-    f->rms = a->rms;
-    f->names = q->count;
-    for (size_t i = 0; i < q->count; i++) {
-        const column c = {.d = q->name[i].d};
-        const estimate e = estimate_of(a, i);
-        char text[ESTIMATE_TEXT];
-        format_estimate(&c, sh->set.digits, &e, text);
-        snprintf(f->words[i], sizeof f->words[i], PLOT_EXPR "%s" PLOT_END " = %s", q->name[i].text, text);
-    }
-    return true;
-}
-
-static plot_series *add_places(plot_panel *p, plot_role role, const char *title, const place *at, size_t n,
-                               calc_error *error) {
-    plot_series *s = plot_series_add(p, role, title, error);
-    for (size_t i = 0; s && i < n; i++)
-        if (!plot_point(s, at[i].x, at[i].y))
-            return calc_no_memory(error), NULL;
-    return s;
+static bool finish_axes(lexer *lx, const struct fitted *f, const looks *l, plot_panel *p,
+                        const axis_of *ordinate) {
+    const column_knob *over = abscissa(&f->q);
+    const axis_of x = {.name = !f->q.left ? loop_column(f->q.loop.rig)
+                               : over     ? over->name.text
+                                          : "row",
+                       .d = !f->q.left ? DIM_LENGTH
+                            : over     ? over->name.d
+                                       : DIM_NONE};
+    return looks_axis(lx, l, p, true, &x) && looks_axis(lx, l, p, false, ordinate);
 }
 
 /* The key has the curve to each name. */
@@ -480,54 +465,60 @@ bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) 
     (void)all;
     if (!f)
         return calc_fail(lx->error, 0, 0, "there is no fit yet: fit INPUT, ... along FILE.csv");
-    bool ok = add_places(p, PLOT_MEASURED, f->file, f->measured, f->rows, lx->error);
-    for (size_t i = 0; i < f->names && ok; i++) {
-        plot_series *s = add_places(p, PLOT_CURVE, f->words[i], f->curve, i ? 0 : f->nodes, lx->error);
+    bool ok = add_rows(f, p, columns_file(&f->data), f->points.left, lx->error);
+    for (size_t i = 0; i < f->q.count && ok; i++) {
+        const knob *k = &f->q.name[i];
+        const estimate e = estimate_of(&f->a, i);
+        char text[ESTIMATE_TEXT], words[LEX_NAME + ESTIMATE_TEXT];
+        format_estimate(&(column){.d = k->d}, sh->set.digits, &e, text);
+        snprintf(words, sizeof words, PLOT_EXPR "%s" PLOT_END " = %s", k->text, text);
+        plot_series *s = plot_series_add(p, PLOT_CURVE, words, lx->error);
         if (s)
             s->style = 0;
-        ok = s != NULL;
+        ok = s && (i || add_curve(f, s, lx->error));
     }
     p->airy = true;
-    return ok && looks_axis(lx, l, p, true, &(axis_of){.name = f->across, .d = f->across_d}) &&
-           looks_axis(lx, l, p, false, &(axis_of){.name = f->up, .d = f->up_d});
+    return ok && finish_axes(lx, f, l, p, &(axis_of){.name = f->up, .d = f->q.left ? f->a.d : DIM_FORCE});
 }
 
 bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     const struct fitted *f = sh->fitted;
     const looks plain = {.sh = l->sh};
     char title[COLUMN_UNIT + NUMBER_TEXT + 60], rms[COLUMN_UNIT + NUMBER_TEXT];
-    const bool noisy = !dim_equal(f->up_d, f->over_d);
+    const bool noisy = f->a.noisy;
     (void)all;
-    format_value(&sh->set, (value){f->rms, f->over_d}, rms, sizeof rms);
+    format_value(&sh->set, (value){f->a.rms, f->a.d}, rms, sizeof rms);
     snprintf(title, sizeof title, "left over: rms = %s%s", rms, noisy ? " of the noise" : "");
     p->title = strdup(title);
     p->ylabel = noisy ? strdup("distance/noise") : NULL;
     if (!p->title || (noisy && !p->ylabel))
         return calc_no_memory(lx->error);
     p->airy = true;
-    return add_places(p, PLOT_MEASURED, NULL, f->over, f->rows, lx->error) &&
-           looks_axis(lx, &plain, p, true, &(axis_of){.name = f->across, .d = f->across_d}) &&
-           looks_axis(lx, &plain, p, false, &(axis_of){.name = "residual", .d = f->over_d});
+    return add_rows(f, p, NULL, f->points.residual, lx->error) &&
+           finish_axes(lx, f, &plain, p, &(axis_of){.name = "residual", .d = f->a.d});
 }
+
+/* ---- the command ------------------------------------------------------------------------------- */
 
 bool do_fit(shell *sh, lexer *lx, said *all) {
     const size_t names = sh->calc.names.count;
-    fit_question *q = calloc(1, sizeof *q);
-    csv data = {0};
-    named_columns columns;
-    fit_answer a;
-    fit_points kept = {.nodes = 0};
-    bool ok = (q || calc_no_memory(lx->error)) && read_fit(sh, lx, all, q, &data, &columns, names);
-    if (ok && is_by_cycle(lx, all))
-        ok = !lx->error->raised && fit_by_cycle(sh, lx, all, q, &data);
-    else if (ok) {
-        q->points = &kept;
-        ok =
-            fit(q, &a, lx->error) && print_fit(sh, q, &a, lx->error) && keep_fit(sh, q, &a, &data, lx->error);
+    struct fitted *f = calloc(1, sizeof *f);
+    bool ok = (f || calc_no_memory(lx->error)) && read_fit(sh, lx, all, &f->q, &f->data, &f->columns, names);
+    if (ok && is_by_cycle(lx, all)) {
+        ok = !lx->error->raised && fit_by_cycle(sh, lx, all, &f->q, &f->data);
+    } else if (ok) {
+        const expr *left = f->q.left;
+        snprintf(f->up, sizeof f->up, "%.*s", left ? LEX_SHOWN(left->len) : 2,
+                 left ? left->text + left->at : "Fx");
+        f->q.points = &f->points;
+        ok = fit(&f->q, &f->a, lx->error) && print_fit(sh, &f->q, &f->a, lx->error);
+        if (ok) {
+            fit_forget(sh);
+            sh->fitted = f;
+        }
     }
-    fit_points_free(&kept);
     names_forget(sh, names);
-    csv_free(&data);
-    free(q);
+    if (sh->fitted != f)
+        fitted_free(f);
     return ok;
 }
