@@ -325,59 +325,56 @@ bool do_wear(shell *sh, lexer *lx, said *all) {
 
 /* ---- follow ------------------------------------------------------------------------------------ */
 
-/* What the columns of a history may be. */
-typedef struct followed {
-    const char *name[2];
-    unsigned char by;
-    dim d;
-    const char *example;
-} followed;
-
-static const followed kinds[] = {{{"FN", "Fx"}, BY_FORCE, {1, 0, 0, 0}, "FN [N],Fx [N]"},
-                                 {{"dz", "dx"}, BY_DISPLACEMENT, {0, 1, 0, 0}, "dz [um],dx [um]"}};
-enum { KINDS = sizeof kinds / sizeof *kinds };
-
 enum { AT_ONCE = 4096 }; /* rows; then it is told how far it has come */
+#define SAME 1e-4        /* what the digits of a table as text may move */
 
-/* Rows as they are followed. Of those that have both pairs: loss, their W, and driver, by which pair each is;
- * NULL: all by `kind`. */
+/* Rows as they are followed: FN,Fx drive, or dz,dx; or dx at constant F_N, and F_x is compared. Of both
+ * pairs, as `history` writes them, the forces drive and dx is compared. */
 typedef struct rows {
     csv *data;
-    const followed *kind;
-    csv_values *column[KINDS][2], *compared; /* by kind: the normal and the tangential one */
-    const double *normal[KINDS], *tangential[KINDS];
-    const double *loss;
-    const unsigned char *driver;
-    bool rig; /* d_x is a reading at it */
+    load_by normal_by, by;
+    csv_values *normal, *Fx, *dx; /* NULL: not taken */
+    bool rig;                     /* dx is a reading at it */
+    double mu;
 } rows;
 
 static bool follow_press(shell *sh, const rows *w, calc_error *error) {
-    const followed *kind = w->kind;
-    const size_t k = (size_t)(kind - kinds);
-    const load_step press = {.kind = LOAD_PRESS, .normal = kind->by, .normal_value = w->normal[k][0]};
-    if (!(press.normal_value > 0) || w->tangential[k][0] != 0)
+    const bool force = w->normal_by == BY_FORCE;
+    const load_step press = {
+        .kind = LOAD_PRESS, .normal = (unsigned char)w->normal_by, .normal_value = w->normal->v[0]};
+    if (!(press.normal_value > 0) || (force ? w->Fx : w->dx)->v[0] != 0)
         return calc_fail(
             error, 0, 0,
             "%s: there is no load yet: press first, or begin with a row that presses (%s > 0, %s = 0)",
-            w->data->path, kind->name[0], kind->name[1]);
+            w->data->path, force ? "FN" : "dz", force ? "Fx" : "dx");
     return scene_load(&sh->calc.scene, &press, NULL, error);
+}
+
+/* No force tells how far it slides, nor that dx is held while F_N changes: then dx drives, where it is known.
+ */
+static load_by driver_of(const rows *w, size_t row) {
+    if (w->by != BY_FORCE || !w->dx)
+        return w->by;
+    const double *FN = w->normal->v, *dx = w->dx->v;
+    const bool held = row > 0 && dx[row] == dx[row - 1] && FN[row] != FN[row - 1];
+    return held || fabs(w->Fx->v[row]) >= w->mu * FN[row] * (1 - SAME) ? BY_DISPLACEMENT : BY_FORCE;
 }
 
 /* Rows become steps. */
 static bool follow_rows(shell *sh, const rows *w, size_t row, calc_error *error) {
     const csv *data = w->data;
     for (size_t count; row < data->rows; row += count) {
-        const size_t k = w->driver ? w->driver[row] : (size_t)(w->kind - kinds);
+        const load_by by = driver_of(w, row);
         const load_step step = {.kind = LOAD_STEP,
-                                .normal = w->normal[k] ? kinds[k].by : BY_NONE,
-                                .tangential = w->rig ? BY_RIG : kinds[k].by};
+                                .normal = (unsigned char)w->normal_by,
+                                .tangential = (unsigned char)(w->rig ? BY_RIG : by)};
         size_t bad;
         for (count = 1; count < AT_ONCE && row + count < data->rows; count++)
-            if (w->driver && w->driver[row + count] != k)
+            if (driver_of(w, row + count) != by)
                 break;
         progress_part((double)row / (double)data->rows);
-        bool ok = scene_load_rows(&sh->calc.scene, step, w->normal[k] ? w->normal[k] + row : NULL,
-                                  w->tangential[k] + row, count, &bad, error);
+        bool ok = scene_load_rows(&sh->calc.scene, step, w->normal ? w->normal->v + row : NULL,
+                                  (by == BY_FORCE ? w->Fx : w->dx)->v + row, count, &bad, error);
         if (ok && shell_stop)
             ok = calc_interrupted(error);
         if (!ok) {
@@ -388,114 +385,6 @@ static bool follow_rows(shell *sh, const rows *w, size_t row, calc_error *error)
     }
     progress_part(-1); /* what springs make of it is not known yet */
     return true;
-}
-
-/* ---- of both pairs, as `history` writes them ---- */
-
-enum { NAMED = 2 * KINDS + 1 };
-#define SAME 1e-4L /* what the digits of a table as text may move */
-
-/* The largest of FN, Fx, dz, dx and W. */
-typedef struct sizes {
-    double of[NAMED];
-} sizes;
-
-/* How far the state is from what the row names, as a part of the largest values. Ways by force and by
- * displacement may end in the same state: the energy tells them apart. */
-static long double distance_to_row(const fret_contact *m, const rows *w, size_t row, fret_real loss,
-                                   const sizes *most) {
-    fret_state now;
-    fret_contact_forces(m, &now);
-    const double lost = row ? w->loss[row] - w->loss[row - 1] : 0;
-    const long double off[NAMED] = {(long double)now.FN - w->normal[0][row],
-                                    (long double)now.Fx - w->tangential[0][row],
-                                    (long double)now.dz - w->normal[1][row],
-                                    (long double)now.dx - w->tangential[1][row], (long double)loss - lost};
-    long double worst = 0;
-    for (size_t i = 0; i < NAMED; i++)
-        if (off[i] != 0)
-            worst = fmaxl(worst, fabsl(off[i]) / most->of[i]);
-    return worst;
-}
-
-/* Of the last, the state before, makes that behind the row: by the pair that comes nearer to what it names.
- */
-static bool choose_driver(fret_contact *m[KINDS + 1], const rows *w, size_t row, const sizes *most,
-                          unsigned char *driver, fret_status *st) {
-    static const fret_normal_target normal[KINDS] = {FRET_TO_FORCE, FRET_TO_DEPTH};
-    static const fret_tangential_target tangential[KINDS] = {FRET_TO_FX, FRET_TO_DX};
-    long double least = INFINITY;
-    for (unsigned char k = 0; k < KINDS; k++) {
-        const fret_step step = {normal[k], tangential[k], w->normal[k][row], w->tangential[k][row]};
-        *st = fret_contact_copy(m[k], m[KINDS]);
-        if (st->code)
-            return false;
-        const fret_status taken = fret_contact_step(m[k], &step);
-        if (taken.code == FRET_NO_MEMORY)
-            *st = taken;
-        if (st->code)
-            return false;
-        const long double off =
-            taken.code ? INFINITY : distance_to_row(m[k], w, row, fret_contact_last_loss(m[k]), most);
-        if (off < least) {
-            least = off;
-            *driver = k;
-        }
-    }
-    if (!(least <= SAME))
-        return false;
-    fret_contact *now = m[*driver];
-    m[*driver] = m[KINDS];
-    m[KINDS] = now;
-    return true;
-}
-
-static double largest_of(const double *v, size_t n) {
-    double most = 0;
-    for (size_t i = 0; i < n; i++)
-        most = fmax(most, fabs(v[i]));
-    return most;
-}
-
-static bool choose_drivers(shell *sh, const rows *w, size_t row, unsigned char *driver, calc_error *error) {
-    const size_t n = w->data->rows;
-    const sizes most = {{largest_of(w->normal[0], n), largest_of(w->tangential[0], n),
-                         largest_of(w->normal[1], n), largest_of(w->tangential[1], n),
-                         largest_of(w->loss, n)}};
-    const fret_contact *now;
-    fret_contact *m[KINDS + 1] = {NULL};
-    fret_status st = {.code = FRET_OK};
-    if (!scene_straight(&sh->calc.scene, &now, error))
-        return false;
-    for (size_t k = 0; k <= KINDS && !st.code; k++)
-        st = fret_contact_make(fret_contact_normal(now), fret_contact_friction(now), FRET_EXACT, &m[k]);
-    if (!st.code)
-        st = fret_contact_copy(m[KINDS], now);
-    bool ok = !st.code && (row == 0 || distance_to_row(m[KINDS], w, 0, 0, &most) <= SAME);
-    size_t i = ok ? row : 0;
-    while (ok && i < n && !shell_stop) {
-        if (i % AT_ONCE == 0)
-            progress_part(0.5 * (double)i / (double)n);
-        ok = choose_driver(m, w, i, &most, &driver[i], &st);
-        i += ok;
-    }
-    for (size_t k = 0; k <= KINDS; k++)
-        fret_contact_free(m[k]);
-    if (shell_stop)
-        return calc_interrupted(error);
-    return ok ||
-           (calc_status(error, &st) &&
-            calc_fail(error, 0, 0, "%s: FN,Fx and dz,dx do not agree in this scene (row %zu): leave one pair",
-                      w->data->path, i + 1));
-}
-
-static bool read_pair(csv *data, const followed *kind, rows *w, calc_error *error) {
-    const size_t k = (size_t)(kind - kinds);
-    csv_values *normal = columns_take(data, kind->name[0], kind->d, error),
-               *tangential = normal ? columns_take(data, kind->name[1], kind->d, error) : NULL;
-    w->column[k][0] = normal;
-    w->column[k][1] = tangential;
-    return tangential != NULL;
 }
 
 /* What the contact reads where a rig has offsets. */
@@ -511,112 +400,110 @@ static bool take_off(shell *sh, input offset, csv_values *v, size_t n, calc_erro
 /* dx or drig drives at constant F_N, and F_x is compared. */
 static bool read_compared(shell *sh, csv *data, rows *w, calc_error *error) {
     w->rig = columns_at_rig(sh, data);
-    csv_values *dx = columns_take(data, loop_column(w->rig), DIM_LENGTH, error),
-               *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL;
-    w->kind = &kinds[1];
-    w->column[1][1] = dx;
-    w->compared = Fx;
+    w->dx = columns_take(data, loop_column(w->rig), DIM_LENGTH, error);
+    w->Fx = w->dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL;
     if (!(csv_has(data, "dx") || w->rig) || !csv_has(data, "Fx"))
         calc_append(&sh->calc, error, " (FN,Fx or dz,dx are followed; dx,Fx or drig,Fx compared)");
-    if (!Fx)
-        return false;
-    return sh->calc.scene.end.steps || calc_missing(error, IN_FN);
+    return w->Fx && (sh->calc.scene.end.steps || calc_missing(error, IN_FN));
 }
 
-static bool follow_all(shell *sh, rows *w, bool both, calc_error *error) {
-    unsigned char *driver = NULL;
-    size_t row = 0;
-    if (!sh->calc.scene.end.steps) {
-        if (!follow_press(sh, w, error))
-            return false;
-        row = 1;
-    }
-    if (both && !(driver = malloc(w->data->rows)))
-        return calc_no_memory(error);
-    w->driver = driver;
-    const bool ok = (!both || choose_drivers(sh, w, row, driver, error)) && follow_rows(sh, w, row, error);
-    free(driver);
-    return ok;
-}
-
-static bool read_rows(shell *sh, csv *data, rows *w, bool *both, calc_error *error) {
+static bool read_rows(shell *sh, csv *data, rows *w, calc_error *error) {
     const bool FN = csv_has(data, "FN"), Fx = csv_has(data, "Fx"), dz = csv_has(data, "dz"),
                dx = csv_has(data, "dx");
     /* of a pair one may have its name, and the other is the one of its dimension */
     const bool forces = FN && (Fx || !dx), places = dz && (dx || !(Fx || FN));
-    const csv_values *loss = NULL;
-    *both = forces && places;
-    *w = (rows){.data = data, .kind = places && !forces ? &kinds[1] : &kinds[0]};
-    if (*both && !csv_has(data, "W"))
-        return calc_fail(error, 0, 0, "%s has FN,Fx and dz,dx, but no W: leave one pair", data->path);
-    if ((!forces && !places && !read_compared(sh, data, w, error)) ||
-        (forces && !read_pair(data, &kinds[0], w, error)) ||
-        (places && !read_pair(data, &kinds[1], w, error)) ||
-        (*both && !(loss = columns_take(data, "W", DIM_ENERGY, error))) || !csv_settle(data, error))
+    *w = (rows){.data = data, .by = forces ? BY_FORCE : BY_DISPLACEMENT};
+    w->normal_by = forces || places ? w->by : BY_NONE;
+    if (forces && (!(w->normal = columns_take(data, "FN", DIM_FORCE, error)) ||
+                   !(w->Fx = columns_take(data, "Fx", DIM_FORCE, error))))
         return false;
-    for (size_t k = 0; k < KINDS; k++) {
-        w->normal[k] = w->column[k][0] ? w->column[k][0]->v : NULL;
-        w->tangential[k] = w->column[k][1] ? w->column[k][1]->v : NULL;
-    }
-    w->loss = loss ? loss->v : NULL;
-    return !w->rig || (take_off(sh, IN_D0, w->column[1][1], data->rows, error) &&
-                       take_off(sh, IN_F0, w->compared, data->rows, error));
+    if (places && !forces && !(w->normal = columns_take(data, "dz", DIM_LENGTH, error)))
+        return false;
+    if (places && !(w->dx = columns_take(data, "dx", DIM_LENGTH, error)))
+        return false;
+    if ((!forces && !places && !read_compared(sh, data, w, error)) || !csv_settle(data, error))
+        return false;
+    return !w->rig ||
+           (take_off(sh, IN_D0, w->dx, data->rows, error) && take_off(sh, IN_F0, w->Fx, data->rows, error));
 }
 
-/* Of the rows that have been followed last. */
-static bool compare_rows(shell *sh, const rows *w, double *rms, calc_error *error) {
+/* What the file has of the state, and how far it is from what the state is, in the rows that have been
+ * followed last. */
+enum { OF_FX, OF_DX, COMPARED_COLUMNS };
+typedef struct differences {
+    double rms[COMPARED_COLUMNS], largest[COMPARED_COLUMNS];
+} differences;
+
+static bool compare_rows(shell *sh, const rows *w, differences *out, calc_error *error) {
     scene *s = &sh->calc.scene;
     const size_t count = w->data->rows, before = s->end.steps - count;
+    const double *theirs[] = {w->Fx->v, w->dx->v};
+    long double squares[COMPARED_COLUMNS] = {0, 0};
     scene_trace t;
     sight now;
-    long double squares = 0;
     if (!trace_begin(&t, s, watch_points(1), true, error))
         return false;
-    for (size_t i = 0; trace_next(&t, error); i++)
-        if (i >= before) {
-            run_sight(trace_now(&t), &now);
-            const long double off = now.state.Fx - w->compared->v[i - before];
-            squares += off * off;
+    for (size_t i = 0; trace_next(&t, error); i++) {
+        run_sight(trace_now(&t), &now);
+        const long double ours[] = {now.state.Fx, now.state.dx};
+        for (int k = 0; k < COMPARED_COLUMNS && i >= before; k++) {
+            const long double off = ours[k] - theirs[k][i - before];
+            squares[k] += off * off;
+            out->largest[k] = fmax(out->largest[k], fabs(theirs[k][i - before]));
         }
+    }
     trace_end(&t);
-    *rms = (double)sqrtl(squares / (long double)count);
+    for (int k = 0; k < COMPARED_COLUMNS; k++)
+        out->rms[k] = (double)sqrtl(squares[k] / (long double)count);
     return !error->raised;
 }
 
-static void report_compared(shell *sh, double rms) {
+static void report_compared(shell *sh, const char *name, dim d, double rms) {
     char text[CALC_VALUE_TEXT];
     answer event;
     answer_begin(&event, &sh->set, sh->out);
     answer_event(&event, "compared");
+    answer_string(&event, "of", name);
     answer_number(&event, "rms", rms);
     answer_done(&event);
-    calc_value_text(DIM_FORCE, rms, text);
-    shell_note(sh, "Fx of the file is %s (rms) from Fx here", text);
+    calc_value_text(d, rms, text);
+    shell_note(sh, "%s of the file is %s (rms) from %s here", name, text, name);
 }
 
+/* Of both pairs that is told which does not agree, as in another scene. */
+static void report_differences(shell *sh, const rows *w, const differences *d) {
+    static const char *const names[] = {"Fx", "dx"};
+    static const dim dims[] = {{1, 0, 0, 0}, {0, 1, 0, 0}};
+    const bool both = w->normal_by == BY_FORCE;
+    for (int k = 0; k < (both ? COMPARED_COLUMNS : OF_DX); k++)
+        if (!both || d->rms[k] > SAME * d->largest[k])
+            report_compared(sh, names[k], dims[k], d->rms[k]);
+}
+
+/* A live mu may depend on the press. */
 static bool follow_file(shell *sh, csv *data, calc_error *error) {
+    scene *s = &sh->calc.scene;
     rows w;
-    bool both, turned = false;
     scene_mark before;
-    double mu, rms = 0;
-    if (!read_rows(sh, data, &w, &both, error))
+    differences off = {{0}, {0}};
+    if (!read_rows(sh, data, &w, error))
         return false;
-    if (w.compared && columns_opposed(data, w.column[1][1], w.compared))
+    const bool compared = w.Fx && w.dx;
+    if (compared && !w.normal && columns_opposed(data, w.dx, w.Fx))
         return calc_fail(error, 0, 0,
                          "%s: Fx falls where dx grows: one of them has the other sign in the file",
                          data->path);
-    turned = columns_turn_pull(data, w.column[0][0]);
-    if (!sh->calc.scene.in.bound[IN_MU] && !scene_friction(&sh->calc.scene, &mu, error))
-        return false; /* a live one may depend on the press that is to come */
-    scene_save(&sh->calc.scene, &before, false);
-    if (!follow_all(sh, &w, both, error) || (w.compared && !compare_rows(sh, &w, &rms, error))) {
-        scene_back(&sh->calc.scene, &before);
+    const bool turned = w.normal_by == BY_FORCE && columns_turn_pull(data, w.normal), pressed = s->end.steps;
+    scene_save(s, &before, false);
+    if ((!pressed && !follow_press(sh, &w, error)) || !scene_friction(s, &w.mu, error) ||
+        !follow_rows(sh, &w, !pressed, error) || (compared && !compare_rows(sh, &w, &off, error))) {
+        scene_back(s, &before);
         return false;
     }
     scene_drop(&before);
     columns_say(sh, data, turned ? TURNED_FN : "");
-    if (w.compared)
-        report_compared(sh, rms);
+    if (compared)
+        report_differences(sh, &w, &off);
     return true;
 }
 

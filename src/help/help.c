@@ -539,7 +539,7 @@ bool do_apropos(shell *sh, lexer *lx, said *all) {
     char words[HEARD + 1][LEX_NAME] = {""};
     bool known = true; /* no word is longer than any name */
     text_out t;
-    if (!all->count)
+    if (!all->list[0].hole[0].len)
         return lex_fail(lx, "apropos what? such as: apropos radius");
     for (unsigned i = 0; i < all->count; i++) {
         hole_word(lx, &all->list[i], words[i]);

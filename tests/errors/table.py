@@ -13,7 +13,7 @@ SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
 # what entries read, beside them
 FILES = {"gap.csv": "r [mm],f [um]\n0,0\n1,1\n2,4\n", "loop.csv": "dx [um],Fx [N]\n0,0\n0.1,5\n0.2,8\n0.3,11\n",
          "loss.csv": "F [N],y [uJ]\n5,0.01\n10,0.08\n15,0.25\n", "ambiguous.csv": "F [N],dW [uJ]\n5,0.01\n10,0.08\n",
-         "modulus.csv": "F [N],E0\n1,2\n2,3\n3,4\n", "both.csv": "FN [N],Fx [N],dz [um],dx [um]\n1,0,1,0\n",
+         "modulus.csv": "F [N],E0\n1,2\n2,3\n3,4\n",
          "unitless.csv": "FN [N],Fx\n100,0\n100,5\n", "dx.csv": "dx,Fx [N]\n0,0\n1,5\n",
          "twice.csv": "dx [um],dx [mm],Fx [N],Fx [kN]\n0,0,0,0\n1,1,5,5\n", "double.csv": "u [um],v,u [mm]\n0,1,0\n1,2,5\n", "zero.csv": "FN [N],Fx [N]\n0,0\n100,5\n", "slide.csv": "FN [N],Fx [N]\n100,0\n100,50\n",
          "word.csv": "FN [N],Fx [N]\n100,0\n100,xx\n", "words.csv": "FN [N],Fx [N]\n100,0\nx,5\n",
