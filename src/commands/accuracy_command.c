@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command `accuracy`: its arguments, its progress, and what the study says. */
-#include "commands/accuracy_command.h"
-
+/* The command `accuracy`: its arguments, its progress, what the study says, and the figure of it. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "commands/figures.h"
 #include "statement/answer.h"
+#include "statement/command.h"
 #include "statement/progress.h"
+#include "study/accuracy.h"
 
 /* Columns of its answer. */
 enum { HEAD_MODEL, HEAD_PARAMETER, HEAD_VALUE, HEAD_ERROR, HEAD_BOUND, HEAD_SECONDS, HEAD_RATIO, HEADS };
@@ -27,7 +29,8 @@ static void show_progress(void *context, const accuracy_row *row) {
     progress_words(words);
 }
 
-bool accuracy_study_run(shell *sh, said *given, accuracy_study *out, calc_error *error) {
+/* Measures what has been said; progress is shown on a terminal. */
+static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *error) {
     const heard *FA = said_of(given, "FA", 0), *dxA = said_of(given, "dxA", 0), *v = dxA ? dxA : FA,
                 *within = said_of(given, "within", 0);
     const accuracy_load load = {.given = v != NULL,
@@ -44,7 +47,8 @@ bool accuracy_study_run(shell *sh, said *given, accuracy_study *out, calc_error 
 
 /* ---- words ------------------------------------------------------------------------------------- */
 
-void accuracy_load_text(const shell *sh, const accuracy_study *study, char *buf, size_t size) {
+/* The cycle in words: "FA = 20 N at FN = 100 N, the last cycle". */
+static void load_text(const shell *sh, const accuracy_study *study, char *buf, size_t size) {
     static const char *const from[] = {[FROM_USER] = "",
                                        [FROM_CYCLE] = ", the last cycle",
                                        [FROM_STEP] = ", that of the last step: no cycle has been run",
@@ -164,7 +168,7 @@ static void say_study(shell *sh, const accuracy_study *study) {
     const accuracy_row bound = {.error = study->agreement, .below = true};
     answer out;
     answer_begin(&out, &sh->set, sh->out);
-    accuracy_load_text(sh, study, load, sizeof load);
+    load_text(sh, study, load, sizeof load);
     format_error(&bound, error, sizeof error);
     answer_words(&out, "%s\nreference: %s, %.*g %s, good to %s\n", load, study->reference, sh->set.digits,
                  (double)(study->value / scale), unit_text, error + 1);
@@ -183,9 +187,38 @@ static void say_study(shell *sh, const accuracy_study *study) {
     answer_end(&out, true);
 }
 
+/* Error against time, one curve a model. */
+bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+    static const axis_of time = {.name = "time of a cycle [s]"}, loss = {.name = "relative error"};
+    accuracy_study study;
+    char text[400], load[360];
+    plot_series *series = NULL;
+    if (!run_study(sh, all, &study, lx->error))
+        return false;
+    for (size_t i = 0; i < study.count; i++) {
+        const accuracy_row *row = &study.row[i];
+        if (i == 0 || row->family != row[-1].family)
+            series = plot_series_add(p, PLOT_CURVE, families[row->family].name, lx->error);
+        if (!series)
+            return false;
+        if (!plot_point(series, row->seconds, (double)row->error))
+            return calc_no_memory(lx->error);
+    }
+    load_text(sh, &study, load, sizeof load);
+    snprintf(text, sizeof text, PLOT_EXPR "dW, %s" PLOT_END, load);
+    p->title = p->title ? p->title : strdup(text);
+    p->xlabel = p->xlabel ? p->xlabel : strdup(time.name);
+    p->ylabel = p->ylabel ? p->ylabel : strdup(loss.name);
+    if (!p->title || !p->xlabel || !p->ylabel)
+        return calc_no_memory(lx->error);
+    p->logx = p->logy = p->points = p->airy = true;
+    return looks_lay_over(lx, l, p, &time, &loss) && looks_axis(lx, l, p, true, &time) &&
+           looks_axis(lx, l, p, false, &loss);
+}
+
 bool do_accuracy(shell *sh, lexer *lx, said *all) {
     accuracy_study study;
-    if (!accuracy_study_run(sh, all, &study, lx->error))
+    if (!run_study(sh, all, &study, lx->error))
         return false;
     if (sh->replaying) /* times, and what follows from them */
         fprintf(sh->out, "%c\n", MARK_DRAWING);

@@ -107,14 +107,14 @@ bool same_dim(dim a, dim b) {
     return dim_equal(a, b) && (a.rad != 0) == (b.rad != 0);
 }
 
-csv_values *column_of_dim(csv *c, dim d, const csv_values *but, char *names, size_t size, size_t *count) {
+csv_values *column_of_dim(csv *c, dim d, char *names, size_t size, size_t *count) {
     csv_values *one = NULL;
     size_t n = 0;
     *names = 0;
     *count = 0;
     for (csv_values *v = c->column; v < c->column + c->columns; v++) {
-        if (v == but || v->v || v->given || !dim_equal(v->d, d) ||
-            ((v->trouble || !v->numbers) && !v->has_unit) || quantity_find(v->name, strlen(v->name)))
+        if (v->v || v->given || !dim_equal(v->d, d) || ((v->trouble || !v->numbers) && !v->has_unit) ||
+            quantity_find(v->name, strlen(v->name)))
             continue;
         one = v;
         if (n < size)
@@ -129,7 +129,7 @@ csv_values *columns_take(csv *c, const char *name, dim d, calc_error *error) {
     csv_values *column = csv_find(c, name);
     size_t count = 0;
     dim_describe(d, wants, sizeof wants);
-    if (!column && (column = column_of_dim(c, d, NULL, names, sizeof names, &count)))
+    if (!column && (column = column_of_dim(c, d, names, sizeof names, &count)))
         csv_rename(c, column, name);
     if (!column && count) {
         calc_fail(error, 0, 0,
@@ -189,8 +189,9 @@ bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
 
 /* Those that are results, or no names, have no say, and are missed if they are asked for; one that is named
  * in vain is no matter. */
-bool columns_wake(shell *sh, csv *data, size_t names, named_columns *out, calc_error *error) {
+bool columns_wake(shell *sh, csv *data, said *all, named_columns *out, calc_error *error) {
     out->count = 0;
+    all->wakes = true;
     for (size_t i = 0; i < data->columns; i++) {
         csv_values *of_file = &data->column[i];
         calc_error *useless = error_quiet();
@@ -204,7 +205,7 @@ bool columns_wake(shell *sh, csv *data, size_t names, named_columns *out, calc_e
         if ((known && !quantity_is_input(known)) ||
             (!known && name_taken(of_file->name, strlen(of_file->name))))
             continue;
-        if (!names_wake(sh, &lx, names))
+        if (!names_wake(sh, &lx, all->names))
             return calc_no_memory(error);
         knob_name(&sh->calc, &lx, k); /* there is one */
         if (k->is_input && !calc_takes(&sh->calc, k->in, error_quiet()))

@@ -29,9 +29,9 @@ static inline const char *columns_file(const csv *c) {
 
 /* Of the same dimension, an angle being none of a number? */
 bool same_dim(dim a, dim b);
-/* The one column of this dimension that is called after no quantity, not `but` (may be NULL): NULL, names and
+/* The one column of this dimension that is called after no quantity and has not been read: NULL, names and
  * how many where there are none or several. */
-csv_values *column_of_dim(csv *c, dim d, const csv_values *but, char *names, size_t size, size_t *count);
+csv_values *column_of_dim(csv *c, dim d, char *names, size_t size, size_t *count);
 /* The column of this name and dimension, with its values; where none has the name the one of the dimension,
  * which has the name from then on. NULL with an error. */
 csv_values *columns_take(csv *c, const char *name, dim d, calc_error *error);
@@ -59,8 +59,8 @@ typedef struct named_columns {
     bool turned; /* FN */
 } named_columns;
 
-/* They are known until names_forget(sh, names). */
-bool columns_wake(shell *sh, csv *data, size_t names, named_columns *out, calc_error *error);
+/* They are known until what has been said is dropped. */
+bool columns_wake(shell *sh, csv *data, said *all, named_columns *out, calc_error *error);
 /* Leaves those that have a say, with their values, in rows where each has one: inputs, and what the first
  * expressions in sh->list mention. An input that is not mentioned may be no number. */
 bool columns_load(const shell *sh, csv *data, size_t expressions, named_columns *out, calc_error *error);

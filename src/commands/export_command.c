@@ -1,18 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* export: the contact for a dynamics code, as the stiffnesses of its first harmonic, or as the branches of
  * its loop. Leaves the scene as it is. */
-#include "commands/export_command.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "commands/range.h"
-#include "commands/study_commands.h"
 #include "commands/tables.h"
 #include "language/along.h"
 #include "language/trial.h"
 #include "scene/functions.h"
+#include "statement/command.h"
 #include "statement/progress.h"
 #include "study/jenkins.h"
 

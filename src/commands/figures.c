@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "commands/accuracy_command.h"
 #include "commands/range.h"
 #include "statement/command.h"
 
@@ -285,33 +284,4 @@ static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const
     return run_borders(sh, &r[amplitude[0]], &drawn) && draw_regimes(&drawn) &&
            looks_lay_over(lx, l, p, &axis[0], &axis[1]) && looks_axis(lx, l, p, true, &axis[0]) &&
            looks_axis(lx, l, p, false, &axis[1]);
-}
-
-/* Error against time, one curve a model. */
-bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
-    static const axis_of time = {.name = "time of a cycle [s]"}, loss = {.name = "relative error"};
-    accuracy_study study;
-    char text[400], load[360];
-    plot_series *series = NULL;
-    if (!accuracy_study_run(sh, all, &study, lx->error))
-        return false;
-    for (size_t i = 0; i < study.count; i++) {
-        const accuracy_row *row = &study.row[i];
-        if (i == 0 || row->family != row[-1].family)
-            series = plot_series_add(p, PLOT_CURVE, families[row->family].name, lx->error);
-        if (!series)
-            return false;
-        if (!plot_point(series, row->seconds, (double)row->error))
-            return calc_no_memory(lx->error);
-    }
-    accuracy_load_text(sh, &study, load, sizeof load);
-    snprintf(text, sizeof text, PLOT_EXPR "dW, %s" PLOT_END, load);
-    p->title = p->title ? p->title : strdup(text);
-    p->xlabel = p->xlabel ? p->xlabel : strdup(time.name);
-    p->ylabel = p->ylabel ? p->ylabel : strdup(loss.name);
-    if (!p->title || !p->xlabel || !p->ylabel)
-        return calc_no_memory(lx->error);
-    p->logx = p->logy = p->points = p->airy = true;
-    return looks_lay_over(lx, l, p, &time, &loss) && looks_axis(lx, l, p, true, &time) &&
-           looks_axis(lx, l, p, false, &loss);
 }

@@ -29,9 +29,13 @@ const grammar *figure_form(size_t i); /* NULL: that of plot */
 const char *figure_word(size_t i);    /* what a figure may begin with: these, and map */
 const figure *figure_find(const char *name, size_t len);
 
-/* figures that are no sweep; the last two of fit_command.c, without GSL study_none.c */
+/* figures that are no sweep: accuracy_command.c; fit_command.c, without GSL study_none.c */
 bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
 bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
 bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
+void fit_forget(shell *sh);
+
+/* What --version says of it, behind its own; empty: nothing. */
+extern const char study_library[];
 
 #endif

@@ -7,9 +7,9 @@
 #include "commands/columns.h"
 #include "commands/expressions.h"
 #include "commands/figures.h"
-#include "commands/study_commands.h"
 #include "commands/tables.h"
 #include "measured/loop.h"
+#include "statement/command.h"
 #include "study/determined.h"
 #include "study/fit.h"
 
@@ -67,14 +67,14 @@ static bool read_side(shell *sh, const lexer *lx, const span *part, expr *e) {
     return expr_parse_at(&sh->calc, &own, e) && at_end(&own);
 }
 
-static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, named_columns *columns,
-                          size_t names) {
+static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv *data,
+                          named_columns *columns) {
     const heard *sides = said_of(all, "for", 0), *to = said_of(all, "to", 0);
     char layout[CALC_ERROR_TEXT / 2];
     _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
     if (!to)
         return lex_fail(lx, "expected to FILE.csv");
-    if (!columns_read(lx, all, to, data) || !columns_wake(sh, data, names, columns, lx->error))
+    if (!columns_read(lx, all, to, data) || !columns_wake(sh, data, all, columns, lx->error))
         return false;
     q->left = &sh->list[0];
     q->right = &sh->list[1];
@@ -145,8 +145,7 @@ static bool read_noise(const lexer *lx, said *all, fit_loop *loop) {
            calc_fail(lx->error, word->at, word->len, "expected dx=10 nm or Fx=0.5 N behind noise");
 }
 
-static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, named_columns *columns,
-                     size_t names) {
+static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, named_columns *columns) {
     const heard *along = said_of(all, "along", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     q->c = &sh->calc;
@@ -154,8 +153,7 @@ static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data
         return false;
     if (!along && !said_of(all, "for", 0))
         return lex_fail(lx, "expected for EXPR = EXPR to FILE.csv, or along FILE.csv");
-    return along ? read_loop(sh, lx, all, along, q, data)
-                 : read_equation(sh, lx, all, q, data, columns, names);
+    return along ? read_loop(sh, lx, all, along, q, data) : read_equation(sh, lx, all, q, data, columns);
 }
 
 /* ---- fit: what is said ------------------------------------------------------------------------- */
@@ -501,9 +499,8 @@ bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const 
 /* ---- the command ------------------------------------------------------------------------------- */
 
 bool do_fit(shell *sh, lexer *lx, said *all) {
-    const size_t names = sh->calc.names.count;
     struct fitted *f = calloc(1, sizeof *f);
-    bool ok = (f || calc_no_memory(lx->error)) && read_fit(sh, lx, all, &f->q, &f->data, &f->columns, names);
+    bool ok = (f || calc_no_memory(lx->error)) && read_fit(sh, lx, all, &f->q, &f->data, &f->columns);
     if (ok && is_by_cycle(lx, all)) {
         ok = !lx->error->raised && fit_by_cycle(sh, lx, all, &f->q, &f->data);
     } else if (ok) {
@@ -517,7 +514,6 @@ bool do_fit(shell *sh, lexer *lx, said *all) {
             sh->fitted = f;
         }
     }
-    names_forget(sh, names);
     if (sh->fitted != f)
         fitted_free(f);
     return ok;

@@ -150,64 +150,32 @@ static csv_values *column_named(csv *c, const axis_of *axis) {
     return NULL;
 }
 
-static const csv_values *quantity_in(const csv *c, dim d) {
-    for (size_t i = 0; i < c->columns; i++)
-        if (dim_equal(c->column[i].d, d) && quantity_find(c->column[i].name, strlen(c->column[i].name)))
-            return &c->column[i];
-    return NULL;
-}
-
-/* The only column but one of the axis' dimension that is not called after something else. */
-static csv_values *column_for(csv *c, const axis_of *axis, const csv_values *but, calc_error *error) {
-    char wants[128], names[CALC_ERROR_TEXT / 2] = "";
-    size_t fit;
-    csv_values *one = column_of_dim(c, axis->d, but, names, sizeof names, &fit);
-    if (one)
-        return one;
-    dim_describe(axis->d, wants, sizeof wants);
-    if (fit) {
-        calc_fail(error, 0, 0,
-                  "several columns fit the axis %.60s, which is %s: %s; give one of them its name",
-                  axis->name, wants, names);
-        return NULL;
-    }
-    const csv_values *other = quantity_in(c, axis->d);
-    csv_names(c, names, sizeof names);
-    calc_fail(
-        error, 0, 0,
-        "no column fits the axis %.60s, which is %s: there are %s; their units stand in the header%s%s%s",
-        axis->name, wants, names, other ? ", and " : "", other ? other->name : "",
-        other ? " is the name of another quantity" : "");
-    return NULL;
-}
-
-/* Is it whole, and of the axis' dimension? */
-static bool is_fit(csv *c, const csv_values *v, const axis_of *axis, calc_error *error) {
-    char wants[128], is[128];
-    if (!v || !csv_column(c, v->name, error) || dim_equal(v->d, axis->d))
-        return !error->raised;
-    dim_describe(axis->d, wants, sizeof wants);
-    dim_describe(v->d, is, sizeof is);
-    return calc_fail(error, 0, 0, "column %s is %s: it needs the unit of %s in the header", v->name, is,
-                     wants);
+/* The column that stands for an axis: of its name, else of its dimension, which has the name from then on. */
+static csv_values *take(csv *c, const axis_of *axis, calc_error *error) {
+    const csv_values *named = column_named(c, axis);
+    char name[CSV_NAME];
+    const size_t word = strcspn(axis->name, "(,"); /* `dW` of dW(F) */
+    snprintf(name, sizeof name, "%.*s", (int)word, axis->name);
+    return columns_take(c, named ? named->name : name, axis->d, error);
 }
 
 const csv_values *looks_column(csv *c, const axis_of *axis, bool alone, calc_error *error) {
-    csv_values *found = column_named(c, axis);
-    if (found)
-        return is_fit(c, found, axis, error) ? found : NULL;
-    found = alone ? column_for(c, axis, NULL, error_quiet()) : NULL;
-    return found && *found->name && csv_load(c, found, error) ? found : NULL;
+    char names[CSV_NAME];
+    size_t count;
+    if (column_named(c, axis))
+        return take(c, axis, error);
+    csv_values *one = alone ? column_of_dim(c, axis->d, names, sizeof names, &count) : NULL;
+    return one && *one->name && csv_load(c, one, error) ? one : NULL;
 }
 
 /* Names come first. */
 static bool find_columns(csv *c, const axis_of *x, const axis_of *y, csv_values **of_x, csv_values **of_y,
                          calc_error *error) {
-    *of_x = column_named(c, x);
-    *of_y = column_named(c, y);
-    *of_x = *of_x ? *of_x : column_for(c, x, *of_y, error);
-    *of_y = *of_y || !*of_x ? *of_y : column_for(c, y, *of_x, error);
-    return !error->raised && is_fit(c, *of_x, x, error) && is_fit(c, *of_y, y, error) && csv_settle(c, error);
+    const bool y_first = column_named(c, y);
+    csv_values **first = y_first ? of_y : of_x, **second = y_first ? of_x : of_y;
+    *first = take(c, y_first ? y : x, error);
+    *second = *first ? take(c, y_first ? x : y, error) : NULL;
+    return *second && csv_settle(c, error);
 }
 
 static bool lay_file(lexer *lx, const looks *l, size_t file, plot_panel *p, const axis_of *x,

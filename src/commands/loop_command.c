@@ -4,9 +4,9 @@
 #include <stdlib.h>
 
 #include "commands/columns.h"
-#include "commands/study_commands.h"
 #include "commands/tables.h"
 #include "measured/loop.h"
+#include "statement/command.h"
 
 /* What is told of a cycle, in the order of its table; the flag at the end is 1 or 0 there. */
 static const struct {

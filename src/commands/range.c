@@ -256,9 +256,8 @@ bool rows_open(shell *sh, const lexer *lx, said *all, file_rows *out) {
     out->data = (csv){.path = NULL};
     if (!columns_placed(all, lx->error) || !at)
         return !lx->error->raised;
-    all->wakes = true;
     return (columns_read(lx, all, at, &out->data) &&
-            columns_wake(sh, &out->data, all->names, &out->names, lx->error)) ||
+            columns_wake(sh, &out->data, all, &out->names, lx->error)) ||
            heard_place(lx->error, at);
 }
 

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Questions that go backwards: solve, maximize, minimize, uncertainty. They leave the scene as it is. */
-#include "commands/study_commands.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +8,7 @@
 #include "commands/expressions.h"
 #include "commands/range.h"
 #include "commands/tables.h"
+#include "statement/command.h"
 #include "statement/progress.h"
 #include "study/optimise.h"
 #include "study/solve.h"

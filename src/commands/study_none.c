@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where GSL is left out, in place of fit_command.c, optimise.c, uncertainty.c and smooth.c. */
 #include "commands/figures.h"
-#include "commands/study_commands.h"
+#include "statement/command.h"
 #include "study/optimise.h"
 #include "study/smooth.h"
 #include "study/uncertainty.h"

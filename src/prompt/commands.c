@@ -3,12 +3,9 @@
  * down, command.c looks it up. */
 #include "statement/command.h"
 
-#include "commands/accuracy_command.h"
-#include "commands/export_command.h"
 #include "commands/figures.h"
 #include "commands/looks.h"
 #include "commands/range.h"
-#include "commands/study_commands.h"
 #include "help/help.h"
 #include "live/live.h"
 #include "prompt/show.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "commands/study_commands.h"
+#include "commands/figures.h"
 #include "help/manual.h"
 #include "prompt/show.h"
 #include "statement/command.h"

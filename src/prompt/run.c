@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "commands/expressions.h"
-#include "commands/study_commands.h"
+#include "commands/figures.h"
 #include "help/help.h"
 #include "statement/command.h"
 #include "statement/cursor.h"

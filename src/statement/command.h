@@ -51,6 +51,10 @@ command_run do_material, do_second, do_geometry, do_friction, do_rig, do_bulk, d
 command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;
 /* view_commands.c, plot_commands.c, explain.c */
 command_run do_history, do_table, do_plot, do_animate, do_explain, do_accuracy, do_compare;
+/* study_commands.c; fit_command.c, or without GSL study_none.c; loop_command.c, export_command.c */
+command_run do_solve, do_maximize, do_minimize, do_uncertainty, do_fit, do_loop, do_export;
+const char *export_name(size_t i);
+const grammar *export_form(size_t i);
 /* show.c, help.c, session_commands.c, demo.c, exercise.c, live_command.c */
 command_run do_show, do_set, do_help, do_apropos, do_cite;
 /* keep_commands.c */

@@ -46,7 +46,7 @@ bool names_wake(shell *sh, const lexer *lx, size_t before) {
     return true;
 }
 
-void names_forget(shell *sh, size_t before) {
+static void names_forget(shell *sh, size_t before) {
     own_names *n = &sh->calc.names;
     names_drop(n, before);
     for (size_t i = 0; i < n->count; i++)

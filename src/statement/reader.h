@@ -78,9 +78,8 @@ bool said_wake(shell *sh, const lexer *lx, said *s);
  * says so. */
 bool said_hides(const lexer *lx, const said *s, const char *word);
 
-/* The name at the cursor becomes known, until names_forget; before: how many names there were. */
+/* The name at the cursor becomes known, until said_drop of what wakes; before: how many names there were. */
 bool names_wake(shell *sh, const lexer *lx, size_t before);
-void names_forget(shell *sh, size_t before);
 
 /* The i-th time that the clause of this name has been said, or NULL; "" is what stands first. */
 heard *said_of(said *s, const char *name, size_t i);

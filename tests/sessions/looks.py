@@ -179,23 +179,20 @@ def over(tests):
     fails(tests, "plot loop over " + path.replace("measured-1", "none"), "cannot read ")
     with open(path, "w", encoding="ascii") as f:
         f.write("Fx [kN],dx [nm]\n0.01,200\n-0.02,-500\n")
-    fails(tests, "plot pressure over " + path, "no column fits the axis r, which is a length: there are Fx, dx; their units stand in "
-          "the header, and dx is the name of another quantity")
+    fails(tests, "plot pressure over " + path, " has no column r: its columns are Fx, dx, by line 1, \"Fx [kN],dx [nm]\"; say which it is: using r=COLUMN")
     with open(path, "w", encoding="ascii") as f:
         f.write("Fx [kN],u [nm]\n0.01,200\n-0.02,-500\n")
-    fails(tests, "plot pressure over " + path, "no column fits the axis p(r), which is a pressure: there are Fx, u; their units")
+    fails(tests, "plot pressure over " + path, " has no column p: its columns are Fx, u [nm], ")
     fails(tests, "plot loop over /nonexistent.csv", "cannot read /nonexistent.csv")
-    for columns, row, axis in (("Fx [N],t", "1,2", "dx, which is a length"), ("dx [um],t", "1,2", "Fx, which is a force")):
+    for columns, row, axis in (("Fx [N],t", "1,2", "dx"), ("dx [um],t", "1,2", "Fx")):
         with open(path, "w", encoding="ascii") as f:
             f.write(columns + "\n" + row + "\n")
-        fails(tests, "plot loop over " + path, "no column fits the axis " + axis)
+        fails(tests, "plot loop over " + path, " has no column %s: its columns are " % axis)
     for columns, row, message in (
-            ("u [um],v [um],Fx [N]", "1,2,3", "several columns fit the axis dx, which is a length: u, v; give one of them its name"),
-            ("Ft [N],F [N],w [N],dx [um]", "1,2,3,4", "several columns fit the axis Fx, which is a force: Ft, F, w; give one of them its name"),
-            ("dz [um],FN [N]", "1,2", "no column fits the axis dx, which is a length: there are dz, FN; their units stand in the header, "
-             "and dz is the name of another quantity"),
-            ("FN [N],dx [um]", "1,2", "no column fits the axis Fx, which is a force: there are FN, dx; their units stand in the header, "
-             "and FN is the name of another quantity"),
+            ("u [um],v [um],Fx [N]", "1,2,3", " has no column dx, and a length is each of u, v: say which it is: using dx=COLUMN"),
+            ("Ft [N],F [N],w [N],dx [um]", "1,2,3,4", " has no column Fx, and a force is each of Ft, F, w: say which it is: using Fx=COLUMN"),
+            ("dz [um],FN [N]", "1,2", " has no column dx: its columns are dz, FN, "),
+            ("FN [N],dx [um]", "1,2", " has no column Fx: its columns are FN, dx, "),
             ("FN [N],dx [um],Fx", "1,2,3", "column Fx is a number: it needs the unit of a force in the header"),
             ("Ft [N],dx [um],Fx [N]", "1,2,none", "expected a number as Fx, not 'none'"),
             ("dx [um],dx [mm],Fx [N]", "1,2,3", " has two columns dx: rename one")):
@@ -213,7 +210,7 @@ def over(tests):
     with open(path, "w", encoding="ascii") as f:
         f.write("u [um],v [um]\n1,2\n")
     fails(tests, "plot a against dz for FN = 1 N .. 2 N over " + path,
-          "several columns fit the axis dz, which is a length: u, v; give one of them its name")
+          " has no column dz, and a length is each of u, v: say which it is: using dz=COLUMN")
 
 
 def maps(tests):
