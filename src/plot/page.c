@@ -325,6 +325,12 @@ static bool take_texts(plot_page *g) {
 
 /* ---- the key ------------------------------------------------------------------------------------ */
 
+/* More words on the series before, which has the points? */
+static bool goes_on(const plot_panel *p, size_t i) {
+    const plot_series *s = p->series[i];
+    return i && !s->count && s->style >= 0 && s->style == p->series[i - 1]->style;
+}
+
 static bool take_key(plot_page *g) {
     const plot_panel *p = g->panel;
     bool ok = true;
@@ -332,6 +338,8 @@ static bool take_key(plot_page *g) {
         if (p->series[i]->title) {
             page_entry *e = &g->entry[g->entries++];
             sign_of(g, i, e->sign, &e->ink);
+            if (goes_on(p, i))
+                memcpy(e->sign, " ", 2);
             e->text = shown(g, p->series[i]->title);
             ok &= e->text != NULL;
         }

@@ -717,6 +717,8 @@ def figure(tests):
     tests.check("plot fit: a picture", os.path.getsize(to + ".png") > 20000, tests.report(done))
     done = tests.run("-c", SETUP % (210, 0.4) + "; fit mu, E0 along %s; plot fit | fit title \"again\"" % name)
     tests.check("plot fit: in the terminal", done.stdout.count("shown.csv") == 2 == done.stdout.count("left over: rms = "), tests.report(done))
+    tests.check("plot fit: the sign of the curve stands once in its key", len(re.findall(r"\S (?:mu|μ) = ", done.stdout)) == 2 and
+                len(re.findall(r"   E0 = ", done.stdout)) == 2, tests.report(done))
     noisy = write(tests, "depths.csv", "force [N],depth [um]", [(80, 3.09), (20, 1.21), (120, 4.09), (50, 2.28)])
     values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit E0 for depth = dz(force) to %s; plot fit to %s.gp" % (noisy, to))
     (points, curve), (over,) = drawn(to + ".gp")
