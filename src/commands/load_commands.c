@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands of the load program: press, step, cycle, wear, follow, and the ways back. Each reads everything,
+/* Commands of the load program: press, step, cycle, follow, and the ways back. Each reads everything,
  * then changes everything or nothing. */
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static bool reports(const shell *sh) {
 }
 
 /* What they are is found first: it may take its time, and show that. */
-static void report_event(shell *sh, const char *event, const char *const *names) {
+void report_event(shell *sh, const char *event, const char *const *names) {
     const quantity *of[REPORTED];
     value v[REPORTED];
     size_t count = 0;
@@ -207,119 +207,22 @@ bool do_cycle(shell *sh, lexer *lx, said *all) {
     cycle_extra extra;
     const heard *last;
     counted *bound[INPUTS] = {NULL};
-    bool live = false, worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
+    const bool worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
+    bool live = false;
     if (!read_targets(sh, lx, true, all, &step, &extra, &last))
         return false;
-    scene_mark before;
-    scene_save(&sh->calc.scene, &before, false);
-    bool ok = scene_load(&sh->calc.scene, &step, &extra, lx->error) || heard_place(lx->error, last);
-    const bool loaded = ok;
-    for (const heard *h = all->list; ok && h < all->list + all->count; h++)
+    for (const heard *h = all->list; h < all->list + all->count; h++)
         if (h->live) {
             bound[h->of->in - 1] = h->live;
             live = true;
         }
-    if (ok && live)
-        ok = scene_edit(&sh->calc.scene, bind_all, bound, lx->error);
-    if (loaded && !ok)
-        scene_back(&sh->calc.scene, &before);
-    else
-        scene_drop(&before);
+    const bool ok = (scene_load(&sh->calc.scene, &step, &extra, lx->error) || heard_place(lx->error, last)) &&
+                    (!live || scene_edit(&sh->calc.scene, bind_all, bound, lx->error));
     if (ok && said_of(all, "phase", 0) && !said_of(all, "FNA", 0))
         shell_note(sh, "phase does nothing without FNA");
     if (ok)
         report_event(sh, "cycle", names);
     note_unworn(sh, ok && worn);
-    return ok;
-}
-
-/* ---- wear -------------------------------------------------------------------------------------- */
-
-/* What is said of it: the law, by a definition or a value, or the cycles. */
-typedef struct wearing {
-    bool none, law, cycles;
-    counted *live;
-    double alpha, Nw;
-} wearing;
-
-static void put_wear(inputs *in, void *context) {
-    const wearing *w = context;
-    if (w->none)
-        inputs_unset(in, INPUT_BIT(IN_ALPHA_W) | INPUT_BIT(IN_NW));
-    if (w->law)
-        inputs_put(in, IN_ALPHA_W, w->live ? in->v[IN_ALPHA_W] : w->alpha);
-    if (w->live)
-        inputs_bind(in, IN_ALPHA_W, counted_hold(w->live));
-    if (w->cycles)
-        inputs_put(in, IN_NW, w->Nw);
-}
-
-/* K/(mu*H) with numbers for K and H, to follow mu. */
-static counted *archard(shell *sh, const heard *K, const heard *H, calc_error *error) {
-    char text[100];
-    counted *out = NULL;
-    lexer own;
-    snprintf(text, sizeof text, "%.17g/(mu*%.17g Pa)", (double)K->v.v, (double)H->v.v);
-    lex_start(&own, text, strlen(text), error);
-    calc_bind(&sh->calc, &own, IN_ALPHA_W, &out);
-    return out;
-}
-
-/* What is left in the end, which changes nothing. */
-static bool tell_limit(shell *sh, calc_error *error) {
-    scene *s = &sh->calc.scene;
-    fret_wear *limit;
-    fret_real c, b;
-    if (!scene_wear_limit(s, &limit, error))
-        return false;
-    fret_wear_ring(limit, &c, &b);
-    answer a;
-    answer_begin(&a, &sh->set, sh->out);
-    answer_page(&a, "limit");
-    answer_quantity(&a, "c", (value){c, DIM_LENGTH});
-    answer_quantity(&a, "a", (value){b, DIM_LENGTH});
-    answer_quantity(&a, "Vwear", (value){fret_wear_volume(limit), quantity_find("Vwear", 5)->d});
-    answer_done(&a);
-    answer_end(&a, true);
-    fret_wear_free(limit);
-    return true;
-}
-
-static bool read_law(shell *sh, lexer *lx, said *s, wearing *w) {
-    const heard *K = said_of(s, "K", 0), *H = said_of(s, "H", 0), *alpha = said_of(s, "alpha", 0);
-    if (!alpha && !K != !H)
-        return lex_fail(lx, "%s is missing: wear K=1e-4 H=2 GPa", K ? "H" : "K");
-    w->law = alpha || K;
-    if (K)
-        w->live = archard(sh, K, H, lx->error);
-    else if (alpha)
-        w->live = counted_hold(alpha->live);
-    w->alpha = alpha ? (double)alpha->v.v : 0;
-    return !K || w->live;
-}
-
-static bool read_cycles(shell *sh, lexer *lx, const heard *cycles, wearing *w) {
-    long double Nw = 0;
-    if (!calc_takes(&sh->calc, IN_NW, lx->error) || !scene_get(&sh->calc.scene, IN_NW, &Nw, lx->error))
-        return false;
-    w->cycles = true;
-    w->Nw = (double)Nw + cycles->count;
-    return true;
-}
-
-bool do_wear(shell *sh, lexer *lx, said *all) {
-    static const char *const names[] = {"Nw", "Vwear", "a", "c", "p0", NULL};
-    const heard *cycles = said_of(all, "cycles", 0);
-    wearing w = {.none = said_of(all, "none", 0)};
-    bool ok = all->count || said_lacks(lx, all, "wear by what law?");
-    if (said_of(all, "limit", 0))
-        ok = tell_limit(sh, lx->error);
-    else if (ok)
-        ok = (cycles ? read_cycles(sh, lx, cycles, &w) : read_law(sh, lx, all, &w)) &&
-             scene_edit(&sh->calc.scene, put_wear, &w, lx->error);
-    counted_drop(w.live);
-    if (ok && cycles)
-        report_event(sh, "wear", names);
     return ok;
 }
 
@@ -484,7 +387,6 @@ static void report_differences(shell *sh, const rows *w, const differences *d) {
 static bool follow_file(shell *sh, csv *data, calc_error *error) {
     scene *s = &sh->calc.scene;
     rows w;
-    scene_mark before;
     differences off = {{0}, {0}};
     if (!read_rows(sh, data, &w, error))
         return false;
@@ -494,13 +396,9 @@ static bool follow_file(shell *sh, csv *data, calc_error *error) {
                          "%s: Fx falls where dx grows: one of them has the other sign in the file",
                          data->path);
     const bool turned = w.normal_by == BY_FORCE && columns_turn_pull(data, w.normal), pressed = s->end.steps;
-    scene_save(s, &before, false);
     if ((!pressed && !follow_press(sh, &w, error)) || !scene_friction(s, &w.mu, error) ||
-        !follow_rows(sh, &w, !pressed, error) || (compared && !compare_rows(sh, &w, &off, error))) {
-        scene_back(s, &before);
+        !follow_rows(sh, &w, !pressed, error) || (compared && !compare_rows(sh, &w, &off, error)))
         return false;
-    }
-    scene_drop(&before);
     columns_say(sh, data, turned ? TURNED_FN : "");
     if (compared)
         report_differences(sh, &w, &off);

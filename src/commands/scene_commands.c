@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands that set material, second body, friction, rig, bulk stress and geometry. Each reads everything,
- * then changes everything or nothing. */
+/* Commands that set material, second body, friction, rig, bulk stress, wear and geometry. Each reads
+ * everything, then changes everything or nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,13 +20,16 @@ typedef struct edit {
     bool has[INPUTS];
     double v[INPUTS];
     counted *bound[INPUTS]; /* borrowed */
-    bool clear_material, clear_second, clear_rig;
+    input_set clear;        /* before */
     second_body second;
     const geometry *geometry;
     double radii[2];
     const fret_gap *sum;
     shared_table *table;
 } edit;
+
+#define OF_MATERIAL (INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0) | INPUT_BIT(IN_YIELD))
+#define OF_SECOND (INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_YIELD_2))
 
 static void edit_put(edit *e, input in, long double v) {
     e->has[in] = true;
@@ -35,14 +38,9 @@ static void edit_put(edit *e, input in, long double v) {
 
 static void apply(inputs *in, void *context) {
     const edit *e = context;
-    if (e->clear_material)
-        inputs_unset(in, INPUT_BIT(IN_NU) | INPUT_BIT(IN_K) | INPUT_BIT(IN_C0) | INPUT_BIT(IN_YIELD));
-    if (e->clear_second) {
-        inputs_unset(in, INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2) | INPUT_BIT(IN_YIELD_2));
+    inputs_unset(in, e->clear);
+    if (e->clear & OF_SECOND)
         in->second = e->second;
-    }
-    if (e->clear_rig)
-        inputs_unset(in, INPUT_RIG);
     if (e->geometry)
         inputs_geometry(in, e->geometry, e->sum, e->table);
     for (input i = 0; i < INPUTS; i++)
@@ -88,13 +86,13 @@ static void gather(edit *e, const said *s) {
 /* ---- material, second body, friction ----------------------------------------------------------- */
 
 bool do_material(shell *sh, lexer *lx, said *all) {
-    edit e = {.clear_material = true};
+    edit e = {.clear = OF_MATERIAL};
     const heard *named = said_of(all, "", 0);
     if (named)
         put_preset(&e, preset_row(named->choice), 0);
     gather(&e, all);
     if (has_second(&e)) {
-        e.clear_second = true;
+        e.clear |= OF_SECOND;
         e.second = SECOND_GIVEN;
     }
     const bool modulus = has(&e, IN_E0) || has(&e, IN_G0) || has(&e, IN_ESTAR);
@@ -133,7 +131,7 @@ static bool second_holds(lexer *lx, const said *s, bool rigid) {
 }
 
 bool do_second(shell *sh, lexer *lx, said *all) {
-    edit e = {.clear_second = true, .second = SECOND_GIVEN};
+    edit e = {.clear = OF_SECOND, .second = SECOND_GIVEN};
     const heard *named = said_of(all, "", 0);
     gather(&e, all);
     if (!second_holds(lx, all, named && named->choice == SECOND_WORDS - 1))
@@ -158,14 +156,14 @@ bool do_second(shell *sh, lexer *lx, said *all) {
 }
 
 bool do_friction(shell *sh, lexer *lx, said *all) {
-    edit e = {.clear_material = false};
+    edit e = {.clear = 0};
     edit_put(&e, IN_MU, all->list[0].v.v);
     return scene_edit(&sh->calc.scene, apply, &e, lx->error) || heard_place(lx->error, &all->list[0]);
 }
 
 /* Of a rig that is taken off nothing is left, its offsets neither. */
 bool do_rig(shell *sh, lexer *lx, said *all) {
-    edit e = {.clear_rig = true};
+    edit e = {.clear = INPUT_RIG};
     const heard *none = said_of(all, "none", 0);
     gather(&e, all);
     if (none ? all->count > 1 : !has(&e, IN_K_RIG))
@@ -175,12 +173,76 @@ bool do_rig(shell *sh, lexer *lx, said *all) {
 }
 
 bool do_bulk(shell *sh, lexer *lx, said *all) {
-    edit e = {.clear_material = false};
+    edit e = {.clear = 0};
     gather(&e, all);
     if (said_of(all, "none", 0))
         edit_put(&e, IN_SB, 0);
     return all->count ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
                       : said_lacks(lx, all, "bulk of what stress?");
+}
+
+/* ---- wear -------------------------------------------------------------------------------------- */
+
+/* K/(mu*H) with numbers for K and H, to follow mu. */
+static counted *archard(shell *sh, const heard *K, const heard *H, calc_error *error) {
+    char text[100];
+    counted *out = NULL;
+    lexer own;
+    snprintf(text, sizeof text, "%.17g/(mu*%.17g Pa)", (double)K->v.v, (double)H->v.v);
+    lex_start(&own, text, strlen(text), error);
+    calc_bind(&sh->calc, &own, IN_ALPHA_W, &out);
+    return out;
+}
+
+/* What is left in the end, which changes nothing. */
+static bool tell_limit(shell *sh, calc_error *error) {
+    scene *s = &sh->calc.scene;
+    fret_wear *limit;
+    fret_real c, b;
+    if (!scene_wear_limit(s, &limit, error))
+        return false;
+    fret_wear_ring(limit, &c, &b);
+    answer a;
+    answer_begin(&a, &sh->set, sh->out);
+    answer_page(&a, "limit");
+    answer_quantity(&a, "c", (value){c, DIM_LENGTH});
+    answer_quantity(&a, "a", (value){b, DIM_LENGTH});
+    answer_quantity(&a, "Vwear", (value){fret_wear_volume(limit), quantity_find("Vwear", 5)->d});
+    answer_done(&a);
+    answer_end(&a, true);
+    fret_wear_free(limit);
+    return true;
+}
+
+/* The cycles behind those so far. */
+static bool add_cycles(shell *sh, edit *e, const heard *cycles, calc_error *error) {
+    long double Nw = 0;
+    if (!calc_takes(&sh->calc, IN_NW, error) || !scene_get(&sh->calc.scene, IN_NW, &Nw, error))
+        return false;
+    edit_put(e, IN_NW, Nw + cycles->count);
+    return true;
+}
+
+bool do_wear(shell *sh, lexer *lx, said *all) {
+    static const char *const names[] = {"Nw", "Vwear", "a", "c", "p0", NULL};
+    const heard *cycles = said_of(all, "cycles", 0), *K = said_of(all, "K", 0), *H = said_of(all, "H", 0);
+    edit e = {.clear = said_of(all, "none", 0) ? INPUT_BIT(IN_ALPHA_W) | INPUT_BIT(IN_NW) : 0};
+    counted *law = NULL;
+    if (!all->count)
+        return said_lacks(lx, all, "wear by what law?");
+    if (said_of(all, "limit", 0))
+        return tell_limit(sh, lx->error);
+    if (!K != !H)
+        return lex_fail(lx, "%s is missing: wear K=1e-4 H=2 GPa", K ? "H" : "K");
+    gather(&e, all);
+    if ((K && !(law = archard(sh, K, H, lx->error))) || (cycles && !add_cycles(sh, &e, cycles, lx->error)))
+        return false;
+    e.bound[IN_ALPHA_W] = law ? law : e.bound[IN_ALPHA_W];
+    const bool ok = scene_edit(&sh->calc.scene, apply, &e, lx->error);
+    counted_drop(law);
+    if (ok && cycles)
+        report_event(sh, "wear", names);
+    return ok;
 }
 
 /* ---- geometry ---------------------------------------------------------------------------------- */

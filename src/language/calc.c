@@ -276,9 +276,7 @@ static const assignment *of_input(const assignment *all, size_t count, input in)
 static bool press_with(scene *s, assigned job, const assignment *FN, calc_error *error) {
     load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE};
     long double force = FN->v.v;
-    scene_mark before;
     job.but = FN->d ? NULL : FN;
-    scene_save(s, &before, false);
     bool ok = ((job.count == 1 && job.but) || scene_edit(s, put_assigned, &job, error)) &&
               (!FN->d || scene_get(s, IN_FN, &force, error));
     press.normal_value = (double)force;
@@ -287,10 +285,6 @@ static bool press_with(scene *s, assigned job, const assignment *FN, calc_error 
         job = (assigned){job.c, FN, 1, NULL};
         ok = scene_edit(s, put_assigned, &job, error);
     }
-    if (ok)
-        scene_drop(&before);
-    else
-        scene_back(s, &before);
     return ok;
 }
 

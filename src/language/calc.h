@@ -87,7 +87,8 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
 void undo_begin(calc *c);
 void undo_end(calc *c);
 /* Before a change of the scene: keeps it as it is. NULL: out of memory, and nothing may be changed that could
- * not be taken back. Ends with undo_scene, which makes it an entry, or undo_unmark. */
+ * not be taken back.  Ends with undo_scene, which makes it an entry, or undo_unmark, which takes back what
+ * was done since. */
 scene_mark *undo_mark(calc *c);
 void undo_scene(calc *c, scene_mark *m);
 void undo_unmark(calc *c, scene_mark *m);

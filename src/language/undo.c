@@ -76,8 +76,13 @@ void undo_scene(calc *c, scene_mark *m) {
 }
 
 void undo_unmark(calc *c, scene_mark *m) {
+    const scene *s = &c->scene;
     c->undo.promised--;
-    scene_drop(m);
+    if (s->program == m->program && s->end.steps == m->end.steps &&
+        inputs_same(&s->in, &m->in, ~(input_set)0))
+        scene_drop(m); /* what follows from it is still known */
+    else
+        scene_back(&c->scene, m);
     free(m);
 }
 

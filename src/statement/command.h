@@ -41,6 +41,8 @@ static inline void command_usage(const command *c, char buf[GRAMMAR_USAGE]) {
     grammar_usage(command_form(c), buf);
 }
 
+/* What a command of the load reports: an event with these quantities, ended by NULL. */
+void report_event(shell *sh, const char *event, const char *const *names);
 /* The arguments of `step` or `cycle`, whose word the cursor is on: the load, not run; for `along`. */
 bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]);
 
