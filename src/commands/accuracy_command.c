@@ -75,14 +75,6 @@ static void format_ratio(double ratio, char *buf, size_t size) {
     snprintf(buf, size, ratio < 999.5 ? "%.3g" : "%.0f", ratio);
 }
 
-static void format_seconds(double t, char *buf, size_t size) {
-    static const char *const units[] = {"s", "ms", "us", "ns"};
-    int i = 0;
-    for (; i < 3 && t < 0.9995; i++)
-        t *= 1e3;
-    snprintf(buf, size, "%.3g %s", t, units[i]);
-}
-
 /* A bound is rounded up. */
 static void format_error(const accuracy_row *row, char *buf, size_t size) {
     const double e = (double)row->error;
@@ -109,7 +101,7 @@ static void advise(const accuracy_study *study, const char *separator, char *buf
     int n = 0;
     if (springs) {
         format_error(springs, error, sizeof error);
-        format_seconds(springs->seconds, t, sizeof t);
+        calc_amount(DIM_TIME, springs->seconds, 3, t, sizeof t);
         const bool slower = springs->seconds >= row->seconds;
         format_ratio(slower ? springs->seconds / row->seconds : row->seconds / springs->seconds, ratio,
                      sizeof ratio);
@@ -117,7 +109,7 @@ static void advise(const accuracy_study *study, const char *separator, char *buf
                      t, ratio, slower ? "long" : "fast", separator);
     }
     format_error(row, error, sizeof error);
-    format_seconds(row->seconds, t, sizeof t);
+    calc_amount(DIM_TIME, row->seconds, 3, t, sizeof t);
     snprintf(buf + n, size - (size_t)n, "auto picks: %s (%s): error %s in %s", study->automatic, study->why,
              error, t);
 }
@@ -133,7 +125,7 @@ static void say_row(answer *out, const accuracy_study *study, const accuracy_row
     describe_size(row, parameter, sizeof parameter);
     number_text(number, out->set->digits, (double)(row->value / scale));
     format_error(row, error, sizeof error);
-    format_seconds(row->seconds, t, sizeof t);
+    calc_amount(DIM_TIME, row->seconds, 3, t, sizeof t);
     format_ratio(ratio, times, sizeof times);
     const answer_cell cells[HEADS] = {
         [HEAD_MODEL] = {.kind = CELL_WORDS, .words = families[row->family].name},

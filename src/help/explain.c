@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command `explain`: the quantities that an expression is made of, a page each: formula, the numbers put in,
- * the model that answered, the error, and how far the last digit of each input moves it. Each is said once, to
- * readers and to programs. Changes nothing. */
+/* The command `explain`: the quantities that an expression is made of, a page each: formula, the numbers put
+ * in, the model that answered, the error, and how far the last digit of each input moves it. Each is said
+ * once, to readers and to programs. Changes nothing. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -45,7 +45,8 @@ static bool explain_had(const page *p, bool ok, const calc_error *why) {
 
 /* ---- lines ------------------------------------------------------------------------------------- */
 
-/* An expression and its value, in the scene as it stands; row: the unit that readers are shown it in, or NULL.
+/* An expression and its value, in the scene as it stands; row: the unit that readers are shown it in, or
+ * NULL.
  */
 static void explain_value(const page *p, const char *name, size_t len, value v, const char *row) {
     char text[160], unit_text[COLUMN_UNIT], *whole = column_name(name, len);
@@ -472,8 +473,8 @@ static void explain_function(const page *p, const quantity *q) {
 }
 
 /* e: the part by itself, of value v; NULL: it has none here. */
-static void explain_quantity(const page *p, const part *of, const expr *e, value v, const influence_study *study,
-                      bool conditioning) {
+static void explain_quantity(const page *p, const part *of, const expr *e, value v,
+                             const influence_study *study, bool conditioning) {
     const quantity *q = of->q;
     double sine;
     answer_page(p->out, "explain");
@@ -589,7 +590,8 @@ static bool part_value(const page *p, const part *of, expr *e, value *v) {
     return !(of->in && is_free(of, of->in)) && text_value(p, of->text, of->len, e, v);
 }
 
-/* ---- pages of an expression ------------------------------------------------------------------------------------- */
+/* ---- pages of an expression
+ * ------------------------------------------------------------------------------------- */
 
 static bool explain_part(const page *p, const part *of) {
     expr e = {0}, unused = {0};
