@@ -214,39 +214,19 @@ static writer *form_of(const lexer *lx, const span *part) {
 
 /* ---- jenkins ------------------------------------------------------------------------------- */
 
-typedef struct request {
-    unsigned count;
-    span name; /* of the file */
-    writer *write;
-    const heard *FA; /* NULL: no limit */
-} request;
-
-static bool read_request(lexer *lx, said *all, request *r) {
-    const heard *count = said_of(all, "", 0), *to = said_of(all, "to", 0);
-    if (!count)
-        return calc_fail(lx->error, to->at, to->len, "expected how many elements before `to`: 1 to 1000");
-    r->count = count->count;
-    r->name = to->hole[0];
-    r->write = form_of(lx, &r->name);
-    r->FA = said_of(all, "FA", 0);
-    return r->write && (!r->FA || r->count > 1 ||
-                        calc_fail(lx->error, r->FA->hole[0].at, r->FA->hole[0].len,
-                                  "up to FA one of the elements only sticks: take 2 or more"));
-}
-
-static bool make_model(trial *t, const request *r, model *m, calc_error *error) {
+/* FA: up to there; or NULL: no limit. */
+static bool make_model(trial *t, const heard *FA, model *m, calc_error *error) {
     double amplitude = (double)INFINITY;
     fret_loading first;
     if (!scene_contact(&t->scene, &m->contact, error))
         return false;
-    if (r->FA) {
-        fret_status st = fret_loading_by_force(&m->contact, (double)r->FA->v.v, &first);
+    if (FA) {
+        fret_status st = fret_loading_by_force(&m->contact, (double)FA->v.v, &first);
         st.quantity = "FA";
         if (!calc_status(error, &st))
             return false;
         amplitude = (double)first.dx;
     }
-    m->count = r->count;
     m->element = malloc(m->count * sizeof *m->element);
     if (!m->element)
         return calc_no_memory(error);
@@ -254,21 +234,17 @@ static bool make_model(trial *t, const request *r, model *m, calc_error *error) 
                    error);
 }
 
-static bool write_model(shell *sh, lexer *lx, const request *r, const model *m) {
-    target to;
-    return target_file(lx, &r->name, &to) &&
-           target_close(sh, lx, &to, r->write(&sh->set, m, to.to) || calc_no_memory(lx->error));
-}
-
 /* Into the file, and how good it is to the reader; what can fail without the file comes first. */
-static bool give_model(shell *sh, lexer *lx, const request *r, const model *m) {
+static bool give_model(shell *sh, lexer *lx, const span *name, writer *write, const model *m) {
+    target to;
     column columns[2] = {{.name = NULL}};
     const long double si[] = {m->quality.worst, m->quality.worst / m->quality.scale};
     answer a;
     bool ok = ((column_si(&columns[0], "error of dW", DIM_ENERGY) &&
                 column_si(&columns[1], "relative", DIM_NONE)) ||
                calc_no_memory(lx->error)) &&
-              write_model(sh, lx, r, m);
+              target_file(lx, name, &to) &&
+              target_close(sh, lx, &to, write(&sh->set, m, to.to) || calc_no_memory(lx->error));
     if (ok) {
         answer_begin(&a, &sh->set, sh->out);
         for (int i = 0; i < 2; i++)
@@ -284,11 +260,19 @@ static bool give_model(shell *sh, lexer *lx, const request *r, const model *m) {
 }
 
 static bool export_jenkins(shell *sh, lexer *lx, said *all) {
-    request r;
-    model m = {.count = 0};
-    trial *t = NULL;
-    const bool ok = read_request(lx, all, &r) && (t = trial_open(&sh->calc, lx->error)) &&
-                    make_model(t, &r, &m, lx->error) && give_model(sh, lx, &r, &m);
+    const heard *count = said_of(all, "", 0), *to = said_of(all, "to", 0), *FA = said_of(all, "FA", 0);
+    const span *name = &to->hole[0];
+    if (!count)
+        return calc_fail(lx->error, to->at, to->len, "expected how many elements before `to`: 1 to 1000");
+    writer *write = form_of(lx, name);
+    if (!write)
+        return false;
+    if (FA && count->count < 2)
+        return calc_fail(lx->error, FA->hole[0].at, FA->hole[0].len,
+                         "up to FA one of the elements only sticks: take 2 or more");
+    model m = {.count = count->count};
+    trial *t = trial_open(&sh->calc, lx->error);
+    const bool ok = t && make_model(t, FA, &m, lx->error) && give_model(sh, lx, name, write, &m);
     calc_word(&sh->calc, lx->error);
     if (t)
         trial_close(t);
