@@ -712,7 +712,7 @@ static bool half_named(lexer *lx, const said *s) {
     while (a < end && !(a->argument && (bare || lex_is(lx, a->name))))
         a++;
     const bool none = a == end;
-    if (none && (s->count || lx->kind == T_END || !s->by->count || !s->by->clause->argument))
+    if (none && (s->count || !s->by->count || !s->by->clause->argument))
         return false;
     snprintf(lack, sizeof lack,
              none   ? "unexpected '%.*s';"
@@ -731,7 +731,7 @@ bool said_lacks(lexer *lx, const said *s, const char *lack) {
 bool said_end(lexer *lx, const said *s) {
     if (lx->kind == T_COMMA)
         return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", s->by->command);
-    return !misspelt(lx, s) && !half_named(lx, s) && at_end(lx);
+    return (lx->kind == T_END || (!misspelt(lx, s) && !half_named(lx, s))) && at_end(lx);
 }
 
 bool said_hides(const lexer *lx, const said *s, const char *word) {
