@@ -88,6 +88,32 @@ bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *c
     return read_expressions(sh, &own, columns, limit, count) && at_end(&own);
 }
 
+/* A side of the equation. What no scene moves has no use for `at`, which the other side was meant to have. */
+static bool read_side(shell *sh, lexer *lx, expr *e) {
+    bool call;
+    size_t at;
+    if (!expr_parse(&sh->calc, lx, e))
+        return false;
+    if (!lex_is(lx, "at"))
+        return !lx->error->raised;
+    lexer next = *lx;
+    lex_next(&next);
+    const quantity *q = quantity_find(next.text + next.at, next.len);
+    if (q && !expr_quantity(e, 0, &call, &at) && !expr_definition(&sh->calc, e, 0))
+        return lex_fail(lx, "%.*s is the same at any %s: `at` goes with the side before it",
+                        LEX_SHOWN(e->len), e->text + e->at, q->name);
+    return expr_read_at(&sh->calc, lx, e);
+}
+
+bool read_sides(shell *sh, const lexer *lx, const heard *equation) {
+    for (int i = 0; i < 2; i++) {
+        lexer own = hole_lexer(lx, &equation->hole[i]);
+        if (!read_side(sh, &own, &sh->list[i]) || !at_end(&own))
+            return false;
+    }
+    return true;
+}
+
 bool column_fits(const expr *e, column *c, value v, calc_error *error) {
     if (c->chosen && !dim_equal(c->d, v.d)) {
         char is[128];

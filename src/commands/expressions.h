@@ -15,6 +15,8 @@ bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *c
 /* One of them, at place i of the list; and nothing else. */
 bool read_expression(shell *sh, lexer *lx, size_t i, column *c);
 bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c);
+/* EXPR = EXPR, the first two of the list. */
+bool read_sides(shell *sh, const lexer *lx, const heard *equation);
 /* Can the value be shown so? Its dimension goes into the column, which may ask for another one. */
 bool column_fits(const expr *e, column *c, value v, calc_error *error);
 

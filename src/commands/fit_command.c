@@ -62,11 +62,6 @@ static bool ambiguous(const shell *sh, csv *data, const expr *e, calc_error *err
     return false;
 }
 
-static bool read_side(shell *sh, const lexer *lx, const span *part, expr *e) {
-    lexer own = hole_lexer(lx, part);
-    return expr_parse_at(&sh->calc, &own, e) && at_end(&own);
-}
-
 static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv *data,
                           named_columns *columns) {
     const heard *sides = said_of(all, "for", 0), *to = said_of(all, "to", 0);
@@ -78,8 +73,7 @@ static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv 
         return false;
     q->left = &sh->list[0];
     q->right = &sh->list[1];
-    if (!read_side(sh, lx, &sides->hole[0], &sh->list[0]) ||
-        !read_side(sh, lx, &sides->hole[1], &sh->list[1]))
+    if (!read_sides(sh, lx, sides))
         return columns_missed(sh, lx, data);
     if (ambiguous(sh, data, q->left, lx->error) || ambiguous(sh, data, q->right, lx->error) ||
         !columns_load(sh, data, 2, columns, lx->error))

@@ -33,35 +33,11 @@ static bool knob_column(column *c, const knob *k, calc_error *error) {
 
 /* ---- solve ------------------------------------------------------------------------------------- */
 
-/* A side of the equation. What no scene moves has no use for `at`, which the other side was meant to have. */
-static bool read_side(shell *sh, lexer *lx, expr *e) {
-    bool call;
-    size_t at;
-    if (!expr_parse(&sh->calc, lx, e))
-        return false;
-    if (!lex_is(lx, "at"))
-        return !lx->error->raised;
-    lexer next = *lx;
-    lex_next(&next);
-    const quantity *q = quantity_find(next.text + next.at, next.len);
-    if (q && !expr_quantity(e, 0, &call, &at) && !expr_definition(&sh->calc, e, 0))
-        return lex_fail(lx, "%.*s is the same at any %s: `at` goes with the side before it",
-                        LEX_SHOWN(e->len), e->text + e->at, q->name);
-    return expr_read_at(&sh->calc, lx, e);
-}
-
-/* All of the hole. */
-static bool read_side_in(shell *sh, const lexer *lx, const span *part, expr *e) {
-    lexer own = hole_lexer(lx, part);
-    return read_side(sh, &own, e) && at_end(&own);
-}
-
 static bool read_solve(shell *sh, const lexer *lx, said *all, solve_question *q) {
     sweep_range ends = {.lo = 0};
     const heard *equation = said_of(all, "for", 0), *from = said_of(all, "from", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
-    if (!knob_read(&sh->calc, &own, &q->name) || !read_side_in(sh, lx, &equation->hole[0], &sh->list[0]) ||
-        !read_side_in(sh, lx, &equation->hole[1], &sh->list[1]))
+    if (!knob_read(&sh->calc, &own, &q->name) || !read_sides(sh, lx, equation))
         return false;
     q->c = &sh->calc;
     q->left = &sh->list[0];
