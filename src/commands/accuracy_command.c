@@ -118,6 +118,9 @@ static void advise(const accuracy_study *study, const char *separator, char *buf
 
 enum { SHORT = 40 };
 
+/* For readers. */
+#define WORDS_OF_ROW "%-18s %12s %*s %9s %10s %10s\n"
+
 static void say_row(answer *out, const accuracy_study *study, const accuracy_row *row, long double scale,
                     const answer_head heads[HEADS]) {
     const double ratio = row->seconds / fastest(study);
@@ -129,26 +132,30 @@ static void say_row(answer *out, const accuracy_study *study, const accuracy_row
     format_ratio(ratio, times, sizeof times);
     const answer_cell cells[HEADS] = {
         [HEAD_MODEL] = {.kind = CELL_WORDS, .words = families[row->family].name},
-        [HEAD_PARAMETER] = {CELL_NUMBER, .v = {.v = row->size}, .digits = 17, .shown = parameter},
-        [HEAD_VALUE] = {CELL_NUMBER, .v = {.v = row->value}, .digits = 17, .shown = number},
-        [HEAD_ERROR] = {CELL_NUMBER, .v = {.v = row->error}, .digits = 3, .shown = error},
+        [HEAD_PARAMETER] = {CELL_NUMBER, .v = {.v = row->size}, .digits = 17},
+        [HEAD_VALUE] = {CELL_NUMBER, .v = {.v = row->value}, .digits = 17},
+        [HEAD_ERROR] = {CELL_NUMBER, .v = {.v = row->error}, .digits = 3},
         [HEAD_BOUND] = {CELL_FLAG, .v = {.v = row->below}},
-        [HEAD_SECONDS] = {CELL_NUMBER, .v = {.v = row->seconds}, .digits = 3, .shown = t},
-        [HEAD_RATIO] = {CELL_NUMBER, .v = {.v = ratio}, .digits = 3, .shown = times}};
+        [HEAD_SECONDS] = {CELL_NUMBER, .v = {.v = row->seconds}, .digits = 3},
+        [HEAD_RATIO] = {CELL_NUMBER, .v = {.v = ratio}, .digits = 3}};
     answer_cells(out, heads, cells, HEADS);
+    answer_words(out, WORDS_OF_ROW, families[row->family].name, parameter, out->set->digits + 7, number,
+                 error, t, times);
 }
 
 static void say_table(answer *out, const accuracy_study *study, long double scale, const char *unit_text) {
     char dW[COLUMN_UNIT + 8];
     snprintf(dW, sizeof dW, "dW [%s]", unit_text);
-    const answer_head heads[HEADS] = {[HEAD_MODEL] = {"model", "", NULL, "model", -18},
-                                      [HEAD_PARAMETER] = {"parameter", "", NULL, "parameter", 12},
-                                      [HEAD_VALUE] = {"value", "J", NULL, dW, out->set->digits + 7},
-                                      [HEAD_ERROR] = {"error", "", NULL, "error", 9},
-                                      [HEAD_BOUND] = {"bound", "", "error is a bound", NULL, 0},
-                                      [HEAD_SECONDS] = {"seconds", "s", "seconds", "time/cycle", 10},
-                                      [HEAD_RATIO] = {"ratio", "", NULL, "x fastest", 10}};
+    static const answer_head heads[HEADS] = {[HEAD_MODEL] = {"model", "", NULL},
+                                             [HEAD_PARAMETER] = {"parameter", "", NULL},
+                                             [HEAD_VALUE] = {"value", "J", NULL},
+                                             [HEAD_ERROR] = {"error", "", NULL},
+                                             [HEAD_BOUND] = {"bound", "", "error is a bound"},
+                                             [HEAD_SECONDS] = {"seconds", "s", "seconds"},
+                                             [HEAD_RATIO] = {"ratio", "", NULL}};
     answer_heads(out, "accuracy", heads, HEADS);
+    answer_words(out, WORDS_OF_ROW, "model", "parameter", out->set->digits + 7, dW, "error", "time/cycle",
+                 "x fastest");
     for (size_t i = 0; i < study->count; i++)
         say_row(out, study, &study->row[i], scale, heads);
 }

@@ -93,7 +93,8 @@ static bool read_choice(csv *c, const lexer *lx, const heard *h) {
 bool columns_read(const lexer *lx, const said *all, const heard *file, csv *out) {
     char name[FILE_NAME];
     *out = (csv){.path = NULL};
-    if (!hole_file(lx, &file->hole[0], name) || !csv_read(name, &shell_stop, out, lx->error))
+    hole_file(lx, &file->hole[0], name);
+    if (!csv_read(name, &shell_stop, out, lx->error))
         return heard_place(lx->error, file);
     for (const heard *h = all->list; h < all->list + all->count; h++)
         if (is_chosen(all, h, file) && !read_choice(out, lx, h))

@@ -202,8 +202,7 @@ static const struct {
 
 static writer *form_of(const lexer *lx, const span *part) {
     char name[FILE_NAME];
-    if (!hole_file(lx, part, name))
-        return NULL;
+    hole_file(lx, part, name);
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
         if (file_ends(name, forms[i].ending))
             return forms[i].write;

@@ -137,7 +137,7 @@ static bool read_targets(shell *sh, lexer *lx, bool cycle, said *s, load_step *s
         return false;
     load_of(s, step, extra, last);
     return step->tangential || (!cycle && step->normal) ||
-           said_lacks(lx, s, cycle ? "cycle by what amplitude?" : "step to where?");
+           lex_fail(lx, cycle ? "cycle by what amplitude?" : "step to where?") || add_usage(lx->error, s->by);
 }
 
 bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]) {
@@ -158,7 +158,7 @@ bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counte
 bool do_press(shell *sh, lexer *lx, said *all) {
     static const char *const names[] = {"FN", "a", "dz", NULL};
     if (!all->count)
-        return said_lacks(lx, all, "press by what?");
+        return lex_fail(lx, "press by what?") || add_usage(lx->error, all->by);
     const heard *by = &all->list[0];
     const bool worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
     const load_step step = {.kind = LOAD_PRESS,

@@ -95,8 +95,8 @@ static bool draw_off_page(shell *sh, lexer *lx, const plot_figure *f, const plot
                           const char *file) {
     file_report written;
     text_out text;
-    if (!text_begin(&text, &sh->set, sh->out, movie ? TEXT_MOTION : TEXT_PICTURE))
-        return calc_no_memory(lx->error);
+    if (!text_begin(&text, sh, movie ? TEXT_MOTION : TEXT_PICTURE, lx->error))
+        return false;
     const bool data = answer_is_data(&sh->set), on_terminal = !data && shell_on_terminal(sh);
     plot_target to = {.file = file,
                       .out = text.to,
@@ -124,11 +124,11 @@ static bool draw_off_page(shell *sh, lexer *lx, const plot_figure *f, const plot
     if (ok && !file && caption)
         fputs(caption, text.to);
     free(caption);
-    if (!text_end(&text, ok))
-        return calc_no_memory(lx->error);
-    if (ok && file)
+    if (!text_end(&text, ok) || !ok)
+        return false;
+    if (file)
         target_report(sh, file, &written);
-    return ok;
+    return true;
 }
 
 /* movie: of which the figure is the last frame, or NULL. */
@@ -222,8 +222,9 @@ static bool read_figures(shell *sh, lexer *lx, const grammar *row, const char *w
     if (!panel_is_whole(&out->list[0]))
         return !range_hides(lx, &out->list[0].said) && fail_figure(&sh->calc, &begin, row, wants);
     const heard *to = last_said(out, "to");
-    return !to || (hole_file(lx, &to->hole[0], file) &&
-                   (plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to)));
+    if (to)
+        hole_file(lx, &to->hole[0], file);
+    return !to || plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to);
 }
 
 /* Of a map, under --part: rows, as of a table. */

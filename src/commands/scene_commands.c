@@ -97,7 +97,7 @@ bool do_material(shell *sh, lexer *lx, said *all) {
     }
     const bool modulus = has(&e, IN_E0) || has(&e, IN_G0) || has(&e, IN_ESTAR);
     if (!modulus || !(has(&e, IN_NU) || has(&e, IN_ESTAR)))
-        return said_lacks(lx, all, modulus ? "nu is missing;" : "E0 is missing;");
+        return lex_fail(lx, modulus ? "nu is missing" : "E0 is missing") || add_usage(lx->error, all->by);
     if (e.bound[IN_K] && !has(&e, IN_C0))
         return lex_fail(lx, "c0 is missing: with a k that follows others the depth where E = E0 matters");
     if (e.has[IN_K] && e.v[IN_K] != 0 && !has(&e, IN_C0))
@@ -167,8 +167,8 @@ bool do_rig(shell *sh, lexer *lx, said *all) {
     const heard *none = said_of(all, "none", 0);
     gather(&e, all);
     if (none ? all->count > 1 : !has(&e, IN_K_RIG))
-        return said_lacks(lx, all,
-                          none ? "where there is no rig there are no offsets;" : "stiffness is missing;");
+        return lex_fail(lx, none ? "where there is no rig there are no offsets" : "stiffness is missing") ||
+               add_usage(lx->error, all->by);
     return scene_edit(&sh->calc.scene, apply, &e, lx->error);
 }
 
@@ -178,7 +178,7 @@ bool do_bulk(shell *sh, lexer *lx, said *all) {
     if (said_of(all, "none", 0))
         edit_put(&e, IN_SB, 0);
     return all->count ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
-                      : said_lacks(lx, all, "bulk of what stress?");
+                      : lex_fail(lx, "bulk of what stress?") || add_usage(lx->error, all->by);
 }
 
 /* ---- wear -------------------------------------------------------------------------------------- */
@@ -229,7 +229,7 @@ bool do_wear(shell *sh, lexer *lx, said *all) {
     edit e = {.clear = said_of(all, "none", 0) ? INPUT_BIT(IN_ALPHA_W) | INPUT_BIT(IN_NW) : 0};
     counted *law = NULL;
     if (!all->count)
-        return said_lacks(lx, all, "wear by what law?");
+        return lex_fail(lx, "wear by what law?") || add_usage(lx->error, all->by);
     if (said_of(all, "limit", 0))
         return tell_limit(sh, lx->error);
     if (!K != !H)
@@ -459,7 +459,8 @@ static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
     apex top = {.both = false};
     csv data;
     how.height = said_of(s, "height", 0) != NULL;
-    if (!hole_file(lx, &s->list[0].hole[0], name) || !write_choices(lx, s, how.columns, lx->error) ||
+    hole_file(lx, &s->list[0].hole[0], name);
+    if (!write_choices(lx, s, how.columns, lx->error) ||
         (smoothly && !read_smoothing(sh, lx, &smoothly->hole[0], &how)))
         return false;
     bool ok = columns_read(lx, s, &s->list[0], &data);
@@ -517,9 +518,9 @@ static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
         return false;
     for (input in = IN_N; in < INPUTS; in++)
         if (g->required & INPUT_BIT(in) && !has(e, in))
-            return said_lacks(lx, s, "a parameter is missing;");
+            return lex_fail(lx, "a parameter is missing") || add_usage(lx->error, s->by);
     if (g->allowed & INPUT_BIT(IN_A) && (has(e, IN_A) == has(e, IN_H) || has(e, IN_H) != has(e, IN_R0)))
-        return said_lacks(lx, s, "give either A or both h and r0;");
+        return lex_fail(lx, "give either A or both h and r0") || add_usage(lx->error, s->by);
     return true;
 }
 

@@ -726,8 +726,8 @@ static bool explain_mismatch(shell *sh, lexer *lx) {
     const fret_normal *normal;
     text_out text;
     answer out;
-    if (!text_begin(&text, &sh->set, sh->out, TEXT_ANSWERS))
-        return calc_no_memory(lx->error);
+    if (!text_begin(&text, sh, TEXT_ANSWERS, lx->error))
+        return false;
     answer_begin(&out, &sh->set, text.to);
     answer_page(&out, "explain");
     answer_string(&out, "name", "mismatch");
@@ -739,15 +739,15 @@ static bool explain_mismatch(shell *sh, lexer *lx) {
     answer_words(&out, "%s", coupling_text);
     answer_string(&out, "text", coupling_text);
     answer_done(&out);
-    return text_end(&text, true) || calc_no_memory(lx->error);
+    return text_end(&text, true);
 }
 
 static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *asked, value v,
                     bool conditioning, lexer *lx) {
     text_out text;
     answer out;
-    if (!text_begin(&text, &sh->set, sh->out, TEXT_ANSWERS))
-        return calc_no_memory(lx->error);
+    if (!text_begin(&text, sh, TEXT_ANSWERS, lx->error))
+        return false;
     answer_begin(&out, &sh->set, text.to);
     const page p = {sh, &out, conditioning, lx->error};
     bool ok = true;
@@ -758,7 +758,7 @@ static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *
     else
         ok = explain_expression(&p, e, asked, v);
     ok = ok && !lx->error->raised;
-    return (text_end(&text, ok) || calc_no_memory(lx->error)) && ok;
+    return text_end(&text, ok) && ok;
 }
 
 bool do_explain(shell *sh, lexer *lx, said *all) {

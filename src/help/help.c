@@ -326,30 +326,24 @@ void help_settings(FILE *to) {
 
 /* ---- help -------------------------------------------------------------------------------------- */
 
-/* The commands of a group on one line, broken where it is full. */
-static void group_line(FILE *to, const char *group) {
+/* The commands of the group that begins at row i on one line, broken where it is full. Returns where the next
+ * begins. */
+static size_t group_line(FILE *to, size_t i) {
     enum { GROUP = 18 };
     char names[HELP_TEXT] = "";
-    const command *c;
-    for (size_t i = 0; (c = command_row(i)); i++)
-        if (!strcmp(c->group, group)) {
-            const size_t n = strlen(names);
-            snprintf(names + n, sizeof names - n, "%s%s", n ? " " : "", c->name);
-        }
-    fprintf(to, "    %-*s", GROUP - 4, group);
+    const command *c = command_row(i);
+    fprintf(to, "    %-*s", GROUP - 4, c->group);
+    do {
+        const size_t n = strlen(names);
+        snprintf(names + n, sizeof names - n, "%s%s", n ? " " : "", c->name);
+        c = command_row(++i);
+    } while (c && !c->group);
     help_wrapped(to, names, GROUP, GROUP);
-}
-
-static bool group_seen(size_t row, const char *group) {
-    for (size_t i = 0; i < row; i++)
-        if (!strcmp(command_row(i)->group, group))
-            return true;
-    return false;
+    return i;
 }
 
 /* On one screen of 80 by 24. */
 static void overview(FILE *to) {
-    const command *c;
     char names[HELP_TEXT] = "";
     fputs("fret: partial-slip contact of power-law graded elastic solids.\n\n"
           "    NAME = EXPR, ...        set inputs (k = 0.5) or variables of your own\n"
@@ -357,9 +351,8 @@ static void overview(FILE *to) {
           "    EXPR [in UNIT], ...     print values: a, c/a, dW in uJ, dW at k=0\n\n"
           "Commands (help COMMAND tells more):\n",
           to);
-    for (size_t i = 0; (c = command_row(i)); i++)
-        if (!group_seen(i, c->group))
-            group_line(to, c->group);
+    for (size_t i = 0; command_row(i);)
+        i = group_line(to, i);
     for (size_t i = 0; topic_name(i); i++) {
         const size_t n = strlen(names);
         snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "Topics: ", topic_name(i));
@@ -517,22 +510,22 @@ bool do_help(shell *sh, lexer *lx, said *all) {
     text_out t;
     if (all->count && !read_word(lx, all, word))
         return false;
-    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
-        return calc_no_memory(lx->error);
+    if (!text_begin(&t, sh, TEXT_WORDS, lx->error))
+        return false;
     if (all->count)
         help_on(t.to, word);
     else
         overview(t.to);
-    return text_end(&t, true) || calc_no_memory(lx->error);
+    return text_end(&t, true);
 }
 
 bool do_cite(shell *sh, lexer *lx, said *all) {
     text_out t;
     (void)all;
-    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
-        return calc_no_memory(lx->error);
+    if (!text_begin(&t, sh, TEXT_WORDS, lx->error))
+        return false;
     help_cite(t.to);
-    return text_end(&t, true) || calc_no_memory(lx->error);
+    return text_end(&t, true);
 }
 
 bool do_apropos(shell *sh, lexer *lx, said *all) {
@@ -547,10 +540,10 @@ bool do_apropos(shell *sh, lexer *lx, said *all) {
     }
     const span *last = &all->list[all->count - 1].hole[0];
     const size_t at = all->list[0].at, len = last->at + last->len - at;
-    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
-        return calc_no_memory(lx->error);
+    if (!text_begin(&t, sh, TEXT_WORDS, lx->error))
+        return false;
     if (!known || (!list_about(t.to, words, false) && !list_about(t.to, words, true)))
         fprintf(t.to, "nothing on '%.*s'%s\n", LEX_SHOWN(len), lx->text + at,
                 all->count > 1 ? "; try one word" : "");
-    return text_end(&t, true) || calc_no_memory(lx->error);
+    return text_end(&t, true);
 }

@@ -88,7 +88,7 @@ static void put_commands(FILE *to) {
     const hole_row *h;
     char usage[GRAMMAR_USAGE];
     for (size_t i = 0; (c = command_row(i)); i++) {
-        command_usage(c, usage);
+        grammar_usage(command_form(c), usage);
         fputs(".TP\n.B ", to);
         put_line(to, usage, strlen(usage));
         fprintf(to, "%c%s.\n", toupper((unsigned char)c->summary[0]), c->summary + 1);

@@ -6,10 +6,16 @@
 
 #include "language/calc.h"
 
+static const char leaves[] = "quit leaves, and so does Ctrl-D";
+
 /* What newcomers ask for by other names than it has here, or what is not to be had. */
 static const struct {
     const char *word, *answer;
 } leads[] = {
+    {":q", leaves},
+    {":wq", leaves},
+    {"\\q", leaves},
+    {"bye", leaves},
     {"load", "press, step, cycle and follow do it; `plot load` draws the path"},
     {"push", "step Fx=20 N pushes, cycle FA=20 N pushes to and fro"},
     {"unload", "step FN=... goes back to a smaller force"},

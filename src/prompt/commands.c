@@ -98,7 +98,6 @@ const command commands[] = {
              "    FN = 39.0753 N\n"},
     {.name = "second",
      .run = do_second,
-     .group = "the bodies",
      .keywords = "other body",
      .changes = true,
      .takes =
@@ -120,7 +119,6 @@ const command commands[] = {
          "dW)\n"},
     {.name = "geometry",
      .run = do_geometry,
-     .group = "the bodies",
      .keywords = "gap shape indenter sphere cone",
      .changes = true,
      .takes = "SHAPE ...",
@@ -130,7 +128,6 @@ const command commands[] = {
              "    slope = 1\n"},
     {.name = "friction",
      .run = do_friction,
-     .group = "the bodies",
      .keywords = "Coulomb mu",
      .changes = true,
      .takes = "MU",
@@ -142,7 +139,6 @@ const command commands[] = {
              "    mu = 0.4\n"},
     {.name = "bulk",
      .run = do_bulk,
-     .group = "the bodies",
      .keywords = "stress fatigue tension sB sxx",
      .changes = true,
      .takes = "stress:=50 MPa | none",
@@ -160,7 +156,6 @@ const command commands[] = {
              "    sxx(a, 0 m, 0 m) = 232.784 MPa\n"},
     {.name = "wear",
      .run = do_wear,
-     .group = "the bodies",
      .keywords = "Archard energy law worn depth volume scar profile Fouvry Popov debris cycles",
      .changes = true,
      .takes = "alpha:=1e4 um^3/J | K=1e-4 H=2 GPa | cycles N:1000000000 | limit | none",
@@ -206,7 +201,6 @@ const command commands[] = {
              "    dx = 718.25 nm\n"},
     {.name = "press",
      .run = do_press,
-     .group = "the load",
      .keywords = "normal load Hertz indentation pressure",
      .changes = true,
      .takes = "FN=100 N | dz=1 um | a=0.2 mm | p0=1 GPa | pmean=0.5 GPa",
@@ -227,7 +221,6 @@ const command commands[] = {
              "                2        310.522\n"},
     {.name = "step",
      .run = do_step,
-     .group = "the load",
      .keywords = "tangential load",
      .takes = "[Fx+=20 N | dx+=0.5 um | drig+=1 um] [FN+=120 N | dz+=1 um] [steps N:1000000]",
      .summary = "a straight step of the load",
@@ -245,7 +238,6 @@ const command commands[] = {
              "    c/a = 0.956466\n"},
     {.name = "cycle",
      .run = do_cycle,
-     .group = "the load",
      .keywords = "oscillation fretting hysteresis loop dissipation",
      .changes = true,
      .takes = "FA:=20 N | dxA:=0.5 um | drigA:=1 um [times N:1000000] [steps N:1000000] [FNA:=30 N] "
@@ -263,7 +255,6 @@ const command commands[] = {
              "    dW/(4*FN*dxmax) = 0.281737 %\n"},
     {.name = "follow",
      .run = do_follow,
-     .group = "the load",
      .keywords = "csv history measured",
      .changes = true,
      .takes = "FILE.csv [using NAME = COLUMN, ...]",
@@ -288,7 +279,6 @@ const command commands[] = {
              "    W = 328.223 nJ\n"},
     {.name = "reset",
      .run = do_reset,
-     .group = "the load",
      .changes = true,
      .takes = "[all]",
      .summary = "forget the load program; all: the inputs too",
@@ -300,7 +290,6 @@ const command commands[] = {
     {.name = "undo",
      .run = do_undo,
      .returns = true,
-     .group = "the load",
      .keywords = "back",
      .takes = "",
      .summary = "take back the last change of the scene",
@@ -327,7 +316,6 @@ const command commands[] = {
              "              100        3.48291            -20       -625.995        1429.84\n"},
     {.name = "table",
      .run = do_table,
-     .group = "results",
      .keywords = "sweep csv export",
      .takes = "EXPR, ... RANGE [using NAME = COLUMN, ...] [to FILE]",
      .summary = "a table over a range",
@@ -359,7 +347,6 @@ const command commands[] = {
     {.name = "plot",
      .run = do_plot,
      .reads = true,
-     .group = "results",
      .keywords = "figure loop hysteresis png svg pdf tex export contour map measured",
      .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [to FILE.png|svg|pdf|tex|html|gif|gp]",
      .summary = "figures, in the terminal or to a file",
@@ -394,7 +381,6 @@ const command commands[] = {
     {.name = "animate",
      .run = do_animate,
      .reads = true,
-     .group = "results",
      .keywords = "video movie gif springs",
      .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [frames N:1000] [to FILE.gif]",
      .summary = "figures in motion along a load",
@@ -407,6 +393,56 @@ const command commands[] = {
              "    fret> cycle FA=30 N\n"
              "    fret> animate springs | loop frames 8 to cycle.gif\n"
              "    wrote cycle.gif (174 kB)\n"},
+    {.name = "explain",
+     .run = do_explain,
+     .keywords = "formula equation Mindlin",
+     .takes = "EXPR [conditioning]",
+     .summary = "formula, source, numbers put in, model used, error",
+     .help = "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs\n"
+             "that the value depends on, how it was computed, and the error of the numbers\n"
+             "alone. With `conditioning`, too: by which part of itself the last binary digit\n"
+             "of each input, of the press and of the last load moves the value, and the ratio\n"
+             "of the two. Large numbers, as close to gross slip, mean that the value cannot be\n"
+             "better than its inputs, whatever the model.\n\n"
+             "    fret> material E0=210 GPa nu=0.3\n"
+             "    fret> explain eta conditioning\n"
+             "    eta: stiffness ratio\n"
+             "        eta = c_N/c_T  (4),(5)\n"
+             "        nu = 0.3\n"
+             "        model: closed form\n"
+             "        eta = 1.21429\n"
+             "        error: below 3e-16 of the value\n"
+             "        conditioning          last digit    moves eta by  condition number\n"
+             "        nu = 0.3                 1.9e-16         4.7e-17              0.25\n"
+             "        no effect: E0\n"},
+    {.name = "accuracy",
+     .run = do_accuracy,
+     .keywords = "error speed",
+     .takes = "[FA=20 N | dxA=0.5 um] [within SECONDS:3600]",
+     .summary = "error against time of every model, for this scene",
+     .help = "A table of the models that can answer for dW: value, relative error, time of a\n"
+             "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
+             "marks one that is below what it can tell. Without an argument the amplitude is\n"
+             "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
+             "has changed, the load program is run as it is and errors refer to a refined\n"
+             "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
+             "where k < 0. The end says what `set model auto` picks, and which springs come\n"
+             "close. Larger models are left out where all would take more than 3 seconds;\n"
+             "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
+             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
+             "    fret> set digits 5; accuracy FA=20 N within 0.001\n"
+             "    FA = 20 N at FN = 100 N\n"
+             "    reference: quadrature in long double, 1.9065 uJ, good to 5e-19\n"
+             "    model                 parameter      dW [uJ]     error time/cycle  x fastest\n"
+             "    closed form                           1.9065    <5e-19     ... ns        ...\n"
+             "    memory diagram                        1.9065    <5e-19     ... ns        ...\n"
+             "    loop area (21)           M = 10       1.8755   1.6e-02     ... us        ...\n"
+             "    loop area (21)          M = 100       1.9061   1.6e-04     ... us        ...\n"
+             "    quadrature                            1.9065    <5e-19     ... us        ...\n"
+             "    springs                 N = 100       1.9069   2.2e-04     ... ns        ...\n"
+             "    springs                N = 1000       1.9065   5.5e-06     ... us        ...\n"
+             "    1000 springs: error 5.5e-06 in ... us, ... times as long as auto\n"
+             "    auto picks: closed form (constant FN): error <5e-19 in ... ns\n"},
     {.name = "solve",
      .run = do_solve,
      .group = "backwards",
@@ -425,7 +461,6 @@ const command commands[] = {
              "    mu = 0.636473\n"},
     {.name = "maximize",
      .run = do_maximize,
-     .group = "backwards",
      .keywords = "optimum optimise best design largest peak",
      .takes = "EXPR over NAME = LO .. HI, ...",
      .summary = "where an expression is largest",
@@ -437,7 +472,6 @@ const command commands[] = {
              "    dWd(0.5 um) = 3.33974 uJ\n"},
     {.name = "minimize",
      .run = do_minimize,
-     .group = "backwards",
      .keywords = "optimum optimise best design smallest",
      .takes = "EXPR over NAME = LO .. HI, ...",
      .summary = "where an expression is smallest",
@@ -449,7 +483,6 @@ const command commands[] = {
              "    note: no inner optimum in FN: FN = 20 N is the lower end of its range\n"},
     {.name = "fit",
      .run = do_fit,
-     .group = "backwards",
      .keywords = "least squares regression identify parameter measured data inverse calibrate",
      .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv] [noise] [dx=10 nm] [Fx=0.5 N] "
               "[by WORD] [using NAME = COLUMN, ...]",
@@ -482,7 +515,6 @@ const command commands[] = {
              "    rms = 17.5911 nm over 4 rows\n"},
     {.name = "loop",
      .run = do_loop,
-     .group = "backwards",
      .keywords = "measured hysteresis csv energy stiffness gross slip sliding rig file cycle",
      .takes = "FILE.csv [using NAME = COLUMN, ...] [to FILE]",
      .summary = "what a measured loop says by itself, cycle by cycle",
@@ -522,7 +554,6 @@ const command commands[] = {
              "        row_1: not at rest\n"},
     {.name = "uncertainty",
      .run = do_uncertainty,
-     .group = "backwards",
      .keywords = "error deviation Monte Carlo tolerance variance confidence sensitivity",
      .takes =
          "EXPR, ... with INPUT +- DEVIATION, ... [samples N:10000000] [seed N:1000000000] [from FILE.csv]",
@@ -541,7 +572,6 @@ const command commands[] = {
              "        from mu 0 %, E0 100 %\n"},
     {.name = "export",
      .run = do_export,
-     .group = "backwards",
      .keywords =
          "jenkins masing iwan elements dynamics damper model springs harmonic balance stiffness branches",
      .takes = "MODEL ...",
@@ -562,58 +592,6 @@ const command commands[] = {
              "    wrote harmonic.csv (305 B)\n"
              "    fret> cycle FA=20 N; export loop to loop.csv\n"
              "    wrote loop.csv (9.8 kB)\n"},
-    {.name = "explain",
-     .run = do_explain,
-     .group = "results",
-     .keywords = "formula equation Mindlin",
-     .takes = "EXPR [conditioning]",
-     .summary = "formula, source, numbers put in, model used, error",
-     .help = "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs\n"
-             "that the value depends on, how it was computed, and the error of the numbers\n"
-             "alone. With `conditioning`, too: by which part of itself the last binary digit\n"
-             "of each input, of the press and of the last load moves the value, and the ratio\n"
-             "of the two. Large numbers, as close to gross slip, mean that the value cannot be\n"
-             "better than its inputs, whatever the model.\n\n"
-             "    fret> material E0=210 GPa nu=0.3\n"
-             "    fret> explain eta conditioning\n"
-             "    eta: stiffness ratio\n"
-             "        eta = c_N/c_T  (4),(5)\n"
-             "        nu = 0.3\n"
-             "        model: closed form\n"
-             "        eta = 1.21429\n"
-             "        error: below 3e-16 of the value\n"
-             "        conditioning          last digit    moves eta by  condition number\n"
-             "        nu = 0.3                 1.9e-16         4.7e-17              0.25\n"
-             "        no effect: E0\n"},
-    {.name = "accuracy",
-     .run = do_accuracy,
-     .group = "results",
-     .keywords = "error speed",
-     .takes = "[FA=20 N | dxA=0.5 um] [within SECONDS:3600]",
-     .summary = "error against time of every model, for this scene",
-     .help = "A table of the models that can answer for dW: value, relative error, time of a\n"
-             "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
-             "marks one that is below what it can tell. Without an argument the amplitude is\n"
-             "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
-             "has changed, the load program is run as it is and errors refer to a refined\n"
-             "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
-             "where k < 0. The end says what `set model auto` picks, and which springs come\n"
-             "close. Larger models are left out where all would take more than 3 seconds;\n"
-             "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
-             "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-             "    fret> set digits 5; accuracy FA=20 N within 0.001\n"
-             "    FA = 20 N at FN = 100 N\n"
-             "    reference: quadrature in long double, 1.9065 uJ, good to 5e-19\n"
-             "    model                 parameter      dW [uJ]     error time/cycle  x fastest\n"
-             "    closed form                           1.9065    <5e-19     ... ns        ...\n"
-             "    memory diagram                        1.9065    <5e-19     ... ns        ...\n"
-             "    loop area (21)           M = 10       1.8755   1.6e-02     ... us        ...\n"
-             "    loop area (21)          M = 100       1.9061   1.6e-04     ... us        ...\n"
-             "    quadrature                            1.9065    <5e-19     ... us        ...\n"
-             "    springs                 N = 100       1.9069   2.2e-04     ... ns        ...\n"
-             "    springs                N = 1000       1.9065   5.5e-06     ... us        ...\n"
-             "    1000 springs: error 5.5e-06 in ... us, ... times as long as auto\n"
-             "    auto picks: closed form (constant FN): error <5e-19 in ... ns\n"},
     {.name = "show",
      .run = do_show,
      .group = "the session",
@@ -628,7 +606,6 @@ const command commands[] = {
              "    geometry sphere R=10 mm\n"},
     {.name = "set",
      .run = do_set,
-     .group = "the session",
      .keywords = "options",
      .takes = "[SETTING ...]",
      .summary = "settings",
@@ -639,7 +616,6 @@ const command commands[] = {
              "    pi = 3.14159265359\n"},
     {.name = "source",
      .run = do_source,
-     .group = "the session",
      .keywords = "script",
      .changes = true,
      .keeps = true,
@@ -656,7 +632,6 @@ const command commands[] = {
              "    dz = 3.48291 um\n"},
     {.name = "save",
      .run = do_save,
-     .group = "the session",
      .keywords = "write keep export scene history",
      .takes = "FILE | history FILE",
      .summary = "write the scene as commands; or what has been typed",
@@ -671,7 +646,6 @@ const command commands[] = {
              "    friction 0.3\n"},
     {.name = "record",
      .run = do_record,
-     .group = "the session",
      .keywords = "transcript log protocol test save",
      .takes = "FILE | off",
      .summary = "keep what is typed and answered as a transcript, or a page",
@@ -685,7 +659,6 @@ const command commands[] = {
              "    wrote session.txt (49 B)\n"},
     {.name = "replay",
      .run = do_replay,
-     .group = "the session",
      .keywords = "transcript test compare record",
      .takes = "FILE",
      .summary = "run a transcript and compare what comes out",
@@ -702,7 +675,6 @@ const command commands[] = {
              "    check.txt: 2 passed, 0 failed\n"},
     {.name = "compare",
      .run = do_compare,
-     .group = "the session",
      .keywords = "side by side two scenes live",
      .takes = "INPUT = VALUES | off",
      .summary = "two scenes on the screen of live, moved by the same hand",
@@ -713,7 +685,6 @@ const command commands[] = {
              "    fret> compare off\n"},
     {.name = "live",
      .run = do_live,
-     .group = "the session",
      .keywords = "full-screen teach demonstration tui animate",
      .takes = "[FILE]",
      .summary = "press, push and pull by hand, everything drawn: the full-screen mode",
@@ -730,7 +701,6 @@ const command commands[] = {
              "    dW = 1.90646 uJ\n"},
     {.name = "demo",
      .run = do_demo,
-     .group = "the session",
      .keywords = "tour lesson teach figure paper",
      .takes = "[LESSON | FILE] [to FILE.html]",
      .summary = "play a lesson, or a tour of the program",
@@ -747,7 +717,6 @@ const command commands[] = {
              "    # Does all of the contact stick?\n"},
     {.name = "ask",
      .run = do_ask,
-     .group = "the session",
      .keywords = "exercise question quiz guess answer hint teach lesson",
      .takes = "TEXT [= EXPR within DEVIATION | of CHOICES = N:9] [hint TEXT]",
      .summary = "a question to who learns, and its answer",
@@ -765,7 +734,6 @@ const command commands[] = {
              "    answer: 2, at the rim\n"},
     {.name = "help",
      .run = do_help,
-     .group = "the session",
      .takes = "[TOPIC]*",
      .summary = "this help, or that on a command, a quantity or a topic",
      .help = "    fret> help kappa\n"
@@ -773,7 +741,6 @@ const command commands[] = {
              "        kappa = (n/2) B(n/2,(k+1)/2)  (8)\n"},
     {.name = "cite",
      .run = do_cite,
-     .group = "the session",
      .keywords = "paper reference BibTeX literature version authors DOI",
      .takes = "",
      .summary = "how to cite the paper and this program, with its version",
@@ -782,7 +749,6 @@ const command commands[] = {
              "    2\n"},
     {.name = "apropos",
      .run = do_apropos,
-     .group = "the session",
      .keywords = "search",
      .takes = "WORD ...",
      .summary = "find commands and quantities by a word, or several",
@@ -795,15 +761,9 @@ const command commands[] = {
              "    a           contact radius\n"},
     {.name = "quit",
      .run = do_quit,
-     .group = "the session",
      .takes = "",
      .summary = "leave (so does Ctrl-D)",
      .help = "    fret> quit\n"},
-    {.name = "exit",
-     .run = do_quit,
-     .group = "the session",
-     .takes = "",
-     .summary = "the same as quit",
-     .help = "    fret> exit\n"},
+    {.name = "exit", .run = do_quit, .takes = "", .summary = "the same as quit", .help = "    fret> exit\n"},
     {.name = NULL},
 };

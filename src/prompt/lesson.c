@@ -2,7 +2,6 @@
 /* Reads lessons. What is wrong with one is said before it is played, as far as it can be told. */
 #include "prompt/lesson.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -162,15 +161,10 @@ bool lesson_read(shell *sh, const char *path, lesson_text *out, calc_error *erro
     static int nesting; /* a lesson may play others */
     file_in in;
     reading *r = calloc(1, sizeof *r);
-    FILE *nowhere = fopen("/dev/null", "w");
+    FILE *nowhere = shell_nowhere(error);
     *out = (lesson_text){.title = NULL};
-    bool ok = r && nowhere;
-    if (!r)
-        calc_raise_memory(error);
-    else if (!nowhere)
-        calc_raise_errno(error, errno, "cannot write /dev/null");
-    else if (nesting == NESTING)
-        ok = calc_fail(error, 0, 0, "lessons are nested more than %d deep", NESTING);
+    bool ok = nowhere && (r || calc_no_memory(error)) &&
+              (nesting < NESTING || calc_fail(error, 0, 0, "lessons are nested more than %d deep", NESTING));
     ok = ok && file_in_open(&in, path, &shell_stop, error);
     if (ok) {
         *r = (reading){.sh = sh, .out = out, .from = {path, true}, .error = error};
@@ -182,8 +176,6 @@ bool lesson_read(shell *sh, const char *path, lesson_text *out, calc_error *erro
         shell_free(&r->trial);
         file_in_close(&in);
     }
-    if (nowhere)
-        fclose(nowhere);
     free(r);
     return ok;
 }

@@ -9,7 +9,6 @@
 #include "statement/command.h"
 #include "statement/progress.h"
 #include "statement/record.h"
-#include "statement/recorder.h"
 #include "statement/text.h"
 #include "text/file.h"
 
@@ -57,9 +56,9 @@ static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
 }
 
 /* Of a script played without a terminal. */
-static bool show_screen(shell *sh, const char *screen) {
+static bool show_screen(shell *sh, const char *screen, calc_error *error) {
     text_out t;
-    if (!text_begin(&t, &sh->set, sh->out, TEXT_PICTURE))
+    if (!text_begin(&t, sh, TEXT_PICTURE, error))
         return false;
     fputs(screen, t.to);
     return text_end(&t, true);
@@ -88,8 +87,7 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
     sh->set.pages = before.pages;
     if (sh->set.report == REPORT_OFF)
         sh->set.report = before.report;
-    if (screen && !show_screen(sh, screen))
-        ok = calc_no_memory(error);
+    ok = (!screen || show_screen(sh, screen, error)) && ok;
     free(screen);
     if (ok && sh->set.timing && work.frames)
         shell_say(sh, "live: %zu frames, %.3g ms of work each, %.3g ms the longest", work.frames,
@@ -108,8 +106,8 @@ static bool can_read(const char *name, calc_error *error) {
 bool do_live(shell *sh, lexer *lx, said *all) {
     char name[FILE_NAME];
     const bool script = all->count > 0;
-    if (script && !hole_file(lx, &all->list[0].hole[0], name))
-        return false;
+    if (script)
+        hole_file(lx, &all->list[0].hole[0], name);
     if (sh->replaying) /* the transcript goes on with the statements that were run on the screen */
         return !script || can_read(name, lx->error);
     return shell_live(sh, script ? name : NULL, lx->error);

@@ -76,18 +76,19 @@ static void set_signals(void) {
 /* ---- options ----------------------------------------------------------------------------------- */
 
 typedef struct job {
-    bool statements;
-    const char *text;
+    const char *path, *text; /* text: statements, or NULL */
 } job;
 
 /* What the command line asks for. */
 typedef struct wishes {
-    bool quiet, no_rc, live, replay, done;
+    bool replay, done;
     const char *color;
     double tolerance;
     job *jobs;
     size_t count;
 } wishes;
+
+static int keep_going, quiet, no_rc, live; /* getopt sets them */
 
 static int bad_usage(const char *what, const char *word) {
     fprintf(stderr, "fret: %s%s", what, word ? " " : "");
@@ -115,14 +116,15 @@ static int take_part(shell *sh, const char *text) {
     if (sscanf(text, "%9u/%9u%n", &p->number, &p->of, &used) != 2 || text[used] || strpbrk(text, "+- ") ||
         p->number < 1 || p->number > p->of)
         return bad_usage("--part is I/N, whole numbers with 1 <= I <= N, not", text);
-    if (!p->nowhere)
-        p->nowhere = fopen("/dev/null", "w");
-    if (!p->nowhere) {
-        fprintf(stderr, "error: cannot open /dev/null: %s\n", strerror(errno));
+    calc_error error;
+    error_clear(&error);
+    FILE *nowhere = shell_nowhere(&error);
+    if (!nowhere) {
+        shell_error(sh, error.text);
         return EXIT_ERROR;
     }
     p->out = stdout;
-    sh->out = p->number == 1 ? p->out : p->nowhere;
+    sh->out = p->number == 1 ? p->out : nowhere;
     sh->calc.cores = 1;
     return EXIT_OK;
 }
@@ -166,13 +168,13 @@ enum {
 
 static const struct option options[] = {
     {"replay", required_argument, NULL, OPT_REPLAY},
-    {"live", no_argument, NULL, OPT_LIVE},
+    {"live", no_argument, &live, OPT_LIVE},
     {"tolerance", required_argument, NULL, OPT_TOLERANCE},
     {"format", required_argument, NULL, OPT_FORMAT},
     {"part", required_argument, NULL, OPT_PART},
-    {"keep-going", no_argument, NULL, OPT_KEEP},
-    {"quiet", no_argument, NULL, OPT_QUIET},
-    {"no-rc", no_argument, NULL, OPT_NO_RC},
+    {"keep-going", no_argument, &keep_going, OPT_KEEP},
+    {"quiet", no_argument, &quiet, OPT_QUIET},
+    {"no-rc", no_argument, &no_rc, OPT_NO_RC},
     {"color", required_argument, NULL, OPT_COLOR},
     {"version", no_argument, NULL, OPT_VERSION},
     {"help", no_argument, NULL, OPT_HELP},
@@ -196,17 +198,16 @@ static const char *option_word(char **argv) {
 
 static int take_option(int opt, wishes *w, shell *sh, char **argv) {
     switch (opt) {
+    case 0: /* a switch */
+        return EXIT_OK;
+    case 'c':
+        w->jobs[w->count++] = (job){"-c", optarg};
+        return EXIT_OK;
     case IN_ORDER:
     case 'f':
-    case 'c':
-        w->jobs[w->count++] = (job){opt == 'c', optarg};
-        return EXIT_OK;
     case OPT_REPLAY:
-        w->replay = true;
-        w->jobs[w->count++] = (job){false, optarg};
-        return EXIT_OK;
-    case OPT_LIVE:
-        w->live = true;
+        w->replay |= opt == OPT_REPLAY;
+        w->jobs[w->count++] = (job){optarg, NULL};
         return EXIT_OK;
     case OPT_TOLERANCE:
         return take_tolerance(w, optarg);
@@ -214,15 +215,6 @@ static int take_option(int opt, wishes *w, shell *sh, char **argv) {
         return take_format(&sh->set, optarg);
     case OPT_PART:
         return take_part(sh, optarg);
-    case OPT_KEEP:
-        sh->keep_going = true;
-        return EXIT_OK;
-    case OPT_QUIET:
-        w->quiet = true;
-        return EXIT_OK;
-    case OPT_NO_RC:
-        w->no_rc = true;
-        return EXIT_OK;
     case OPT_COLOR:
         return take_color(w, optarg);
     case OPT_MANUAL:
@@ -250,7 +242,8 @@ static int read_options(int argc, char **argv, wishes *w, shell *sh) {
     while (status == EXIT_OK && !w->done && (opt = getopt_long(argc, argv, "-:f:c:h", options, NULL)) >= 0)
         status = take_option(opt, w, sh, argv);
     for (int i = optind; i < argc && !w->done && status == EXIT_OK; i++) /* behind -- */
-        w->jobs[w->count++] = (job){false, argv[i]};
+        w->jobs[w->count++] = (job){argv[i], NULL};
+    sh->keep_going = keep_going;
     const char *no = getenv("NO_COLOR");
     const bool always = !strcmp(w->color, "always"),
                may = !strcmp(w->color, "auto") && !(no && *no) && shell_escapes();
@@ -264,8 +257,7 @@ static int read_options(int argc, char **argv, wishes *w, shell *sh) {
 static int run_jobs(shell *sh, const wishes *w) {
     int status = EXIT_OK;
     for (size_t i = 0; i < w->count && !sh->quit; i++) {
-        const job *j = &w->jobs[i];
-        const int one = j->statements ? shell_text(sh, j->text, "-c") : shell_file(sh, j->text);
+        const int one = shell_run(sh, w->jobs[i].path, w->jobs[i].text);
         if (one != EXIT_OK)
             status = one;
         if (one == EXIT_INTERRUPTED || (one != EXIT_OK && !sh->keep_going))
@@ -278,9 +270,9 @@ static int run_jobs(shell *sh, const wishes *w) {
 static int run_live(shell *sh, const wishes *w) {
     calc_error error;
     error_clear(&error);
-    if (w->count > 1 || (w->count && w->jobs[0].statements))
+    if (w->count > 1 || (w->count && w->jobs[0].text))
         return bad_usage("--live takes one script", NULL);
-    if (shell_live(sh, w->count ? w->jobs[0].text : NULL, &error))
+    if (shell_live(sh, w->count ? w->jobs[0].path : NULL, &error))
         return EXIT_OK;
     shell_error(sh, error.text);
     return EXIT_ERROR;
@@ -290,12 +282,12 @@ static int run_live(shell *sh, const wishes *w) {
 static int run_replays(shell *sh, const wishes *w) {
     int status = EXIT_OK;
     for (size_t i = 0; i < w->count; i++)
-        if (w->jobs[i].statements)
+        if (w->jobs[i].text)
             return bad_usage("--replay takes transcripts, not -c", NULL);
     for (size_t i = 0; i < w->count && status != EXIT_INTERRUPTED; i++) {
         calc_error error;
         error_clear(&error);
-        const int one = shell_replay(w->jobs[i].text, w->tolerance, &sh->set, stdout, &error);
+        const int one = shell_replay(sh, w->jobs[i].path, w->tolerance, &error);
         if (error.raised)
             shell_error(sh, error.text);
         if (one != EXIT_OK)
@@ -305,7 +297,7 @@ static int run_replays(shell *sh, const wishes *w) {
 }
 
 static int run_part(shell *sh, const wishes *w) {
-    const int status = w->count ? run_jobs(sh, w) : shell_file(sh, "-");
+    const int status = w->count ? run_jobs(sh, w) : shell_run(sh, "-", NULL);
     if (status != EXIT_OK || sh->share.met)
         return status;
     shell_error(sh, "--part: there was no table, map or uncertainty whose rows could be shared");
@@ -314,18 +306,18 @@ static int run_part(shell *sh, const wishes *w) {
 
 static int run_wishes(shell *sh, const wishes *w) {
     if (sh->share.of)
-        return w->live || w->replay || (!w->count && isatty(STDIN_FILENO))
+        return live || w->replay || (!w->count && isatty(STDIN_FILENO))
                    ? bad_usage("--part goes with a script", NULL)
                    : run_part(sh, w);
-    if (w->live)
+    if (live)
         return run_live(sh, w);
     if (w->replay)
         return run_replays(sh, w);
     if (w->count)
         return run_jobs(sh, w);
     if (isatty(STDIN_FILENO))
-        return shell_prompt(sh, w->quiet, !w->no_rc);
-    return shell_file(sh, "-");
+        return shell_prompt(sh, quiet, !no_rc);
+    return shell_run(sh, "-", NULL);
 }
 
 /* What the starter has closed stays so: no file of ours may become a standard stream. */
@@ -346,10 +338,8 @@ static void check_home(void) {
 /* A lost write is an error. Where the reader has gone, SIGPIPE ends the program as it ends others. */
 static int finish_output(shell *sh, int status) {
     record_end(sh, false);
-    if (sh->share.nowhere) {
-        fclose(sh->share.nowhere);
+    if (sh->share.out)
         sh->out = sh->share.out;
-    }
     status = status == EXIT_OK && sh->lost ? EXIT_ERROR : status;
     errno = 0;
     const bool bad = fflush(sh->out) || ferror(sh->out);

@@ -17,7 +17,7 @@ static void read_startup(shell *sh) {
     sh->keep_going = true;
     if (file_own_path(path, "XDG_CONFIG_HOME", ".config", "fretrc") &&
         (!access(path, F_OK) || (errno != ENOENT && errno != ENOTDIR)))
-        shell_file(sh, path);
+        shell_run(sh, path, NULL);
     sh->keep_going = before;
 }
 

@@ -145,35 +145,15 @@ static bool compare(char *want, char *got, double tolerance) {
 
 /* ---- a statement ------------------------------------------------------------------------------- */
 
-typedef struct text {
-    char *p;
-    size_t len;
-} text;
-
-static bool append_text(text *t, const char *line, size_t n) {
-    char *grown = realloc(t->p, t->len + n + 1);
-    if (!grown)
-        return false;
-    memcpy(grown + t->len, line, n);
-    t->p = grown;
-    t->len += n;
-    grown[t->len] = 0;
-    return true;
-}
-
-static void empty(text *t) {
-    t->len = 0;
-    if (t->p)
-        *t->p = 0;
-}
-
 typedef struct replay {
     FILE *out;
     double tolerance;
     const char *path;
     size_t passed, failed;
     shell sh;
-    text statement, want;
+    char *statement;
+    size_t length;
+    file_text want; /* open from a statement to the next */
     size_t at;      /* line of the statement; 0: none yet */
     bool waits;     /* not run yet: that depends on what follows */
     size_t prompts; /* that it printed and that are still to come: those of a demo begin no statement */
@@ -216,8 +196,8 @@ static bool run_statement(replay *r) {
     const source from = {NULL, true};
     r->sh.out = r->sh.err = got.to;
     r->sh.quit = false;
-    if (!shell_special(&r->sh, &from, r->statement.p))
-        shell_line(&r->sh, &from, r->statement.p, r->statement.len, r->at);
+    if (!shell_special(&r->sh, &from, r->statement))
+        shell_line(&r->sh, &from, r->statement, r->length, r->at);
     if (!file_text_close(&got))
         return false;
     r->got = got.text;
@@ -230,34 +210,36 @@ static bool run_statement(replay *r) {
 /* Does it end in ^C, as a line that was dropped? If an answer follows, it was not: then it is run. */
 static bool seems_dropped(const replay *r) {
     static const char end[] = "^C";
-    const size_t n = sizeof end - 1, len = r->statement.len;
+    const size_t n = sizeof end - 1, len = r->length;
     size_t own;
-    return len >= n && !strcmp(r->statement.p + len - n, end) &&
+    return len >= n && !strcmp(r->statement + len - n, end) &&
            (len == n || !names_find(&r->sh.calc.names, end + 1, 1, &own));
 }
 
-static bool begin_statement(replay *r) {
+/* False: out of memory. */
+static bool begin_statement(replay *r, const char *text, size_t len) {
+    free(r->statement);
+    r->statement = malloc(len + 1);
+    if (!r->statement || !file_text_open(&r->want))
+        return false;
+    memcpy(r->statement, text, len + 1);
+    r->length = len;
     r->waits = seems_dropped(r);
     return r->waits || run_statement(r);
 }
 
 /* Notes and warnings of a scene that a record begins with may be there or not. */
 static void spare_notes(replay *r) {
-    const size_t n = strlen(RECORD_GIVEN), len = r->statement.len;
-    if (len < n || strcmp(r->statement.p + len - n, RECORD_GIVEN) != 0)
+    const size_t n = strlen(RECORD_GIVEN), len = r->length;
+    if (len < n || strcmp(r->statement + len - n, RECORD_GIVEN) != 0)
         return;
     for (char *line = r->got; *line; line = line_after(line))
         if (begins(line, "note: ") || begins(line, "warning: "))
             *line = MARK_ASIDE;
 }
 
-/* What follows the statement has been gathered. False: out of memory. */
-static bool judge_answer(replay *r) {
-    static char nothing[1];
-    char *want = r->want.p ? r->want.p : nothing;
-    if (r->at == 0 || shell_stop) /* interrupted: there is no whole answer to compare */
-        return true;
-    if (r->waits && is_blank(want))
+static bool judge(replay *r, char *want) {
+    if (shell_stop || (r->waits && is_blank(want))) /* interrupted: there is no whole answer to compare */
         return true;
     if (r->waits && !run_statement(r))
         return false;
@@ -268,12 +250,23 @@ static bool judge_answer(replay *r) {
         r->failed++;
         print_safe(r->out, r->path, strlen(r->path));
         fprintf(r->out, ":%zu: fret> ", r->at);
-        print_safe(r->out, r->statement.p, r->statement.len);
+        print_safe(r->out, r->statement, r->length);
         putc('\n', r->out);
         show(r->out, '-', want, false);
         show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* more: it has asides */
     }
     return true;
+}
+
+/* What follows the statement, if there is one, has been gathered. False: out of memory. */
+static bool judge_answer(replay *r) {
+    if (!r->want.to)
+        return true;
+    if (!file_text_close(&r->want))
+        return false;
+    const bool ok = judge(r, r->want.text);
+    free(r->want.text);
+    return ok;
 }
 
 /* ---- the transcript ---------------------------------------------------------------------------- */
@@ -283,15 +276,15 @@ static bool take_line(replay *r, file_in *in, calc_error *error) {
     const bool prompt = strip_prompt(in->line, &n) != in->line;
     if (!prompt || r->prompts > 0) {
         r->prompts -= prompt;
-        return r->at == 0 || (append_text(&r->want, in->line, in->length) && append_text(&r->want, "\n", 1));
+        if (r->at)
+            fprintf(r->want.to, "%s\n", in->line);
+        return true;
     }
     const size_t before = in->length - n;
     if (!judge_answer(r) || file_in_rest(in, error) != FILE_GOT_LINE)
         return false;
     r->at = (size_t)in->number;
-    empty(&r->statement);
-    empty(&r->want);
-    return append_text(&r->statement, in->line + before, in->length - before) && begin_statement(r);
+    return begin_statement(r, in->line + before, in->length - before);
 }
 
 static bool take_lines(replay *r, file_in *in, calc_error *error) {
@@ -308,24 +301,19 @@ static bool take_lines(replay *r, file_in *in, calc_error *error) {
     return ok && got != FILE_GOT_ERROR;
 }
 
-int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, calc_error *error) {
+int shell_replay(const shell *sh, const char *path, double tolerance, calc_error *error) {
     static int nesting; /* a transcript may replay others */
     enum { NESTING = 8 };
-    file_in in;
+    file_in in = {.fd = -1};
     text_out t;
-    if (nesting == NESTING) {
-        calc_fail(error, 0, 0, "transcripts are nested more than %d deep", NESTING);
-        return EXIT_ERROR;
-    }
-    if (!file_in_script(&in, path, &shell_stop, error))
-        return EXIT_ERROR;
-    if (!text_begin(&t, set, out, TEXT_PICTURE)) {
-        calc_no_memory(error);
+    if (nesting == NESTING)
+        calc_raise(error, 0, 0, "transcripts are nested more than %d deep", NESTING);
+    else if (file_in_script(&in, path, &shell_stop, error) && !text_begin(&t, sh, TEXT_PICTURE, error))
         file_in_close(&in);
+    if (error->raised)
         return EXIT_ERROR;
-    }
     replay r = {.tolerance = tolerance, .path = path, .out = t.to};
-    shell_init(&r.sh, out, out);
+    shell_init(&r.sh, sh->out, sh->out);
     r.sh.write_scene = scene_write;
     r.sh.replaying = true;
     nesting++;
@@ -337,16 +325,15 @@ int shell_replay(const char *path, double tolerance, const settings *set, FILE *
         print_safe(r.out, path, strlen(path));
         fprintf(r.out, ": %zu passed, %zu failed\n", r.passed, r.failed);
     }
-    ok &= text_end(&t, true);
     if (shell_stop)
-        calc_interrupted(error);
-    if (!ok)
-        calc_no_memory(error); /* an error that came first stays */
+        calc_interrupted(error); /* what comes first stays */
+    ok &= text_end(&t, true);
     file_in_close(&in);
-    r.sh.out = r.sh.err = out;
+    r.sh.out = r.sh.err = sh->out;
     shell_free(&r.sh);
-    free(r.statement.p);
-    free(r.want.p);
+    if (r.want.to && file_text_close(&r.want))
+        free(r.want.text);
+    free(r.statement);
     free(r.got);
     return shell_stop ? EXIT_INTERRUPTED : ok && !r.failed ? EXIT_OK : EXIT_ERROR;
 }

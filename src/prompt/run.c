@@ -5,13 +5,11 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "commands/expressions.h"
 #include "commands/figures.h"
 #include "help/help.h"
 #include "statement/command.h"
-#include "statement/cursor.h"
 #include "statement/progress.h"
 #include "statement/record.h"
 #include "statement/setting_table.h"
@@ -63,14 +61,9 @@ static bool print_statement(shell *sh, lexer *lx) {
 }
 
 /* A command word alone misses more than its first argument. */
-static void add_usage(const command *c, calc_error *error) {
+static bool lacks_all(const calc_error *error) {
     static const char missing[] = "expected ";
-    char usage[GRAMMAR_USAGE];
-    const size_t n = strlen(error->text);
-    if (error->raised && error->kind == ERROR_WORDS && !strncmp(error->text, missing, sizeof missing - 1)) {
-        command_usage(c, usage);
-        snprintf(error->text + n, sizeof error->text - n, "; usage: %s", usage);
-    }
+    return error->raised && error->kind == ERROR_WORDS && !strncmp(error->text, missing, sizeof missing - 1);
 }
 
 static bool run_row(shell *sh, lexer *lx, const command *c, said *all) {
@@ -102,8 +95,8 @@ static bool run_command(shell *sh, lexer *lx, const command *c) {
     said_begin(&all, form);
     const bool ok = (c->reads || said_read(sh, lx, form, &all)) && run_row(sh, lx, c, &all);
     said_drop(sh, &all);
-    if (bare)
-        add_usage(c, lx->error);
+    if (bare && lacks_all(lx->error))
+        add_usage(lx->error, form);
     return ok || calc_place(lx->error, at, lx->end > at + len ? lx->end - at : len);
 }
 
@@ -111,7 +104,7 @@ static bool assign(shell *sh, lexer *lx) {
     const command *c = command_find(lx->text + lx->at, lx->len);
     if (c) {
         char usage[GRAMMAR_USAGE];
-        command_usage(c, usage);
+        grammar_usage(command_form(c), usage);
         return lex_fail(lx, "'%s' is a command, no variable: %s", c->name, usage);
     }
     const bool ok = calc_assign(&sh->calc, lx);
@@ -128,6 +121,20 @@ static bool told_of(lexer *lx, const char *word, token_kind after) {
     return where && !lex_fail(lx, "unknown name '%s'; try: %s %s", word, where, word);
 }
 
+/* What other programs are left by, as `:q`, or `q` alone, may begin with no name, or be one that is free. */
+static bool is_lead(lexer *lx, const char *before) {
+    char word[LEX_NAME];
+    size_t n = 1;
+    while (lx->at + n < lx->end && !strchr(" \t\r\n!", lx->text[lx->at + n]))
+        n++;
+    snprintf(word, sizeof word, "%s%.*s", before, LEX_SHOWN(n), lx->text + lx->at);
+    const char *lead = lead_from(word);
+    if (!lead)
+        return false;
+    error_clear(lx->error);
+    return !calc_fail(lx->error, lx->at, n, "unexpected '%.*s': %s", LEX_SHOWN(n), lx->text + lx->at, lead);
+}
+
 /* A misspelt command followed by its arguments. */
 static bool misspelt(shell *sh, lexer *lx) {
     char word[LEX_NAME];
@@ -138,6 +145,8 @@ static bool misspelt(shell *sh, lexer *lx) {
     if (lead_from(word)) /* a fuller error comes when the name is looked up */
         return false;
     const token_kind after = lex_peek(lx);
+    if (after == T_END && is_lead(lx, ":"))
+        return true;
     const char *near = suggest(word, command_name);
     if ((after != T_NAME && after != T_NUMBER && after != T_END) || !near ||
         (after == T_END && suggest(word, quantity_name)))
@@ -172,7 +181,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     lexer lx;
     error_clear(error);
     lex_start(&lx, text, len, error);
-    if (error->raised)
+    if (((error->raised || lx.kind == T_COLON) && is_lead(&lx, "")) || error->raised)
         return false;
     if (lx.kind == T_END)
         return true;
@@ -278,35 +287,23 @@ void shell_report(shell *sh, const source *from, const char *text, size_t len, s
     fflush(sh->err);
 }
 
-/* The models that have answered, in parentheses. */
-static void list_models(const shell *sh, FILE *to) {
-    const char *before = " (";
-    for (model_id i = 0; i < MODELS; i++)
-        if (sh->calc.scene.used & USED(i)) {
-            fprintf(to, "%s%s", before, models[i].title);
-            if (i == MODEL_PIECES)
-                fprintf(to, " to %.0e", sh->calc.scene.pieces_error);
-            before = ", ";
-        }
-    const answers *a = &sh->calc.scene.answers;
-    if (sh->calc.scene.used & USED(MODEL_MEMORY) && a->levels && a->run[0].repeated)
-        fprintf(to, ", %u period%s the last one run", a->run[0].repeated,
-                a->run[0].repeated == 1 ? " repeats" : "s repeat");
-    if (*before == ',')
-        putc(')', to);
-}
-
+/* With the models that have answered, in parentheses. */
 static void report_time(shell *sh, double t) {
-    file_text models_text;
+    char by[240] = "", *end = by + sizeof by, *p = by;
+    const scene *s = &sh->calc.scene;
     if (sh->replaying) /* no two runs agree */
         return;
-    if (!file_text_open(&models_text))
-        return;
-    list_models(sh, models_text.to);
-    if (!file_text_close(&models_text))
-        return;
-    shell_say(sh, "time: %.3g ms%s", 1e3 * t, models_text.text);
-    free(models_text.text);
+    for (model_id i = 0; i < MODELS; i++)
+        if (s->used & USED(i)) {
+            p += snprintf(p, (size_t)(end - p), "%s%s", p == by ? " (" : ", ", models[i].title);
+            if (i == MODEL_PIECES)
+                p += snprintf(p, (size_t)(end - p), " to %.0e", s->pieces_error);
+        }
+    const unsigned repeated = s->answers.levels ? s->answers.run[0].repeated : 0;
+    if (s->used & USED(MODEL_MEMORY) && repeated)
+        p += snprintf(p, (size_t)(end - p), ", %u period%s the last one run", repeated,
+                      repeated == 1 ? " repeats" : "s repeat");
+    shell_say(sh, "time: %.3g ms%s%s", 1e3 * t, by, p == by ? "" : ")");
 }
 
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line) {
@@ -374,21 +371,12 @@ int shell_stream(shell *sh, file_in *in) {
     return status;
 }
 
-int shell_file(shell *sh, const char *path) {
+int shell_run(shell *sh, const char *path, const char *text) {
     calc_error error;
     file_in in;
     error_clear(&error);
-    if (file_in_script(&in, path, &shell_stop, &error))
-        return shell_stream(sh, &in);
-    shell_error(sh, error.text);
-    return EXIT_ERROR;
-}
-
-int shell_text(shell *sh, const char *text, const char *name) {
-    calc_error error;
-    file_in in;
-    error_clear(&error);
-    if (file_in_text(&in, text, name, &shell_stop, &error))
+    if (text ? file_in_text(&in, text, path, &shell_stop, &error)
+             : file_in_script(&in, path, &shell_stop, &error))
         return shell_stream(sh, &in);
     shell_error(sh, error.text);
     return EXIT_ERROR;

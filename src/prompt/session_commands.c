@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands on the session itself: scripts, settings, the end. */
-#include <string.h>
+/* Commands on the session itself: scripts, settings, the end; and those that keep it: save, record, and
+ * replay, which runs a kept one beside it. */
+#include <stdlib.h>
 
+#include "plot/script.h"
 #include "prompt/show.h"
 #include "statement/command.h"
+#include "statement/record.h"
 #include "statement/setting_table.h"
+#include "statement/target.h"
 
 bool do_source(shell *sh, lexer *lx, said *all) {
     enum { NESTING = 16 };
     char name[FILE_NAME];
-    if (!hole_file(lx, &all->list[0].hole[0], name))
-        return false;
+    hole_file(lx, &all->list[0].hole[0], name);
     if (sh->nesting == NESTING)
         return calc_fail(lx->error, all->list[0].hole[0].at, 1, "scripts are nested more than %d deep",
                          NESTING);
@@ -31,4 +34,82 @@ bool do_quit(shell *sh, lexer *lx, said *all) {
     (void)lx, (void)all;
     sh->quit = true;
     return true;
+}
+
+/* ---- save, record, replay ---------------------------------------------------------------------- */
+
+/* The name of a file of statements: not one that says of itself that it is a picture, or a table. */
+static bool statements_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
+    hole_file(lx, part, name);
+    const bool picture = plot_kind_of(name, error_quiet());
+    if (!picture && !file_ends(name, ".csv") && !file_ends(name, ".json"))
+        return true;
+    return calc_fail(lx->error, part->at, part->len,
+                     "'%s' is the name of a %s to FILE writes: statements go to one such as scene.fret", name,
+                     picture ? "picture, which plot ..." : "table, which history");
+}
+
+/* ---- save -------------------------------------------------------------------------------------- */
+
+bool do_save(shell *sh, lexer *lx, said *all) {
+    char file[FILE_NAME];
+    target t;
+    const bool history = *all->list[0].of->name;
+    const span *name = &all->list[0].hole[0];
+    if (history && sh->replaying)
+        return true;
+    if (history && !sh->typed.to)
+        return calc_fail(lx->error, name->at, name->len,
+                         "nothing has been typed here: a script is its own history");
+    if (!statements_file(lx, name, file) || !target_file(lx, name, &t))
+        return false;
+    if (!history)
+        fputs("# fret " FRET_VERSION "\n", t.to);
+    return target_close(sh, lx, &t,
+                        (history ? typed_write(sh, t.to) : scene_write(&sh->calc, &sh->set, t.to, true)) ||
+                            calc_no_memory(lx->error));
+}
+
+/* ---- record and replay ------------------------------------------------------------------------- */
+
+/* Settings come last: with `set format json` the statements of the scene would print objects. NULL: out of
+ * memory. */
+static char *beginning(shell *sh) {
+    file_text kept;
+    if (!file_text_open(&kept))
+        return NULL;
+    const bool whole = scene_write(&sh->calc, &sh->set, kept.to, true);
+    settings_write(&sh->calc, &sh->set, kept.to);
+    if (!file_text_close(&kept))
+        return NULL;
+    if (whole)
+        return kept.text;
+    free(kept.text);
+    return NULL;
+}
+
+bool do_record(shell *sh, lexer *lx, said *all) {
+    char name[FILE_NAME];
+    if (said_of(all, "off", 0))
+        return record_end(sh, true) || lex_fail(lx, "nothing is being recorded");
+    hole_file(lx, &all->list[0].hole[0], name);
+    if (!file_ends(name, ".html") && !statements_file(lx, &all->list[0].hole[0], name))
+        return false;
+    char *text = beginning(sh);
+    if (!text)
+        return calc_no_memory(lx->error);
+    const bool ok = record_begin(sh, name, text, lx->error);
+    free(text);
+    return ok || heard_place(lx->error, &all->list[0]);
+}
+
+bool do_replay(shell *sh, lexer *lx, said *all) {
+    char name[FILE_NAME];
+    hole_file(lx, &all->list[0].hole[0], name);
+    const int status = shell_replay(sh, name, 0, lx->error);
+    if (status == EXIT_OK)
+        return true;
+    if (!lx->error->raised)
+        calc_fail(lx->error, 0, 0, "%s does not come out again", name);
+    return heard_place(lx->error, &all->list[0]);
 }

@@ -12,46 +12,10 @@
 #include "statement/setting_table.h"
 #include "statement/text.h"
 #include "text/lines.h"
-#include "text/unit_text.h"
-
-/* ---- values ------------------------------------------------------------------------------------ */
-
-/* The number of a literal such as `90 deg` as the language reads it. */
-static double read_back(const char *text) {
-    lexer lx;
-    unit u;
-    lex_start(&lx, text, strlen(text), error_quiet());
-    const bool minus = lx.kind == T_MINUS;
-    if (minus)
-        lex_next(&lx);
-    const size_t at = lx.at, len = lx.len;
-    lex_next(&lx);
-    unit_parse(&lx, &u);
-    const double v = (double)unit_literal(&lx, at, len, &u);
-    return minus ? -v : v;
-}
-
-/* In degrees where they read back as the same number. */
-static void angle_text(double v, char *buf, size_t size) {
-    enum { LEAST = 15, MOST = 17 };
-    for (int digits = LEAST; digits <= MOST; digits++) {
-        snprintf(buf, size, "%.*g deg", digits, v * (180 / 3.14159265358979323846));
-        if (read_back(buf) == v)
-            return;
-    }
-    snprintf(buf, size, "%.*g rad", MOST, v);
-}
-
-enum { VALUE_TEXT = 160 };
-
-static void value_text(value v, char buf[VALUE_TEXT]) {
-    if (v.d.rad != 0 && dim_equal(v.d, DIM_NONE))
-        angle_text((double)v.v, buf, VALUE_TEXT);
-    else
-        format_exact(v, buf, VALUE_TEXT);
-}
 
 /* ---- the scene as statements ------------------------------------------------------------------- */
+
+enum { VALUE_TEXT = 160 };
 
 typedef struct writer {
     const calc *c;
@@ -76,7 +40,7 @@ static void write_start(writer *w, const char *words) {
 
 static void write_value(writer *w, const char *name, const char *sign, value v) {
     char text[VALUE_TEXT];
-    value_text(v, text);
+    format_exact(v, text, sizeof text);
     fprintf(w->to, "%s%s%s", name, sign, text);
 }
 
@@ -204,7 +168,7 @@ static void write_geometry(writer *w) {
             write_argument(w, quantity_of_input(i)->name, i);
     for (int i = 0; i < in->sum.terms && g->by == PARAMETERS_TERMS; i++) {
         char n[VALUE_TEXT];
-        value_text((value){in->sum.power[i].n, DIM_NONE}, n);
+        format_exact((value){in->sum.power[i].n, DIM_NONE}, n, sizeof n);
         fprintf(w->to, "%s %s:", i ? "," : "", n);
         write_value(w, "", "", (value){in->sum.power[i].h, {0, 1 - in->sum.power[i].n, 0, 0}});
     }
@@ -398,7 +362,7 @@ static bool show_commands(shell *sh, FILE *to) {
     char usage[GRAMMAR_USAGE];
     (void)sh;
     for (size_t i = 0; (c = command_row(i)); i++) {
-        command_usage(c, usage);
+        grammar_usage(command_form(c), usage);
         fprintf(to, "%s\n", usage);
     }
     return true;
@@ -428,10 +392,10 @@ const char *show_name(size_t i) {
 
 bool show_text(shell *sh, show_part *part, calc_error *error) {
     text_out t;
-    if (!text_begin(&t, &sh->set, sh->out, TEXT_WORDS))
-        return calc_no_memory(error);
-    const bool ok = part(sh, t.to);
-    return (text_end(&t, ok) && ok) || calc_no_memory(error);
+    if (!text_begin(&t, sh, TEXT_WORDS, error))
+        return false;
+    const bool ok = part(sh, t.to) || calc_no_memory(error);
+    return text_end(&t, ok) && ok;
 }
 
 bool do_show(shell *sh, lexer *lx, said *all) {

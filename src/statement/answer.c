@@ -54,27 +54,11 @@ bool answer_beside(answer *a, const column *c, const estimate *e) {
 
 /* ---- events ------------------------------------------------------------------------------------ */
 
-static void open_as(answer *a, int layout, const char *kind, const char *text) {
+void answer_open(answer *a, int layout, const char *kind, const char *text) {
     a->layout = layout;
     a->any = false;
     if (a->form->open)
         a->form->open(a, kind, text);
-}
-
-void answer_event(answer *a, const char *name) {
-    open_as(a, LAYOUT_QUIET, "event", name);
-}
-
-void answer_report(answer *a, const char *name) {
-    open_as(a, LAYOUT_LINE, "event", name);
-}
-
-void answer_page(answer *a, const char *name) {
-    open_as(a, LAYOUT_PAGE, "event", name);
-}
-
-void answer_message(answer *a, const char *kind, const char *text) {
-    open_as(a, LAYOUT_QUIET, kind, text);
 }
 
 void answer_done(answer *a) {
@@ -108,24 +92,15 @@ void answer_fact(answer *a, const char *name, const char *text) {
 }
 
 void answer_share(answer *a, const char *name, double part) {
-    member(a, name, &(answer_cell){CELL_SHARE, .v = {.v = part}, .digits = 17});
+    if (a->form->share)
+        a->form->share(a, name, part);
+    else
+        answer_number(a, name, part);
 }
 
-static void open_part(answer *a, const char *name, char bracket) {
+void answer_part(answer *a, const char *name, char bracket) {
     if (a->form->begin)
         a->form->begin(a, name, bracket);
-}
-
-void answer_group(answer *a, const char *name) {
-    open_part(a, name, '{');
-}
-
-void answer_items(answer *a, const char *name) {
-    open_part(a, name, '[');
-}
-
-void answer_item(answer *a) {
-    open_part(a, NULL, '{');
 }
 
 void answer_up(answer *a) {
@@ -173,9 +148,11 @@ void answer_gap(answer *a) {
 /* ---- tables of words and rough numbers --------------------------------------------------------- */
 
 void answer_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
-    a->form->heads(a, event, heads, count);
+    if (a->form->heads)
+        a->form->heads(a, event, heads, count);
 }
 
 void answer_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
-    a->form->cells(a, heads, cells, count);
+    if (a->form->cells)
+        a->form->cells(a, heads, cells, count);
 }

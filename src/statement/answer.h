@@ -5,7 +5,63 @@
 
 #include <stdio.h>
 
-#include "statement/answer_form.h"
+#include "statement/output.h"
+
+enum { ANSWER_PARTS = 4 };
+
+/* On its way out. */
+typedef struct answer {
+    const settings *set;
+    FILE *to;
+    const struct answer_form *form;
+    bool lost; /* out of memory: answer_end tells */
+    /* an object, of JSON, or the lines of a report, of text */
+    int layout;
+    bool any; /* something is in it */
+    unsigned parts;
+    char bracket[ANSWER_PARTS]; /* of JSON: which of its parts are open */
+    /* values that wait for the end, of CSV: one row has them all */
+    struct waiting {
+        column *of;
+        long double *si;
+        size_t count, room, room_si;
+        size_t estimate; /* the last */
+    } waiting;
+    /* a table */
+    size_t count;
+    const column *columns;
+    /* of text: the first rows wait until units that suit them are chosen */
+    bool headed;
+    long double *held; /* rows of count values, and 1 where a blank line comes before */
+    size_t rows;
+    bool gap;
+    int width[COLUMNS];
+    long double scale[COLUMNS];
+} answer;
+
+/* ---- tables of words and rough numbers ---- */
+
+typedef struct answer_head {
+    const char *name;
+    const char *unit; /* of the numbers; "": none */
+    const char *csv;  /* what CSV calls it; NULL: name and unit */
+} answer_head;
+
+typedef struct answer_cell {
+    enum {
+        CELL_WORDS,
+        CELL_NUMBER,
+        CELL_FLAG,
+        /* of an event alone */
+        CELL_QUANTITY,
+        CELL_FACT /* words that text shows too */
+    } kind;
+    const char *words;
+    value v;    /* of what is no words */
+    int digits; /* of a number, for programs */
+} answer_cell;
+
+/* ---- answers ---- */
 
 /* In the form that is set, or in another, as of a file. */
 void answer_begin(answer *a, const settings *set, FILE *to);
@@ -31,14 +87,15 @@ bool answer_beside(answer *a, const column *c, const estimate *e);
 
 /* ---- events: what a command reports ---- */
 
+/* How text lays one out: it has but words; one line of its quantities; a line of each, and of its facts. */
+enum { LAYOUT_QUIET, LAYOUT_LINE, LAYOUT_PAGE, LAYOUT_NONE };
+void answer_open(answer *a, int layout, const char *kind, const char *text);
 /* Facts for programs; text shows only what answer_words says. */
-void answer_event(answer *a, const char *name);
-/* In text one line, of its quantities. */
-void answer_report(answer *a, const char *name);
-/* In text a line each of its quantities and its facts. */
-void answer_page(answer *a, const char *name);
+#define answer_event(a, name) answer_open(a, LAYOUT_QUIET, "event", name)
+#define answer_report(a, name) answer_open(a, LAYOUT_LINE, "event", name)
+#define answer_page(a, name) answer_open(a, LAYOUT_PAGE, "event", name)
 /* A message, for programs: readers have it on standard error. kind: "note", "warning", "error". */
-void answer_message(answer *a, const char *kind, const char *text);
+#define answer_message(a, kind, text) answer_open(a, LAYOUT_QUIET, kind, text)
 /* Ends any of them. */
 void answer_done(answer *a);
 
@@ -51,13 +108,13 @@ void answer_quantity(answer *a, const char *name, value v);
 void answer_fact(answer *a, const char *name, const char *text);
 /* What part of the last estimate's variance comes from `name`; in a group of their own. */
 void answer_share(answer *a, const char *name, double part);
-/* Facts that belong together, up to answer_up. */
-void answer_group(answer *a, const char *name);
+/* Facts that belong together, up to answer_up; or several such, without a name each, or numbers of no name:
+ * answer_items, then answer_item for each of the former. */
+void answer_part(answer *a, const char *name, char bracket);
+#define answer_group(a, name) answer_part(a, name, '{')
+#define answer_items(a, name) answer_part(a, name, '[')
+#define answer_item(a) answer_part(a, NULL, '{')
 void answer_up(answer *a);
-/* Several such, without a name each, or numbers of no name: answer_items, then answer_item for each of the
- * former; answer_up ends any of them. */
-void answer_items(answer *a, const char *name);
-void answer_item(answer *a);
 /* The same facts, for readers: of text alone, and where CSV is as text. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
@@ -78,9 +135,39 @@ bool answer_shows_next(const answer *a);
 /* A blank line before the next row, in text. */
 void answer_gap(answer *a);
 
-/* ---- tables of words and rough numbers ---- */
+/* ---- tables of words and rough numbers, for programs: readers have answer_words ---- */
 
 void answer_heads(answer *a, const char *event, const answer_head *heads, size_t count);
 void answer_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count);
+
+/* ---- forms: what text, CSV and JSON each do with what is answered; for no command ---- */
+
+/* NULL: the form has no place for it. */
+typedef struct answer_form {
+    bool data; /* every line is one for programs */
+    int words; /* the first layout that shows what is for readers alone */
+    void (*value)(answer *a, const column *c, long double si);
+    void (*estimate)(answer *a, const column *c, const estimate *e);
+    void (*beside)(answer *a, const column *c, const estimate *e);
+    void (*open)(answer *a, const char *kind, const char *text);
+    void (*close)(answer *a);
+    void (*member)(answer *a, const char *name, const answer_cell *c);
+    void (*share)(answer *a, const char *name, double part);  /* NULL: a number */
+    void (*begin)(answer *a, const char *name, char bracket); /* NULL: it has no name */
+    void (*up)(answer *a);
+    bool (*columns)(answer *a, const char *event);
+    void (*row)(answer *a, const long double *si);
+    void (*heads)(answer *a, const char *event, const answer_head *heads, size_t count);
+    void (*cells)(answer *a, const answer_head *heads, const answer_cell *cells, size_t count);
+    void (*end)(answer *a, bool ok);
+} answer_form;
+
+enum { TEXT_HELD = 2000 }; /* rows of a table */
+
+extern const answer_form answer_as_text, answer_as_csv, answer_as_json;
+
+/* CSV writes these as text does. */
+void text_close(answer *a);
+void text_member(answer *a, const char *name, const answer_cell *c);
 
 #endif

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "number/array.h"
-#include "statement/answer_form.h"
+#include "statement/answer.h"
 #include "text/lex.h"
 
 /* ---- rows -------------------------------------------------------------------------------------- */
@@ -102,16 +102,12 @@ static void put_csv_estimate(answer *a, const column *c, const estimate *e) {
     }
 }
 
-static void put_member(answer *a, const char *name, const answer_cell *c) {
+static void put_share(answer *a, const char *name, double part) {
     char from[LEX_NAME + 8];
     const struct waiting *w = &a->waiting;
-    if (c->kind != CELL_SHARE) {
-        text_member(a, name, c);
-        return;
-    }
     snprintf(from, sizeof from, "from %s", name);
     if (!a->lost)
-        wait_for_row(a, w->of[w->estimate].name, from, NULL, c->v.v);
+        wait_for_row(a, w->of[w->estimate].name, from, NULL, part);
 }
 
 static void put_waiting(answer *a, bool ok) {
@@ -131,7 +127,8 @@ const answer_form answer_as_csv = {
     .value = put_csv_value,
     .estimate = put_csv_estimate,
     .close = text_close,
-    .member = put_member,
+    .member = text_member,
+    .share = put_share,
     .columns = put_csv_columns,
     .row = put_csv_row,
     .heads = put_csv_heads,

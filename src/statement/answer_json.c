@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "statement/answer_form.h"
+#include "statement/answer.h"
 #include "text/characters.h"
 
 /* ---- strings and numbers ----------------------------------------------------------------------- */

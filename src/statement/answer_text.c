@@ -5,16 +5,15 @@
 #include <string.h>
 
 #include "scene/quantity.h"
-#include "statement/answer_form.h"
+#include "statement/answer.h"
 #include "text/characters.h"
 
 /* ---- values ------------------------------------------------------------------------------------ */
 
 static void put_text_value(answer *a, const column *c, long double si) {
-    char unit_text[COLUMN_UNIT], number[NUMBER_TEXT];
-    const long double scale = column_unit(c, si, a->set->digits, unit_text);
-    number_text(number, a->set->digits, (double)(si / scale));
-    fprintf(a->to, "%s = %s%s%s\n", c->name, number, *unit_text ? " " : "", unit_text);
+    char text[COLUMN_TEXT];
+    format_column(c, a->set->digits, si, text, sizeof text);
+    fprintf(a->to, "%s = %s\n", c->name, text);
 }
 
 static void put_text_estimate(answer *a, const column *c, const estimate *e) {
@@ -53,12 +52,8 @@ void text_close(answer *a) {
         putc('\n', a->to);
 }
 
-static void put_member(answer *a, const char *name, const answer_cell *c) {
-    if (c->kind != CELL_SHARE) {
-        text_member(a, name, c);
-        return;
-    }
-    fprintf(a->to, "%s%s %.3Lg %%", a->any ? ", " : "    from ", name, 100 * c->v.v);
+static void put_share(answer *a, const char *name, double part) {
+    fprintf(a->to, "%s%s %.3g %%", a->any ? ", " : "    from ", name, 100 * part);
     a->any = true;
 }
 
@@ -141,22 +136,6 @@ static bool put_text_columns(answer *a, const char *event) {
     return a->held != NULL;
 }
 
-static void put_text_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
-    (void)event;
-    for (size_t i = 0; i < count; i++)
-        if (heads[i].shown)
-            fprintf(a->to, "%s%*s", i ? " " : "", heads[i].width, heads[i].shown);
-    putc('\n', a->to);
-}
-
-static void put_text_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (heads[i].shown)
-            fprintf(a->to, "%s%*s", i ? " " : "", heads[i].width,
-                    cells[i].shown ? cells[i].shown : cells[i].words);
-    putc('\n', a->to);
-}
-
 static void end_text_table(answer *a, bool ok) {
     if (ok && a->held)
         release(a);
@@ -169,11 +148,10 @@ const answer_form answer_as_text = {
     .estimate = put_text_estimate,
     .beside = put_beside,
     .close = text_close,
-    .member = put_member,
+    .member = text_member,
+    .share = put_share,
     .up = end_group,
     .columns = put_text_columns,
     .row = hold,
-    .heads = put_text_heads,
-    .cells = put_text_cells,
     .end = end_text_table,
 };

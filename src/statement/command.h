@@ -6,16 +6,18 @@
 
 #include "statement/reader.h"
 
+/* all: what has been said, the cursor behind it; it is dropped by who calls. */
+typedef bool command_run(shell *sh, lexer *lx, said *all);
+
 typedef struct command {
     const char *name;
-    /* What has been said is read, the cursor at the end; it is dropped by who calls. */
-    bool (*run)(shell *sh, lexer *lx, said *all);
+    command_run *run;
     bool reads;          /* by itself: the cursor is behind the command word */
     const char *takes;   /* behind the command word, see grammar.h: it is read by this, and its usage */
     const char *summary; /* one line */
     const char *help;    /* what it does; ends with an example as a transcript, indented by four */
     const char *keywords;
-    const char *group;       /* of `help`: what it is for */
+    const char *group;       /* of `help`, which begins with it; NULL: that of the row before */
     bool changes;            /* the scene */
     bool keeps;              /* what it has changed, where it fails too */
     bool returns;            /* to a scene as it was: what has been warned of may hold no more */
@@ -36,10 +38,6 @@ const grammar *command_form(const command *c);
 const grammar *geometry_form(size_t i);
 /* Parsed where it is wanted first. */
 const grammar *grammar_made(const char *name, const char *shape, const char *takes, const char *summary);
-/* "step Fx=20 N ...", as who types it is told. */
-static inline void command_usage(const command *c, char buf[GRAMMAR_USAGE]) {
-    grammar_usage(command_form(c), buf);
-}
 
 /* What a command of the load reports: an event with these quantities, ended by NULL. */
 void report_event(shell *sh, const char *event, const char *const *names);
@@ -47,7 +45,6 @@ void report_event(shell *sh, const char *event, const char *const *names);
 bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]);
 
 /* Rooms of handlers. */
-typedef bool command_run(shell *sh, lexer *lx, said *all);
 /* scene_commands.c, load_commands.c */
 command_run do_material, do_second, do_geometry, do_friction, do_rig, do_bulk, do_wear;
 command_run do_press, do_step, do_cycle, do_follow, do_reset, do_undo;
@@ -59,7 +56,6 @@ const char *export_name(size_t i);
 const grammar *export_form(size_t i);
 /* show.c, help.c, session_commands.c, demo.c, exercise.c, live_command.c */
 command_run do_show, do_set, do_help, do_apropos, do_cite;
-/* keep_commands.c */
 command_run do_save, do_record, do_replay;
 command_run do_source, do_quit, do_demo, do_ask, do_live;
 

@@ -246,6 +246,15 @@ void grammar_usage(const grammar *f, char buf[GRAMMAR_USAGE]) {
     takes_text(f->takes, buf + n, GRAMMAR_USAGE - (size_t)n);
 }
 
+bool add_usage(calc_error *error, const grammar *f) {
+    char usage[GRAMMAR_USAGE];
+    const size_t n = strlen(error->text);
+    grammar_usage(f, usage);
+    snprintf(error->text + n, sizeof error->text - n, "%susage: %s", error->text[n - 1] == '?' ? " " : "; ",
+             usage);
+    return false;
+}
+
 void grammar_clauses(const hole_row *row, char buf[GRAMMAR_USAGE]) {
     size_t n = 0;
     const char *line;

@@ -83,6 +83,8 @@ const hole_row *grammar_first(const grammar *f, hole_kind kind);
 /* "geometry sphere R=10 mm": the line without its marks. */
 enum { GRAMMAR_USAGE = 400 };
 void grammar_usage(const grammar *f, char buf[GRAMMAR_USAGE]);
+/* The same behind the words of the error; false. */
+bool add_usage(calc_error *error, const grammar *f);
 /* The same of a hole that stands for clauses. */
 void grammar_clauses(const hole_row *row, char buf[GRAMMAR_USAGE]);
 

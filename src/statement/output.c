@@ -130,10 +130,13 @@ void format_value(const settings *set, value v, char *buf, size_t size) {
 }
 
 void format_row(const settings *set, value v, const char *row, char *buf, size_t size) {
-    char unit_text[COLUMN_UNIT];
-    long double scale = column_unit(&(column){.d = v.d, .row = row}, v.v, set->digits, unit_text);
-    char number[NUMBER_TEXT];
-    number_text(number, set->digits, (double)(v.v / scale));
+    format_column(&(column){.d = v.d, .row = row}, set->digits, v.v, buf, size);
+}
+
+void format_column(const column *c, int digits, long double si, char *buf, size_t size) {
+    char unit_text[COLUMN_UNIT], number[NUMBER_TEXT];
+    const long double scale = column_unit(c, si, digits, unit_text);
+    number_text(number, digits, (double)(si / scale));
     snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
 }
 
@@ -150,21 +153,33 @@ void format_estimate(const column *c, int digits, const estimate *e, char text[E
         snprintf(text + n, ESTIMATE_TEXT - (size_t)n, ", +%s%s%s)", number[2], blank, unit_text);
 }
 
+/* The number of a literal such as `90 deg` as the language reads it. */
+static double read_back(const char *text) {
+    lexer lx;
+    unit u = {.factor = 1};
+    lex_start(&lx, text, strlen(text), error_quiet());
+    const bool minus = lx.kind == T_MINUS;
+    if (minus)
+        lex_next(&lx);
+    const size_t at = lx.at, len = lx.len;
+    lex_next(&lx);
+    if (lx.kind != T_END)
+        unit_parse(&lx, &u);
+    const double v = (double)unit_literal(&lx, at, len, &u);
+    return minus ? -v : v;
+}
+
 void format_exact(value v, char *buf, size_t size) {
-    enum { LEAST = 6 };
-    char unit_text[COLUMN_UNIT], number[NUMBER_TEXT];
-    double want = (double)v.v, read = NAN;
-    for (int digits = LEAST; digits <= 17 && read != fabs(want); digits++) {
-        long double scale = unit_choose(v.d, want, digits, unit_text, sizeof unit_text);
-        size_t n = number_text(number, digits, (double)(want / scale));
-        bool minus = number[0] == '-';
-        lex_decimal(number + minus, n - minus, '.', (int)lroundl(log10l(scale)), &read);
+    enum { LEAST = 6, MOST = 17 };
+    const double want = (double)v.v;
+    for (int digits = LEAST; digits <= MOST; digits++) {
+        format_row(&(settings){.digits = digits}, v, NULL, buf, size);
+        if (read_back(buf) == want)
+            return;
     }
-    if (read != fabs(want)) {
-        number_text(number, 17, want);
-        dim_unit(v.d, unit_text, sizeof unit_text);
-    }
-    snprintf(buf, size, "%s%s%s", number, *unit_text ? " " : "", unit_text);
+    char unit_text[COLUMN_UNIT];
+    dim_unit(v.d, unit_text, sizeof unit_text);
+    snprintf(buf, size, "%.*g%s%s", MOST, want, *unit_text ? " " : "", unit_text);
 }
 
 /* ---- columns ----------------------------------------------------------------------------------- */

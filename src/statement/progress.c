@@ -8,7 +8,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "statement/recorder.h"
+#include "statement/record.h"
 #include "text/clock.h"
 
 enum { LINE = 60, WHAT = 20 };

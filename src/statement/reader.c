@@ -8,12 +8,45 @@
 #include "text/lines.h"
 #include "text/unit_text.h"
 
+/* ---- at the cursor ----------------------------------------------------------------------------- */
+
+bool at_argument(const lexer *lx) {
+    if (lx->kind != T_NAME)
+        return false;
+    token_kind next = lex_peek(lx);
+    return next == T_ASSIGN || next == T_INCREMENT || next == T_DEFINE;
+}
+
+bool stray_unit(lexer *lx) {
+    char word[LEX_NAME];
+    unit known;
+    if (lx->kind != T_NAME || lx->text[lx->last - 1] < '0' || lx->text[lx->last - 1] > '9' ||
+        argument_word(lx) || at_argument(lx) || quantity_find(lx->text + lx->at, lx->len) ||
+        unit_lookup(lx->text + lx->at, lx->len, &known))
+        return false;
+    lex_word(lx, word);
+    const char *near = unit_suggest(word);
+    lex_fail(lx, near ? "unknown unit '%s': did you mean %s?" : "unknown unit '%s'; try: help units", word,
+             near);
+    return true;
+}
+
+bool at_end(lexer *lx) {
+    if (lx->kind == T_END)
+        return !lx->error->raised;
+    if (lex_is(lx, "to") || lex_is(lx, "as") || lex_is(lx, "into"))
+        return lex_fail(lx, "unexpected '%.*s': units are asked for by `in` (a in mm)", LEX_WORD(lx));
+    return stray_unit(lx) ? false : lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
+}
+
 /* ---- what has been said ------------------------------------------------------------------------ */
 
-/* Bytes up to a blank: names with hyphens are several tokens to the lexer. */
-static size_t word_at(const lexer *lx) {
+static const char blanks[] = " \t\n\r", word_ends[] = " \t\n\r,="; /* which no word of a table has */
+
+/* Bytes up to one of these: names with hyphens are several tokens to the lexer. */
+static size_t bytes_to(const lexer *lx, const char *ends) {
     size_t end = lx->at;
-    while (end < lx->end && !strchr(" \t\n\r", lx->text[end]))
+    while (end < lx->end && !strchr(ends, lx->text[end]))
         end++;
     return end - lx->at;
 }
@@ -95,7 +128,7 @@ lexer hole_lexer(const lexer *lx, const span *part) {
     lexer own = *lx;
     own.end = part->at + part->len;
     size_t next = own.end;
-    while (next < lx->end && strchr(" \t\r\n", lx->text[next]))
+    while (next < lx->end && strchr(blanks, lx->text[next]))
         next++;
     own.part = next < lx->end;
     lex_seek(&own, part->at);
@@ -107,10 +140,10 @@ void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]) {
     snprintf(word, LEX_NAME, "%.*s", part->len < LEX_NAME ? (int)part->len : 0, lx->text + part->at);
 }
 
-bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
+void hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
     lexer own = *lx;
     own.at = part->at;
-    return lex_filename(&own, name, FILE_NAME);
+    lex_filename(&own, name, FILE_NAME); /* as it has been read: it is one */
 }
 
 /* ---- errors ------------------------------------------------------------------------------------ */
@@ -120,17 +153,13 @@ static const char *who(const grammar *f) {
 }
 
 static bool unknown_argument(lexer *lx, const grammar *f) {
-    char usage[GRAMMAR_USAGE];
-    grammar_usage(f, usage);
-    return calc_fail(lx->error, lx->at, lx->len, "%s has no %s '%.*s'; usage: %s", who(f),
-                     f->shape ? "parameter" : "argument", LEX_WORD(lx), usage);
+    return lex_fail(lx, "%s has no %s '%.*s'", who(f), f->shape ? "parameter" : "argument", LEX_WORD(lx)) ||
+           add_usage(lx->error, f);
 }
 
 static bool not_taken(lexer *lx, const grammar *f, const char *name, token_kind how) {
-    char usage[GRAMMAR_USAGE];
-    grammar_usage(f, usage);
-    return calc_fail(lx->error, lx->at, lx->len, "%s does not take %s by %s; usage: %s", who(f), name,
-                     how == T_DEFINE ? ":=" : "+=", usage);
+    return lex_fail(lx, "%s does not take %s by %s", who(f), name, how == T_DEFINE ? ":=" : "+=") ||
+           add_usage(lx->error, f);
 }
 
 /* "for EXPR = EXPR" */
@@ -275,18 +304,10 @@ static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
                       "the seconds must be a positive number up to %u", of->most));
 }
 
-/* A word of a table, in which no word has a comma or an `=`. */
-static size_t choice_at(const lexer *lx) {
-    size_t len = 0;
-    while (lx->at + len < lx->end && !strchr(" \t\n\r,=", lx->text[lx->at + len]))
-        len++;
-    return len;
-}
-
 static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
     enum { LISTED = 8 };
     char word[LEX_NAME], list[CALC_ERROR_TEXT - 64] = "";
-    const size_t len = choice_at(lx);
+    const size_t len = bytes_to(lx, word_ends);
     h->hole[0] = (span){lx->at, len};
     if (word_among(row->words, lx->text + lx->at, len, &h->choice)) {
         step_over(lx, len);
@@ -447,7 +468,7 @@ static bool skip_names(lexer *lx, said *s, const clause *a) {
 static bool skip_column(lexer *lx, const said *s, span *part) {
     unit unused;
     error_clear(lx->error);
-    part->len = lx->kind == T_STRING || lx->kind == T_NUMBER ? lx->len : choice_at(lx);
+    part->len = lx->kind == T_STRING || lx->kind == T_NUMBER ? lx->len : bytes_to(lx, word_ends);
     step_over(lx, part->len);
     if (!unit_at(lx) && (lx->kind != T_NAME || clause_named(lx, s->by)))
         return part->len > 0 || lex_fail(lx, "expected a column: its name, or its number");
@@ -548,7 +569,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         break;
     case HOLE_WORD: /* which need not be made of tokens */
         error_clear(lx->error);
-        h->hole[i].len = word_at(lx);
+        h->hole[i].len = bytes_to(lx, blanks);
         step_over(lx, h->hole[i].len);
         return true;
     default:
@@ -646,7 +667,7 @@ static bool read_head(lexer *lx, said *s) {
 
 /* Is the word of a row that may begin otherwise one of its clauses? `record off`, but `record off.txt`. */
 static bool begins_clause(const lexer *lx, const clause *a, hole_kind first) {
-    const bool whole = first == HOLE_COUNT || word_at(lx) == lx->len;
+    const bool whole = first == HOLE_COUNT || bytes_to(lx, blanks) == lx->len;
     return a && first != HOLE_EXPR && whole && (a->holes == 0 || first != HOLE_FILE || lex_peek(lx) != T_END);
 }
 
@@ -696,7 +717,7 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
 }
 
 bool said_cut(const lexer *lx) {
-    return lx->cut && lx->kind == T_END && (lx->at == lx->end || strchr(" \t\r\n", lx->text[lx->at]));
+    return lx->cut && lx->kind == T_END && (lx->at == lx->end || strchr(blanks, lx->text[lx->at]));
 }
 
 static bool misspelt(lexer *lx, const said *s) {
@@ -704,34 +725,24 @@ static bool misspelt(lexer *lx, const said *s) {
     return meant && !lex_fail(lx, "unexpected '%.*s': did you mean %s?", LEX_WORD(lx), meant->name);
 }
 
-/* `sphere 10 mm`, `nu 0.3`: an argument without its name, or its `=`; or what is none where one begins. */
+/* `sphere 10 mm`, `nu 0.3`: an argument without its name, or its `=`. */
 static bool half_named(lexer *lx, const said *s) {
     const clause *a = s->by->clause, *end = a + s->by->count;
     const bool bare = lx->kind == T_NUMBER || lx->kind == T_MINUS || lx->kind == T_OPEN;
-    char lack[LEX_NAME + 60];
     while (a < end && !(a->argument && (bare || lex_is(lx, a->name))))
         a++;
-    const bool none = a == end;
-    if (none && (s->count || !s->by->count || !s->by->clause->argument))
-        return false;
-    snprintf(lack, sizeof lack,
-             none   ? "unexpected '%.*s';"
-             : bare ? "unexpected '%.*s': a value needs its name;"
-                    : "expected = after %.*s;",
-             LEX_WORD(lx));
-    return !said_lacks(lx, s, lack);
-}
-
-bool said_lacks(lexer *lx, const said *s, const char *lack) {
-    char usage[GRAMMAR_USAGE];
-    grammar_usage(s->by, usage);
-    return lex_fail(lx, "%s usage: %s", lack, usage);
+    return a < end &&
+           !(lex_fail(lx, bare ? "unexpected '%.*s': a value needs its name" : "expected = after %.*s",
+                      LEX_WORD(lx)) ||
+             add_usage(lx->error, s->by));
 }
 
 bool said_end(lexer *lx, const said *s) {
     if (lx->kind == T_COMMA)
         return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", s->by->command);
-    return (lx->kind == T_END || (!misspelt(lx, s) && !half_named(lx, s))) && at_end(lx);
+    if (misspelt(lx, s) || half_named(lx, s))
+        return false;
+    return at_end(lx) || (lx->kind != T_END && !s->count && *s->by->takes && add_usage(lx->error, s->by));
 }
 
 bool said_hides(const lexer *lx, const said *s, const char *word) {

@@ -5,9 +5,23 @@
 #ifndef STATEMENT_READER_H
 #define STATEMENT_READER_H
 
-#include "statement/cursor.h"
+#include "language/calc.h"
 #include "statement/grammar.h"
 #include "statement/shell.h"
+
+/* ---- at the cursor ---- */
+
+/* Is the cursor on NAME =, NAME += or NAME :=? */
+bool at_argument(const lexer *lx);
+/* Nothing may follow. */
+bool at_end(lexer *lx);
+/* A name right after a number was meant as a unit: an error; else false. */
+bool stray_unit(lexer *lx);
+/* Is it a word that may follow a number: one that the table of commands names, or of a range? In command.c.
+ */
+bool argument_word(const lexer *lx);
+
+/* ---- what has been said ---- */
 
 /* A part of the statement. */
 typedef struct span {
@@ -66,8 +80,6 @@ bool said_cut(const lexer *lx);
 /* May the clause come, or come again, behind those that have been said? Else an error says why not. */
 bool said_may_come(const lexer *lx, const said *s, const clause *a);
 bool said_end(lexer *lx, const said *s);
-/* An error: `lack` tells what is missing, and how the row is used follows. */
-bool said_lacks(lexer *lx, const said *s, const char *lack);
 /* What is live goes, unless it has been taken over, and what became known. */
 void said_drop(shell *sh, said *s);
 /* The names alone, where another statement comes between; and known again. */
@@ -87,8 +99,8 @@ heard *said_of(said *s, const char *name, size_t i);
 lexer hole_lexer(const lexer *lx, const span *part);
 /* The word that stands first there; empty where it is longer than any name. */
 void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]);
-/* The name of a file that stands there. */
-bool hole_file(const lexer *lx, const span *part, char name[FILE_NAME]);
+/* The name of a file that stands there: of FILE. */
+void hole_file(const lexer *lx, const span *part, char name[FILE_NAME]);
 /* Points the error, where it has no place, at the first hole. */
 #define heard_place(error, h) calc_place(error, (h)->hole[0].at, (h)->hole[0].len)
 

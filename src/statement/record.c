@@ -7,7 +7,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "statement/recorder.h"
 #include "statement/target.h"
 #include "text/lines.h"
 

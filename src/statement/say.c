@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a session says beside its answers: notes, errors without a place, and whom it says them to. */
+#include <errno.h>
 #include <poll.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -8,7 +9,7 @@
 
 #include "statement/answer.h"
 #include "statement/progress.h"
-#include "statement/recorder.h"
+#include "statement/record.h"
 
 volatile sig_atomic_t shell_stop;
 
@@ -23,36 +24,17 @@ static void tell_programs(const shell *sh, const char *kind, const char *text) {
 
 enum { NOTE = 8192 }; /* holds a file's name, escaped or not */
 
-/* On standard error, `before` it what it is; a program that reads answers finds it among them, as `kind`. */
-static void tell_message(shell *sh, const char *kind, const char *before, const char *format, va_list args) {
+void shell_tell(shell *sh, const char *kind, const char *before, const char *format, ...) {
     char text[NOTE];
-    progress_wipe();
+    va_list args;
+    va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    progress_wipe();
     tell_programs(sh, kind, text);
     fputs(before, sh->err);
     print_safe(sh->err, text, strlen(text));
     fputc('\n', sh->err);
-}
-
-void shell_say(shell *sh, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    tell_message(sh, "note", "", format, args);
-    va_end(args);
-}
-
-void shell_note(shell *sh, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    tell_message(sh, "note", "note: ", format, args);
-    va_end(args);
-}
-
-void shell_warning(shell *sh, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    tell_message(sh, "warning", "warning: ", format, args);
-    va_end(args);
 }
 
 bool shell_aside(const shell *sh, FILE *to) {
@@ -81,6 +63,13 @@ void shell_error(shell *sh, const char *text) {
     tell_programs(sh, "error", text);
     shell_print_error(sh, text);
     fflush(sh->err);
+}
+
+FILE *shell_nowhere(calc_error *error) {
+    static FILE *nowhere;
+    if (!nowhere && !(nowhere = fopen("/dev/null", "w")))
+        calc_raise_errno(error, errno, "cannot write /dev/null");
+    return nowhere;
 }
 
 bool shell_unread(void) {

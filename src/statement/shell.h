@@ -24,7 +24,7 @@ typedef struct source {
 typedef struct run_share {
     unsigned number, of;
     bool met; /* what has rows to share */
-    FILE *out, *nowhere;
+    FILE *out;
 } run_share;
 
 enum { EXPRESSIONS = 40 };
@@ -65,18 +65,19 @@ extern volatile sig_atomic_t shell_stop;
 void shell_error(shell *sh, const char *text);
 /* `error: ...`, behind a place or not. */
 void shell_print_error(const shell *sh, const char *text);
+/* The stream that keeps nothing, which stays open; NULL with the error. */
+FILE *shell_nowhere(calc_error *error);
 /* Has whoever read standard output gone, as `head` does? That is no error to be told of. */
 bool shell_unread(void);
-/* Things to be told that are no errors, on standard error; a program that reads answers has them there, too.
- */
+/* Things to be told that are no errors, on standard error, `before` it what they are; a program that reads
+ * answers finds them among them, as `kind`. */
 #if defined(__GNUC__)
-#define SHELL_FORMAT __attribute__((format(printf, 2, 3)))
-#else
-#define SHELL_FORMAT
+__attribute__((format(printf, 4, 5)))
 #endif
-SHELL_FORMAT void shell_say(shell *sh, const char *format, ...);
-SHELL_FORMAT void shell_note(shell *sh, const char *format, ...);    /* `note: ...` */
-SHELL_FORMAT void shell_warning(shell *sh, const char *format, ...); /* `warning: ...` */
+void shell_tell(shell *sh, const char *kind, const char *before, const char *format, ...);
+#define shell_say(sh, ...) shell_tell(sh, "note", "", __VA_ARGS__)
+#define shell_note(sh, ...) shell_tell(sh, "note", "note: ", __VA_ARGS__)
+#define shell_warning(sh, ...) shell_tell(sh, "warning", "warning: ", __VA_ARGS__)
 
 /* Is a line to be written that is for who types, and has no place in a script's output? In a replay it is,
  * after a mark: a transcript may have it or not. */
@@ -119,16 +120,16 @@ void shell_report(shell *sh, const source *from, const char *text, size_t len, s
 /* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it.
  * Returns an exit status. */
 int shell_stream(shell *sh, file_in *in);
-int shell_file(shell *sh, const char *path); /* `-` is standard input */
-int shell_text(shell *sh, const char *text, const char *name);
+/* The file, `-` is standard input; or a text by that name. */
+int shell_run(shell *sh, const char *path, const char *text);
 
 /* ---- prompt.c, replay.c ---- */
 
 /* The interactive session. */
 int shell_prompt(shell *sh, bool quiet, bool read_rc);
-/* Runs a transcript in a session of its own and compares, reports on `out`; returns an exit status.
- * error: why the transcript could not be run; empty: it has been. */
-int shell_replay(const char *path, double tolerance, const settings *set, FILE *out, calc_error *error);
+/* Runs a transcript in a session of its own and compares, reports on the output of this one; returns an exit
+ * status. error: why the transcript could not be run; empty: it has been. */
+int shell_replay(const shell *sh, const char *path, double tolerance, calc_error *error);
 /* `?WORD` and `!COMMAND` as a line that a statement stands for; true: it was one of them, and has
  * been run. */
 bool shell_special(shell *sh, const source *from, const char *text);

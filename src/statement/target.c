@@ -14,7 +14,9 @@ static const struct {
              {".txt", FORMAT_TEXT, true},
              {".dat", FORMAT_TEXT, true}};
 
-static bool choose_form(const lexer *lx, const span *part, const char *name, target *t) {
+static bool choose_form(const lexer *lx, const span *part, target *t) {
+    char name[FILE_NAME];
+    hole_file(lx, part, name);
     if (!strncmp(name, "/dev/", 5))
         return true;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
@@ -31,8 +33,7 @@ bool target_file(const lexer *lx, const span *part, target *t) {
     char name[FILE_NAME];
     t->name = *part;
     t->shared = false;
-    if (!hole_file(lx, part, name))
-        return false;
+    hole_file(lx, part, name);
     if (!file_out_open(&t->file, name, &shell_stop, lx->error))
         return calc_place(lx->error, part->at, part->len);
     t->to = t->file.to;
@@ -41,10 +42,8 @@ bool target_file(const lexer *lx, const span *part, target *t) {
 
 bool target_open(shell *sh, const lexer *lx, said *all, target *t) {
     const heard *to = said_of(all, "to", 0);
-    char name[FILE_NAME];
     *t = (target){.to = sh->out, .format = sh->set.format};
-    return !to || (hole_file(lx, &to->hole[0], name) && choose_form(lx, &to->hole[0], name, t) &&
-                   target_file(lx, &to->hole[0], t));
+    return !to || (choose_form(lx, &to->hole[0], t) && target_file(lx, &to->hole[0], t));
 }
 
 /* ---- shares ------------------------------------------------------------------------------------ */
@@ -91,7 +90,7 @@ bool target_close(shell *sh, lexer *lx, target *t, bool ok) {
     char name[FILE_NAME];
     file_report report;
     if (t->shared)
-        sh->out = sh->share.number == sh->share.of ? sh->share.out : sh->share.nowhere;
+        sh->out = sh->share.number == sh->share.of ? sh->share.out : shell_nowhere(lx->error);
     if (!t->file.to)
         return ok;
     snprintf(name, sizeof name, "%s", t->file.name);

@@ -5,8 +5,7 @@
 
 #include <stdio.h>
 
-#include "statement/settings.h"
-#include "text/file.h"
+#include "statement/shell.h"
 
 /* Text of words, in which what does not show is escaped; answers, likewise, which are objects for programs
  * already; or a picture of gnuplot, which knows what it sends
@@ -19,9 +18,11 @@ typedef struct text_out {
     FILE *out, *to; /* write to `to` */
     text_kind kind;
     file_text kept; /* where it does not go out at once */
+    calc_error *error;
 } text_out;
-bool text_begin(text_out *t, const settings *set, FILE *out, text_kind kind);
-/* keep: else what has been written is dropped, where it is not out yet. False: out of memory. */
+/* On the session's output. False with the error: out of memory. */
+bool text_begin(text_out *t, const shell *sh, text_kind kind, calc_error *error);
+/* keep: else what has been written is dropped, where it is not out yet. False likewise. */
 bool text_end(text_out *t, bool keep);
 
 #endif
