@@ -57,7 +57,7 @@ static bool show_body(shell *sh, const grid *g, plot_panel *p, calc_error *error
     bool call, inside = false;
     size_t at;
     for (size_t i = 0; (q = expr_quantity(&sh->list[0], i, &call, &at)); i++)
-        inside = inside || q->call_at;
+        inside = inside || q->calls == CALL_STRESS;
     if (!inside || strcmp(z, "z") || (strcmp(x, "x") && strcmp(x, "y")))
         return true;
     p->flipy = true;

@@ -519,7 +519,7 @@ static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
     for (input in = IN_N; in < INPUTS; in++)
         if (g->required & INPUT_BIT(in) && !has(e, in))
             return lex_fail(lx, "a parameter is missing") || add_usage(lx->error, s->by);
-    if (g->allowed & INPUT_BIT(IN_A) && (has(e, IN_A) == has(e, IN_H) || has(e, IN_H) != has(e, IN_R0)))
+    if (geometry_takes(g, IN_A) && (has(e, IN_A) == has(e, IN_H) || has(e, IN_H) != has(e, IN_R0)))
         return lex_fail(lx, "give either A or both h and r0") || add_usage(lx->error, s->by);
     return true;
 }
@@ -528,8 +528,8 @@ bool do_geometry(shell *sh, lexer *lx, said *all) {
     fret_gap sum;
     const geometry *g = geometry_row(all->row);
     edit e = {.geometry = g};
-    e.sum = g->by == PARAMETERS_TERMS ? &sum : NULL;
-    if (g->by == PARAMETERS_FILE)
+    e.sum = g->kind == FRET_GAP_SUM ? &sum : NULL;
+    if (g->kind == FRET_GAP_TABLE)
         return read_gap_file(sh, lx, all, &e);
     return (e.sum ? read_sum(sh, lx, &all->list[0].hole[0], &sum) : put_parameters(lx, g, &e, all)) &&
            scene_edit(&sh->calc.scene, apply, &e, lx->error);

@@ -306,7 +306,7 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
     const bool power = scene_is_power(s), local = is_local(q, call);
     const char *of = local ? "largest value" : models[model].steps ? "largest value so far" : "value";
     double good = sine > 0 && local ? 1e-12 : sine > 0 || q->by || !power ? 1e-13 : DBL_EPSILON;
-    good = fmax(q->call_at ? 1e-12 : good, sine);
+    good = fmax(q->calls == CALL_STRESS ? 1e-12 : good, sine);
     if (scene_is_worn(s))
         good = WEAR_TOLERANCE;
     if (s->used & USED(MODEL_PIECES))
@@ -598,7 +598,7 @@ static bool explain_part(const page *p, const part *of) {
     influence_study study = {.count = 0};
     value v = {0}, argument = {0};
     const bool has = part_value(p, of, &e, &v);
-    const quantity *call = of->call && of->q->call ? of->q : NULL; /* of one argument */
+    const quantity *call = of->call && quantity_arguments(of->q) == 1 ? of->q : NULL; /* of one argument */
     if (has && call)
         text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
     const bool ok = !has || influences(&p->sh->calc, &e, v.v, call, argument, &study, p->error);

@@ -105,7 +105,7 @@ static void quantity_help(FILE *to, size_t row) {
     if (!quantity_arguments(q))
         return;
     fprintf(to, "    as a function: %s(%s)\n", q->name, q->argument);
-    snprintf(when, sizeof when, "%s %s ", q->argument, q->call ? "is" : "are each");
+    snprintf(when, sizeof when, "%s %s ", q->argument, quantity_arguments(q) == 1 ? "is" : "are each");
     dim_line(to, when, q->argument_d, NULL);
     if (!dim_equal(q->argument_or, DIM_NONE))
         dim_line(to, "or ", q->argument_or, NULL);
@@ -202,7 +202,7 @@ static void geometry_help(FILE *to, size_t i) {
     const geometry *g = geometry_row(i);
     usage_help(to, geometry_form(i));
     for (input in = IN_N; in < INPUTS; in++)
-        if (g->allowed & INPUT_BIT(in))
+        if (geometry_takes(g, in))
             fprintf(to, "    %-10s  %s\n", quantity_of_input(in)->name, quantity_of_input(in)->title);
     fprintf(to, "\n%s", g->example);
 }

@@ -422,9 +422,7 @@ static bool call_quantity(machine *m, const expr_node *n, value *out) {
     if (m->dry)
         return true;
     mark_asked(m->c, n->q);
-    const bool ok = n->q->call ? n->q->call(m->c->now, arg[0], &out->v, m->error)
-                               : n->q->call_at(m->c->now, arg, &out->v, m->error);
-    return ok || calc_place(m->error, n->at, n->len);
+    return quantity_call(n->q, m->c->now, arg, &out->v, m->error) || calc_place(m->error, n->at, n->len);
 }
 
 static bool eval(machine *m, const expr_node *n, value *out) {

@@ -18,7 +18,7 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
             return true;
         char usage[160];
         takes_text(g->takes, usage, sizeof usage);
-        if (g->allowed & INPUT_BIT(in)) /* h and r0 */
+        if (geometry_takes(g, in)) /* h and r0 */
             return calc_fail(error, 0, 0, "geometry %s was given by A, not by %s (%s %s)", g->name, q->name,
                              g->name, usage);
         return calc_fail(error, 0, 0, "%s is no parameter of geometry %s (%s %s)", q->name, g->name, g->name,

@@ -138,7 +138,7 @@ static void word_missing(const calc *c, calc_error *error) {
                  name);
     else if (!g)
         snprintf(text, size, "%s is not set: give the geometry first (geometry sphere R=10 mm)", name);
-    else if (g->allowed & INPUT_BIT(in))
+    else if (geometry_takes(g, in))
         snprintf(text, size, "geometry %s was given by A, not by %s", g->name, name);
     else
         snprintf(text, size, "%s is no parameter of geometry %s", name, g->name);

@@ -171,7 +171,7 @@ static bool dispatch(shell *sh, lexer *lx) {
             return lex_fail(lx, "unexpected '%.*s': did you mean %s = %.*s?", LEX_WORD(lx), name,
                             LEX_WORD(lx));
         }
-        if (q && q->call) /* dW 20 N */
+        if (q && quantity_arguments(q) == 1) /* dW 20 N */
             return lex_fail(lx, "expected ( after %s: %s(%s)", q->name, q->name, q->argument);
     }
     return print_statement(sh, lx);

@@ -161,20 +161,20 @@ static void write_geometry(writer *w) {
         return;
     write_start(w, "geometry ");
     fputs(g->name, w->to);
-    for (input i = IN_N; i < INPUTS && g->by == PARAMETERS_NAMED; i++)
+    for (input i = IN_N; i < INPUTS; i++)
         if (i == IN_RADIUS && in->radii[0] != 0)
             write_radii(w, in->radii);
         else if (in->set[i])
             write_argument(w, quantity_of_input(i)->name, i);
-    for (int i = 0; i < in->sum.terms && g->by == PARAMETERS_TERMS; i++) {
+    for (int i = 0; i < in->sum.terms && g->kind == FRET_GAP_SUM; i++) {
         char n[VALUE_TEXT];
         format_exact((value){in->sum.power[i].n, DIM_NONE}, n, sizeof n);
         fprintf(w->to, "%s %s:", i ? "," : "", n);
         write_value(w, "", "", (value){in->sum.power[i].h, {0, 1 - in->sum.power[i].n, 0, 0}});
     }
-    if (g->by == PARAMETERS_FILE && !write_file_name(w, in->table->name))
+    if (g->kind == FRET_GAP_TABLE && !write_file_name(w, in->table->name))
         fputs(" # the name of the file cannot be written in a statement", w->to);
-    if (g->by == PARAMETERS_FILE) {
+    if (g->kind == FRET_GAP_TABLE) {
         write_smoothing(w, &in->table->smoothing);
         fprintf(w->to, "%s%s", in->table->smoothing.height ? " height" : "", in->table->smoothing.columns);
     }

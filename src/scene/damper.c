@@ -99,13 +99,11 @@ bool call_Ksec(scene *s, value amplitude, long double *out, calc_error *error) {
 
 bool call_Kp(scene *s, value dxA, long double *out, calc_error *error) {
     peak p;
-    dxA.d = DIM_LENGTH;
     return peak_of(s, dxA, &p, error) && harmonic_stiffness(&p, out, error);
 }
 
 bool call_Kpp(scene *s, value dxA, long double *out, calc_error *error) {
     peak p;
-    dxA.d = DIM_LENGTH;
     if (!peak_of(s, dxA, &p, error))
         return false;
     *out = p.dx > 0 ? p.loss / (FRET_PI * p.dx * p.dx) : 0;

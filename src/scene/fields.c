@@ -58,40 +58,18 @@ bool call_g(scene *s, value x, long double *out, calc_error *error) {
 
 /* ---- local fields ------------------------------------------------------------------------------ */
 
-typedef fret_status at_place(const fret_field *, fret_real r, fret_real *out);
-
-/* By which, and what has answered. */
-static bool field_at(scene *s, value r, bool dragged, at_place *ask, long double *out, calc_error *error) {
+bool field_at(scene *s, bool dragged, field_of_place *ask, long double r, long double *out,
+              calc_error *error) {
     const fret_field *field;
-    if (dragged ? !scene_dragged_field(s, &field, error) : !scene_pressed_field(s, &field, error))
+    if (!(dragged ? scene_dragged_field : scene_pressed_field)(s, &field, error))
         return false;
-    fret_status st = ask(field, r.v, out);
+    fret_status st = ask(field, r, out);
     const double off = fret_field_error(field);
     if (isnan(off))
         s->used |= USED(MODEL_QUADRATURE);
     else
         scene_also_used(s, (scene_use){USED(MODEL_PIECES), off});
     return calc_status(error, &st);
-}
-
-bool call_p(scene *s, value r, long double *out, calc_error *error) {
-    return field_at(s, r, false, fret_field_pressure, out, error);
-}
-
-bool call_uz(scene *s, value r, long double *out, calc_error *error) {
-    return field_at(s, r, false, fret_field_surface, out, error);
-}
-
-bool call_qx(scene *s, value r, long double *out, calc_error *error) {
-    return field_at(s, r, true, fret_field_traction, out, error);
-}
-
-bool call_ux(scene *s, value r, long double *out, calc_error *error) {
-    return field_at(s, r, true, fret_field_surface_x, out, error);
-}
-
-bool call_slip(scene *s, value r, long double *out, calc_error *error) {
-    return field_at(s, r, true, fret_field_slip, out, error);
 }
 
 bool call_WdA(scene *s, value r, long double *out, calc_error *error) {
@@ -168,28 +146,20 @@ bool call_s1D(scene *s, value x, long double *out, calc_error *error) {
 }
 
 /* c_0 (x/c0)^k */
-static bool modulus_at(scene *s, value x, bool tangential, long double *out, calc_error *error) {
+bool modulus_at(scene *s, long double x, bool tangential, long double *out, calc_error *error) {
     fret_foundation f;
     if (!foundation_of(s, !tangential, &f, error))
         return false;
-    const long double r = fabsl(x.v);
+    const long double r = fabsl(x);
     if (r == 0 && f.k < 0)
         return calc_fail(error, 0, 0, "the foundation is infinitely stiff at x = 0 where k < 0");
     *out = (tangential ? f.cT0 : f.cN0) * (f.k == 0 ? 1 : fret_pow(r / f.c0, f.k));
     return true;
 }
 
-bool call_cN(scene *s, value x, long double *out, calc_error *error) {
-    return modulus_at(s, x, false, out, error);
-}
-
-bool call_cT(scene *s, value x, long double *out, calc_error *error) {
-    return modulus_at(s, x, true, out, error);
-}
-
 bool call_qz1D(scene *s, value x, long double *out, calc_error *error) {
     long double c, w;
-    if (!call_w1D(s, x, &w, error) || !call_cN(s, x, &c, error))
+    if (!call_w1D(s, x, &w, error) || !modulus_at(s, x.v, false, &c, error))
         return false;
     *out = c * w;
     return true;
@@ -197,7 +167,7 @@ bool call_qz1D(scene *s, value x, long double *out, calc_error *error) {
 
 bool call_qx1D(scene *s, value x, long double *out, calc_error *error) {
     long double c, u;
-    if (!call_u1D(s, x, &u, error) || !call_cT(s, x, &c, error))
+    if (!call_u1D(s, x, &u, error) || !modulus_at(s, x.v, true, &c, error))
         return false;
     *out = c * u;
     return true;
@@ -205,7 +175,7 @@ bool call_qx1D(scene *s, value x, long double *out, calc_error *error) {
 
 /* ---- stress inside ----------------------------------------------------------------------------- */
 
-static bool stress_at(scene *s, const value place[3], fret_stress *out, calc_error *error) {
+bool stress_at(scene *s, const value place[3], fret_stress *out, calc_error *error) {
     const fret_field *field;
     const bool second = place[2].v < 0;
     long double k = 0, nu = 0, sB = 0;
@@ -234,29 +204,21 @@ static double principal(const fret_stress *t, int which) {
     return of[which];
 }
 
-#define STRESS(name, what)                                                                                   \
-    bool call_##name(scene *s, const value place[3], long double *out, calc_error *error) {                  \
-        fret_stress t;                                                                                       \
-        if (!stress_at(s, place, &t, error))                                                                 \
-            return false;                                                                                    \
-        *out = what;                                                                                         \
-        return true;                                                                                         \
-    }
+double stress_largest(const fret_stress *of) {
+    return principal(of, 0);
+}
 
-STRESS(sxx, t.xx)
-STRESS(syy, t.yy)
-STRESS(szz, t.zz)
-STRESS(sxy, t.xy)
-STRESS(sxz, t.xz)
-STRESS(syz, t.yz)
-STRESS(mises, fret_stress_mises(&t))
-STRESS(tresca, fret_stress_tresca(&t))
-STRESS(sigma1, principal(&t, 0))
-STRESS(sigma3, principal(&t, 2))
+double stress_smallest(const fret_stress *of) {
+    return principal(of, 2);
+}
 
 static bool mises_at(scene *s, long double x, long double z, long double *out) {
     const value place[3] = {{x, DIM_LENGTH}, {0, DIM_LENGTH}, {z, DIM_LENGTH}};
-    return call_mises(s, place, out, error_quiet());
+    fret_stress t;
+    if (!stress_at(s, place, &t, error_quiet()))
+        return false;
+    *out = fret_stress_mises(&t);
+    return true;
 }
 
 /* The largest mises in the plane of F_x, of one body: the best of a grid of places, uphill from there. */

@@ -9,24 +9,33 @@ typedef bool quantity_get_function(scene *s, long double *out, calc_error *error
 typedef bool quantity_call_function(scene *s, value arg, long double *out, calc_error *error);
 
 /* results.c */
-quantity_get_function get_FN, get_p0, get_pmean, get_Un, get_dW, get_kn, get_a0, get_dz0, get_dxmax,
-    get_dx0max, get_kappa, get_W1D, get_time, get_drig, get_Vwear, get_dVwear;
+quantity_get_function get_p0, get_pmean, get_Un, get_kn, get_dxmax, get_dx0max, get_kappa, get_W1D, get_time,
+    get_drig, get_Vwear, get_dVwear;
+/* The same bodies with k = 0, under the force now. */
+bool twin_press(scene *s, fret_press *out, calc_error *error);
 
 /* functions.c: of the scene, tangentially unloaded */
-quantity_call_function call_a, call_dz, call_FN, call_p0, call_c, call_dx, call_Fx, call_dW, call_dWd;
+quantity_call_function call_p0;
+/* By force, or to a depth; by force, or to a displacement; a cycle by the amplitude of either. */
+bool pressed_by(scene *s, bool by_force, long double v, fret_press *out, calc_error *error);
+bool loaded_by(scene *s, bool by_force, long double v, fret_loading *out, calc_error *error);
+bool loss_by(scene *s, bool by_force, long double v, long double *out, calc_error *error);
 
 /* damper.c: over a closed cycle of an amplitude, at constant F_N */
 quantity_call_function call_Ksec, call_Kp, call_Kpp, call_loss_factor;
 
 /* fields.c: at a place, state now */
-quantity_call_function call_E, call_f, call_g, call_p, call_qx, call_uz, call_ux, call_slip, call_WdA,
-    call_dWdA, call_hwear, call_dhwear;
-quantity_call_function call_w1D, call_u1D, call_s1D, call_qz1D, call_qx1D, call_cN, call_cT;
-
-/* Stress inside. */
-typedef bool quantity_call_at(scene *s, const value place[3], long double *out, calc_error *error);
-quantity_call_at call_sxx, call_syy, call_szz, call_sxy, call_sxz, call_syz, call_mises, call_tresca,
-    call_sigma1, call_sigma3;
+quantity_call_function call_E, call_f, call_g, call_WdA, call_dWdA, call_hwear, call_dhwear, call_w1D,
+    call_u1D, call_s1D, call_qz1D, call_qx1D;
+/* c_N(x), or c_T(x) */
+bool modulus_at(scene *s, long double x, bool tangential, long double *out, calc_error *error);
+/* Of the history, or of the press. */
+typedef fret_status field_of_place(const fret_field *of, fret_real r, fret_real *out);
+bool field_at(scene *s, bool dragged, field_of_place *ask, long double r, long double *out,
+              calc_error *error);
+bool stress_at(scene *s, const value place[3], fret_stress *out, calc_error *error);
+double stress_largest(const fret_stress *of);
+double stress_smallest(const fret_stress *of);
 
 /* The largest mises in the plane of F_x, of the first body (side 1) or the second (-1), where contact has the
  * radius a, and its place x, z; false: there is none. */

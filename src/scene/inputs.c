@@ -10,65 +10,11 @@
 
 /* ---- geometries -------------------------------------------------------------------------------- */
 
-static fret_gap power_gap(double n, double h, double r0) {
-    return (fret_gap){.kind = FRET_GAP_POWER, .terms = 1, .power = {{n, h, r0}}};
-}
-
-/* R and slope enter as h and r0 without a rounding: r^2/(2R) = (R/2) (r/R)^2. */
-static void cone(const inputs *in, fret_gap *out) {
-    *out = power_gap(1, in->v[IN_SLOPE], 1);
-}
-
-static void paraboloid(const inputs *in, fret_gap *out) {
-    *out = power_gap(2, in->v[IN_RADIUS] / 2, in->v[IN_RADIUS]);
-}
-
-static void power(const inputs *in, fret_gap *out) {
-    *out = in->set[IN_A] ? power_gap(in->v[IN_N], in->v[IN_A], 1)
-                         : power_gap(in->v[IN_N], in->v[IN_H], in->v[IN_R0]);
-}
-
-static void sum(const inputs *in, fret_gap *out) {
-    *out = in->sum;
-}
-
-static fret_gap shape_gap(const inputs *in, fret_gap_kind kind) {
-    return (fret_gap){.kind = kind, .b = in->v[IN_B], .R = in->v[IN_RADIUS], .slope = in->v[IN_SLOPE]};
-}
-
-static void flat_cone(const inputs *in, fret_gap *out) {
-    *out = shape_gap(in, FRET_GAP_FLAT_CONE);
-}
-
-static void flat_paraboloid(const inputs *in, fret_gap *out) {
-    *out = shape_gap(in, FRET_GAP_FLAT_PARABOLOID);
-}
-
-static void flat_rounded(const inputs *in, fret_gap *out) {
-    *out = shape_gap(in, FRET_GAP_FLAT_ROUNDED);
-}
-
-static void flat(const inputs *in, fret_gap *out) {
-    *out = shape_gap(in, FRET_GAP_FLAT);
-}
-
-static void exact_sphere(const inputs *in, fret_gap *out) {
-    *out = shape_gap(in, FRET_GAP_EXACT_SPHERE);
-}
-
-static void file(const inputs *in, fret_gap *out) {
-    *out = (fret_gap){.kind = FRET_GAP_TABLE, .table = in->table->table};
-}
-
-#define ONE(a) .required = INPUT_BIT(a), .allowed = INPUT_BIT(a)
-#define TWO(a, b) .required = INPUT_BIT(a) | INPUT_BIT(b), .allowed = INPUT_BIT(a) | INPUT_BIT(b)
-
 static const geometry geometries[] = {
     {.name = "cone",
-     .gap = cone,
+     .kind = FRET_GAP_POWER,
      .n = 1,
-     .power = true,
-     ONE(IN_SLOPE),
+     .required = INPUT_BIT(IN_SLOPE),
      .takes = "slope:=0.05 | angle=3 deg | half_angle=87 deg",
      .meaning = "f = slope r; half_angle is that from the axis (Sneddon 1965)",
      .keywords = "angle apex Berkovich Sneddon indenter",
@@ -78,10 +24,9 @@ static const geometry geometries[] = {
                 "    a = 102.605 um\n"
                 "    dz = 8.44664 um\n"},
     {.name = "paraboloid",
-     .gap = paraboloid,
+     .kind = FRET_GAP_POWER,
      .n = 2,
-     .power = true,
-     ONE(IN_RADIUS),
+     .required = INPUT_BIT(IN_RADIUS),
      .takes = "R:=10 mm | R1=20 mm R2=20 mm",
      .meaning = "f = r^2/(2R)",
      .keywords = "Hertz Mindlin",
@@ -91,10 +36,9 @@ static const geometry geometries[] = {
                 "    a = 186.626 um\n"
                 "    dz = 3.48291 um\n"},
     {.name = "sphere",
-     .gap = paraboloid,
+     .kind = FRET_GAP_POWER,
      .n = 2,
-     .power = true,
-     ONE(IN_RADIUS),
+     .required = INPUT_BIT(IN_RADIUS),
      .takes = "R:=10 mm | R1=20 mm R2=20 mm | D=20 mm",
      .meaning = "Hertz: the paraboloid; R2=inf is a plane",
      .keywords = "Mindlin",
@@ -104,10 +48,9 @@ static const geometry geometries[] = {
                 "    a = 198.319 um\n"
                 "    dz = 3.27754 um\n"},
     {.name = "power",
-     .gap = power,
-     .power = true,
+     .kind = FRET_GAP_POWER,
      .required = INPUT_BIT(IN_N),
-     .allowed = INPUT_BIT(IN_N) | INPUT_BIT(IN_A) | INPUT_BIT(IN_H) | INPUT_BIT(IN_R0),
+     .optional = INPUT_BIT(IN_A) | INPUT_BIT(IN_H) | INPUT_BIT(IN_R0),
      .takes = "n:=3 [A:=50 m^-2 | h:=1 um r0:=1 mm]",
      .meaning = "f = A r^n = h (r/r0)^n",
      .keywords = "exponent",
@@ -117,8 +60,7 @@ static const geometry geometries[] = {
                 "    f(0.5 mm) = 62.5 nm\n"
                 "    a = 727.031 um\n"},
     {.name = "sum",
-     .gap = sum,
-     .by = PARAMETERS_TERMS,
+     .kind = FRET_GAP_SUM,
      .takes = "TERM, ...",
      .meaning = "f = sum of A r^n, each n:A",
      .keywords = "powers polynomial",
@@ -127,8 +69,8 @@ static const geometry geometries[] = {
                 "    f(1 mm) = 52 um\n"
                 "    a = 186.487 um\n"},
     {.name = "flat-cone",
-     .gap = flat_cone,
-     TWO(IN_B, IN_SLOPE),
+     .kind = FRET_GAP_FLAT_CONE,
+     .required = INPUT_BIT(IN_B) | INPUT_BIT(IN_SLOPE),
      .takes = "b:=1 mm slope:=0.05",
      .meaning = "f = slope (r-b), r > b",
      .keywords = "punch",
@@ -137,8 +79,8 @@ static const geometry geometries[] = {
                 "    a = 204.506 um\n"
                 "    p(0.1 mm) = 451.461 MPa\n"},
     {.name = "flat-paraboloid",
-     .gap = flat_paraboloid,
-     TWO(IN_B, IN_RADIUS),
+     .kind = FRET_GAP_FLAT_PARABOLOID,
+     .required = INPUT_BIT(IN_B) | INPUT_BIT(IN_RADIUS),
      .takes = "b:=1 mm R:=10 mm",
      .meaning = "f = (r^2-b^2)/(2R), r > b",
      .keywords = "worn punch",
@@ -147,8 +89,8 @@ static const geometry geometries[] = {
                 "    a = 221.133 um\n"
                 "    dz = 2.08616 um\n"},
     {.name = "flat-rounded",
-     .gap = flat_rounded,
-     TWO(IN_B, IN_RADIUS),
+     .kind = FRET_GAP_FLAT_ROUNDED,
+     .required = INPUT_BIT(IN_B) | INPUT_BIT(IN_RADIUS),
      .takes = "b:=1 mm R:=10 mm",
      .meaning = "f = (r-b)^2/(2R), r > b",
      .keywords = "pad punch fretting",
@@ -157,8 +99,8 @@ static const geometry geometries[] = {
                 "    a = 299.728 um\n"
                 "    dz = 1.65421 um\n"},
     {.name = "flat",
-     .gap = flat,
-     ONE(IN_B),
+     .kind = FRET_GAP_FLAT,
+     .required = INPUT_BIT(IN_B),
      .takes = "b:=1 mm",
      .meaning = "f = 0, r < b: a rigid punch (Sneddon 1965; Johnson, 3.8)",
      .keywords = "punch cylinder Boussinesq Sneddon",
@@ -169,8 +111,8 @@ static const geometry geometries[] = {
                 "    p(0 m) = 159.155 MPa\n"
                 "    FN/(2*Estar*b) = 2.16667 um\n"},
     {.name = "exact-sphere",
-     .gap = exact_sphere,
-     ONE(IN_RADIUS),
+     .kind = FRET_GAP_EXACT_SPHERE,
+     .required = INPUT_BIT(IN_RADIUS),
      .takes = "R:=10 mm",
      .meaning = "f = R - sqrt(R^2-r^2)",
      .keywords = "ball",
@@ -179,8 +121,7 @@ static const geometry geometries[] = {
                 "    f(1 mm) = 50.1256 um\n"
                 "    a = 186.617 um\n"},
     {.name = "file",
-     .gap = file,
-     .by = PARAMETERS_FILE,
+     .kind = FRET_GAP_TABLE,
      .takes = "FILE.csv [smooth HOW] [height] [using NAME = COLUMN, ...]",
      .meaning = "rows of r, f with units in the header; smooth, height: see help files",
      .keywords = "csv table sampled measured profile noisy noise spline smooth roughness",
@@ -340,7 +281,7 @@ bool inputs_know_nu(const inputs *in) {
 
 bool inputs_take(const inputs *in, input which) {
     const geometry *g = in->geometry;
-    if (!g || !(g->allowed & INPUT_BIT(which)))
+    if (!g || !geometry_takes(g, which))
         return false;
     return (which != IN_H && which != IN_R0) || in->set[IN_H];
 }
@@ -397,9 +338,32 @@ static bool get_Estar(const inputs *in, long double *out, calc_error *error) {
     return true;
 }
 
+static fret_power power_of(const inputs *in) {
+    const double n = in->geometry->n;
+    /* R and slope enter as h and r0 without a rounding: r^2/(2R) = (R/2) (r/R)^2 */
+    return n == 1          ? (fret_power){1, in->v[IN_SLOPE], 1}
+           : n == 2        ? (fret_power){2, in->v[IN_RADIUS] / 2, in->v[IN_RADIUS]}
+           : in->set[IN_A] ? (fret_power){in->v[IN_N], in->v[IN_A], 1}
+                           : (fret_power){in->v[IN_N], in->v[IN_H], in->v[IN_R0]};
+}
+
+/* Of the geometry in use. */
+static fret_gap gap_of(const inputs *in) {
+    const geometry *g = in->geometry;
+    if (g->kind == FRET_GAP_SUM)
+        return in->sum;
+    fret_gap gap = {.kind = g->kind, .b = in->v[IN_B], .R = in->v[IN_RADIUS], .slope = in->v[IN_SLOPE]};
+    if (g->kind == FRET_GAP_TABLE)
+        gap.table = in->table->table;
+    if (geometry_is_power(g)) {
+        gap.terms = 1;
+        gap.power[0] = power_of(in);
+    }
+    return gap;
+}
+
 bool inputs_get(const inputs *in, input which, long double *out, calc_error *error) {
     long double nu = 0;
-    fret_gap gap;
     bool here = in->set[which];
     switch (which) {
     case IN_K:
@@ -446,9 +410,9 @@ bool inputs_get(const inputs *in, input which, long double *out, calc_error *err
         }
         break;
     case IN_A:
-        if (!here && in->geometry && in->geometry->power) {
-            in->geometry->gap(in, &gap);
-            *out = gap.power[0].h * fret_ratio_pow(1, gap.power[0].r0, gap.power[0].n);
+        if (!here && in->geometry && geometry_is_power(in->geometry)) {
+            const fret_power p = power_of(in);
+            *out = p.h * fret_ratio_pow(1, p.r0, p.n);
             return true;
         }
         break;
@@ -488,6 +452,6 @@ bool inputs_material(const inputs *in, double k, fret_material *m, calc_error *e
 bool inputs_gap(const inputs *in, fret_gap *out, calc_error *error) {
     if (!in->geometry)
         return calc_fail(error, 0, 0, "there is no geometry yet: give one first (geometry sphere R=10 mm)");
-    in->geometry->gap(in, out);
+    *out = gap_of(in);
     return true;
 }

@@ -66,14 +66,12 @@ typedef unsigned long long input_set;
 
 typedef struct inputs inputs;
 
-/* One row a geometry: its name, the gap it makes and the parameters it takes. */
+/* One row a geometry: its name, the kind of gap it makes and the parameters it takes. */
 typedef struct geometry {
     const char *name;
-    void (*gap)(const inputs *in, fret_gap *out);
+    fret_gap_kind kind;
     double n; /* exponent of a power whose name fixes it, else 0 */
-    bool power;
-    enum { PARAMETERS_NAMED, PARAMETERS_TERMS, PARAMETERS_FILE } by;
-    input_set required, allowed;
+    input_set required, optional;
     const char *takes; /* behind its name, as rows of commands do */
     const char *meaning;
     const char *keywords; /* other words to find it by */
@@ -143,7 +141,14 @@ void inputs_bind(inputs *in, input which, counted *to);
 /* Geometry and its parameters, table and terms as given. Takes over the table. */
 void inputs_geometry(inputs *in, const geometry *g, const fret_gap *sum, shared_table *table);
 
-/* Does the geometry in use take this parameter? */
+/* Is it one power of r? */
+static inline bool geometry_is_power(const geometry *g) {
+    return g->kind == FRET_GAP_POWER;
+}
+/* Does it take this parameter, and does the one in use, as things are? */
+static inline bool geometry_takes(const geometry *g, input which) {
+    return (g->required | g->optional) & INPUT_BIT(which);
+}
 bool inputs_take(const inputs *in, input which);
 
 /* The value, defaults included; ERROR_MISSING where there is none. */

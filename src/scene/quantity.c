@@ -15,10 +15,13 @@
 #define FOUNDATION(member)                                                                                   \
     .of = OF_FOUNDATION, .at = offsetof(fret_foundation, member), .reads = READS_MATERIAL
 #define IMPOSED(which) .in = 1 + (which), .imposed = "press"
-#define GETTER(function) .of = OF_GETTER, .get = get_##function
-#define CALL(function, name, ...) .call = call_##function, .argument = #name, .argument_d = __VA_ARGS__
-#define STRESS(which)                                                                                        \
-    .d = PRESSURE, .of = OF_FUNCTION, .call_at = call_##which, .argument = "x, y, z", .argument_d = LENGTH,  \
+#define TWIN(member) .of = OF_TWIN, .at = offsetof(fret_press, member)
+#define GETTER(function) .of = OF_GETTER, .get = function
+#define CALLED(what, name, ...) .calls = what, .argument = #name, .argument_d = __VA_ARGS__
+#define CALL(function, name, ...) .call = call_##function, CALLED(CALL_OWN, name, __VA_ARGS__)
+#define FIELD(function) .field = fret_field_##function, CALLED(CALL_FIELD, r, LENGTH)
+#define STRESS                                                                                               \
+    .d = PRESSURE, .of = OF_FUNCTION, .calls = CALL_STRESS, .argument = "x, y, z", .argument_d = LENGTH,     \
     .by = MODEL_MEMORY, .reads = READS_TANGENTIAL | INPUT_BIT(IN_SB), .load = true
 #define FORCE                                                                                                \
     { 1, 0, 0, 0 }
@@ -96,41 +99,41 @@ static const quantity quantities[] = {
      .formulas = {{"V = alpha_w W (Fouvry et al., Wear 255, 2003); of Archard's V = K F_N s/H it is K/(mu H)", NULL, 0}}},
     {.name = "Nw", .title = "cycles of wear by the last cycle", .keywords = "number worn", INPUT(IN_NW),
      .formulas = {{"the gap is what that many of the last cycle leave", NULL, 0}}},
-    {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(FN), CALL(FN, d, LENGTH),
+    {.name = "FN", .title = "normal force", .keywords = "load preload", .d = FORCE, .in = 1 + IN_FN, GETTER(scene_FN), .at = offsetof(fret_press, F), CALLED(CALL_PRESS, d, LENGTH),
      .reads = READS_NORMAL, .load = true,
      .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(13)", WHEN_POWER},
                   {"F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx", "(12)", 0}}},
 
     /* ---- state now ---- */
-    {.name = "dz", IMPOSED(IN_DZ), .title = "indentation depth", .keywords = "approach penetration", .d = LENGTH, PRESS(dz), CALL(dz, F, FORCE),
+    {.name = "dz", IMPOSED(IN_DZ), .title = "indentation depth", .keywords = "approach penetration", .d = LENGTH, PRESS(dz), CALLED(CALL_PRESS, F, FORCE),
      .reads = READS_NORMAL,
      .formulas = {{"delta_z = kappa A a^n", "(10)", WHEN_POWER}, {"delta_z = g(a)", "(10)", 0}}},
-    {.name = "a", IMPOSED(IN_CONTACT), .title = "contact radius", .keywords = "Hertz size area", .d = LENGTH, PRESS(a), CALL(a, F, FORCE),
+    {.name = "a", IMPOSED(IN_CONTACT), .title = "contact radius", .keywords = "Hertz size area", .d = LENGTH, PRESS(a), CALLED(CALL_PRESS, F, FORCE),
      .reads = READS_NORMAL,
      .formulas = {{"F_N = 2 c_N0 c0^-k kappa A n a^(n+k+1)/((k+1)(n+k+1))", "(10),(13)", WHEN_POWER},
                   {"F_N = 2 int_0^a c_N(x) [g(a)-g(x)] dx", "(10),(12)", 0}}},
     {.name = "p0", .by = MODEL_QUADRATURE, IMPOSED(IN_P0), .title = "largest contact pressure", .keywords = "peak maximum pressure stress Hertz", .d = PRESSURE,
-     GETTER(p0), CALL(p0, F, FORCE), .reads = READS_NORMAL, .load = true,
+     GETTER(get_p0), CALL(p0, F, FORCE), .reads = READS_NORMAL, .load = true,
      .formulas = {{"p_0 = max p(r); of Hertz 3 F_N/(2 pi a^2) at r = 0 (Johnson, Contact Mechanics, 4.2)", "inverse of (3)", 0}}},
     {.name = "pmean", IMPOSED(IN_PMEAN), .title = "mean contact pressure", .keywords = "average pressure stress hardness", .d = PRESSURE,
-     GETTER(pmean), .reads = READS_NORMAL, .load = true, .formulas = {{"F_N/(pi a^2)", NULL, 0}}},
-    {.name = "Un", .title = "elastic energy of the normal contact", .keywords = "strain stored work impact", .d = ENERGY, GETTER(Un),
+     GETTER(get_pmean), .reads = READS_NORMAL, .load = true, .formulas = {{"F_N/(pi a^2)", NULL, 0}}},
+    {.name = "Un", .title = "elastic energy of the normal contact", .keywords = "strain stored work impact", .d = ENERGY, GETTER(get_Un),
      .reads = READS_NORMAL, .load = true,
      .formulas = {{"U_n = int F_N d(delta_z) = n/(2n+k+1) F_N delta_z", "(10),(13)", WHEN_POWER}, {"U_n = int F_N d(delta_z)", "(10),(12)", 0}}},
     {.name = "Fx", .imposed = "step", .title = "tangential force", .keywords = "shear Mindlin Cattaneo", .d = FORCE, LOADING(Fx),
-     CALL(Fx, d, LENGTH), .reads = READS_TANGENTIAL,
+     CALLED(CALL_LOADING, d, LENGTH), .reads = READS_TANGENTIAL,
      .formulas = {{"F_x = mu F_N [1-(c/a)^(n+k+1)]", "(16),(18)", WHEN_FIRST | WHEN_POWER},
                   {"F_x = mu [F_N(a)-F_N(c)]", "(16)", WHEN_FIRST},
                   {"F_x = mu int sigma dF_N, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
-    {.name = "dx", .imposed = "step", .title = "tangential displacement", .keywords = "shear", .d = LENGTH, LOADING(dx), CALL(dx, F, FORCE),
+    {.name = "dx", .imposed = "step", .title = "tangential displacement", .keywords = "shear", .d = LENGTH, LOADING(dx), CALLED(CALL_LOADING, F, FORCE),
      .reads = READS_TANGENTIAL,
      .formulas = {{"delta_x = mu eta delta_z [1-(c/a)^n]", "(15),(17)", WHEN_FIRST | WHEN_POWER},
                   {"delta_x = mu eta [g(a)-g(c)]", "(15)", WHEN_FIRST},
                   {"Masing: (delta_1-delta_x)/2 = delta_first((F_1-F_x)/2), from the turning point (F_1, delta_1)", NULL, WHEN_LATER},
                   {"delta_x = mu eta int sigma dy, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
     {.name = "drig", .imposed = "step", .title = "tangential displacement at the rig", .keywords = "machine compliance", .d = LENGTH,
-     GETTER(drig), .reads = READS_TANGENTIAL, .load = true, .formulas = {{"drig = dx + Fx/K_rig", NULL, 0}}},
-    {.name = "c", .title = "stick radius", .keywords = "slip annulus Cattaneo", .d = LENGTH, LOADING(c), CALL(c, F, FORCE),
+     GETTER(get_drig), .reads = READS_TANGENTIAL, .load = true, .formulas = {{"drig = dx + Fx/K_rig", NULL, 0}}},
+    {.name = "c", .title = "stick radius", .keywords = "slip annulus Cattaneo", .d = LENGTH, LOADING(c), CALLED(CALL_LOADING, F, FORCE),
      .reads = READS_TANGENTIAL,
      .formulas = {{"c/a = (1-F_x/(mu F_N))^(1/(n+k+1))", "(18)", WHEN_FIRST | WHEN_POWER},
                   {"F_x = mu [F_N(a)-F_N(c)]", "(16)", WHEN_FIRST},
@@ -142,17 +145,17 @@ static const quantity quantities[] = {
     {.name = "U", .title = "stored tangential energy", .keywords = "elastic", .d = ENERGY, STATE(U),
      .reads = READS_TANGENTIAL, .formulas = {{"U = 1/2 int c_T u^2 dx", NULL, 0}}},
     {.name = "dW", .title = "energy dissipated per cycle", .keywords = "hysteresis loop dissipation loss damping Mindlin",
-     .d = ENERGY, GETTER(dW), CALL(dW, FA, FORCE), .reads = READS_TANGENTIAL, .load = true,
+     .d = ENERGY, GETTER(scene_cycle_loss), CALLED(CALL_LOSS, FA, FORCE), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) h_T E0 a^(k+1))] "
                    "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
                   {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
                   {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
     {.name = "Vwear", .by = MODEL_BLOCKS, .title = "worn volume so far", .keywords = "wear Archard", .d = VOLUME, .unit = "um^3",
-     GETTER(Vwear), .reads = READS_WORN, .load = true, .formulas = {{"2 pi int hwear r dr = alpha_w times the work of Nw cycles", NULL, 0}}},
+     GETTER(get_Vwear), .reads = READS_WORN, .load = true, .formulas = {{"2 pi int hwear r dr = alpha_w times the work of Nw cycles", NULL, 0}}},
     {.name = "dVwear", .title = "volume worn by the last closed cycle", .keywords = "wear rate Archard", .d = VOLUME, .unit = "um^3",
-     GETTER(dVwear), .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dW", NULL, 0}}},
+     GETTER(get_dVwear), .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dW", NULL, 0}}},
     {.name = "dWd", .title = "energy per cycle by displacement amplitude", .keywords = "hysteresis dissipation gross slip", .d = ENERGY,
-     .of = OF_FUNCTION, CALL(dWd, dxA, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .of = OF_FUNCTION, CALLED(CALL_LOSS, dxA, LENGTH), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"dW(FA(dxA)); beyond dxmax gross slip adds 4 mu F_N (dxA-dxmax)", "(26)", 0}}},
     {.name = "Ksec", .title = "secant stiffness of the loop", .keywords = "damper amplitude", .d = STIFFNESS, .of = OF_FUNCTION,
      CALL(Ksec, FA, FORCE), .argument_or = LENGTH, .reads = READS_TANGENTIAL, .load = true,
@@ -167,23 +170,23 @@ static const quantity quantities[] = {
     {.name = "loss_factor", .by = MODEL_QUADRATURE, .title = "loss factor of the loop", .keywords = "damper damping tan delta",
      .of = OF_FUNCTION, CALL(loss_factor, FA, FORCE), .argument_or = LENGTH, .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"K''/K' at dxA = dx(FA), or at dxA", NULL, 0}}},
-    {.name = "dxmax", .title = "displacement at gross slip", .keywords = "sliding", .d = LENGTH, GETTER(dxmax),
+    {.name = "dxmax", .title = "displacement at gross slip", .keywords = "sliding", .d = LENGTH, GETTER(get_dxmax),
      .reads = READS_TANGENTIAL, .load = true, .formulas = {{"delta_x,max = mu eta delta_z", "(17) with c = 0", 0}}},
-    {.name = "a0", .title = "reference radius", .d = LENGTH, GETTER(a0), .reads = READS_NORMAL, .load = true,
+    {.name = "a0", .title = "reference radius", .d = LENGTH, TWIN(a), .reads = READS_NORMAL, .load = true,
      .formulas = {{"a for k = 0, same F_N and E0", "(23)", 0}}},
-    {.name = "dz0", .title = "indentation depth for k = 0", .d = LENGTH, GETTER(dz0), .reads = READS_NORMAL, .load = true,
+    {.name = "dz0", .title = "indentation depth for k = 0", .d = LENGTH, TWIN(dz), .reads = READS_NORMAL, .load = true,
      .formulas = {{"delta_z for k = 0, same F_N and E0", "(10)", 0}}},
-    {.name = "dx0max", .title = "displacement at gross slip for k = 0", .d = LENGTH, GETTER(dx0max),
+    {.name = "dx0max", .title = "displacement at gross slip for k = 0", .d = LENGTH, GETTER(get_dx0max),
      .reads = READS_TANGENTIAL, .load = true, .formulas = {{"mu eta delta_z for k = 0", "(17) with c = 0", 0}}},
-    {.name = "kn", .title = "normal stiffness", .keywords = "compliance", .d = STIFFNESS, GETTER(kn), .reads = READS_NORMAL,
+    {.name = "kn", .title = "normal stiffness", .keywords = "compliance", .d = STIFFNESS, GETTER(get_kn), .reads = READS_NORMAL,
      .load = true, .formulas = {{"dF_N/d(delta_z) = 2 c_N0 c0^-k a^(k+1)/(k+1)", "(10),(13)", 0}}},
     {.name = "kt", .title = "tangential stiffness going on", .keywords = "compliance", .d = STIFFNESS, STATE(kt),
      .reads = READS_TANGENTIAL, .formulas = {{"dF_x/d(delta_x) = F_N'(y_c)/eta, y_c = g(c)", "(17),(18)", WHEN_FIRST},
                                              {"dF_x/d(delta_x) = F_N'(y_c)/eta, y_c = g(c)", NULL, 0}}},
-    {.name = "W1D", .title = "work of the springs' forces along their slip", .keywords = "dissipation", .d = ENERGY, GETTER(W1D),
+    {.name = "W1D", .title = "work of the springs' forces along their slip", .keywords = "dissipation", .d = ENERGY, GETTER(get_W1D),
      .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"W1D = -2 int_0^a c_T |u| |delta_x-u| dx", "(22)", 0}}},
-    {.name = "time", .title = "time along the load", .keywords = "phase instant", GETTER(time), .load = true,
+    {.name = "time", .title = "time along the load", .keywords = "phase instant", GETTER(get_time), .load = true,
      .formulas = {{"0 at the press, 1 more each step, 1/4 to the first peak of a cycle, 1 more each period", NULL, 0}}},
 
     /* ---- coefficients ---- */
@@ -196,12 +199,12 @@ static const quantity quantities[] = {
                    "P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2)/Gamma(1+k/2)^2", "(A2)", 0}}},
     {.name = "beta_k", .title = "beta of the first body", FOUNDATION(beta),
      .formulas = {{"beta^2 = (1+k)(1-k nu/(1-nu))", "(A3)", 0}}},
-    {.name = "kappa", .title = "shape factor", GETTER(kappa), .reads = INPUT_BIT(IN_K) | INPUT_BIT(IN_N),
+    {.name = "kappa", .title = "shape factor", GETTER(get_kappa), .reads = INPUT_BIT(IN_K) | INPUT_BIT(IN_N),
      .formulas = {{"kappa = (n/2) B(n/2,(k+1)/2)", "(8)", 0}}},
     {.name = "cN", .title = "normal foundation modulus, at c0 or at x", .keywords = "stiffness Winkler", .d = PRESSURE, FOUNDATION(cN0),
-     CALL(cN, x, LENGTH), .formulas = {{"c_N(x) = c_N0 (x/c0)^k", "(4)", WHEN_CALL}, {"1/c_N0 = sum (1-nu^2)/(h_N E0)", "(4)", 0}}},
+     CALLED(CALL_MODULUS, x, LENGTH), .formulas = {{"c_N(x) = c_N0 (x/c0)^k", "(4)", WHEN_CALL}, {"1/c_N0 = sum (1-nu^2)/(h_N E0)", "(4)", 0}}},
     {.name = "cT", .title = "tangential foundation modulus, at c0 or at x", .keywords = "stiffness Winkler", .d = PRESSURE, FOUNDATION(cT0),
-     CALL(cT, x, LENGTH), .formulas = {{"c_T(x) = c_T0 (x/c0)^k", "(5)", WHEN_CALL}, {"1/c_T0 = sum 1/(h_T E0)", "(5)", 0}}},
+     CALLED(CALL_MODULUS, x, LENGTH), .formulas = {{"c_T(x) = c_T0 (x/c0)^k", "(5)", WHEN_CALL}, {"1/c_T0 = sum 1/(h_T E0)", "(5)", 0}}},
 
     /* ---- at a place ---- */
     {.name = "E", .title = "modulus at depth z", .keywords = "Young grading", .d = PRESSURE, .of = OF_FUNCTION, CALL(E, z, LENGTH),
@@ -212,20 +215,20 @@ static const quantity quantities[] = {
      .reads = INPUT_BIT(IN_NW) | INPUT_GEOMETRY | INPUT_BIT(IN_K),
      .formulas = {{"g(x) = kappa A x^n", "(7)", WHEN_POWER},
                   {"g(x) = x^(1-k) int_0^x f'(r) (x^2-r^2)^((k-1)/2) dr", "(3)", 0}}},
-    {.name = "p", .by = MODEL_QUADRATURE, .title = "contact pressure", .keywords = "stress Hertz", .d = PRESSURE, .of = OF_FUNCTION, CALL(p, r, LENGTH),
+    {.name = "p", .by = MODEL_QUADRATURE, .title = "contact pressure", .keywords = "stress Hertz", .d = PRESSURE, .of = OF_FUNCTION, FIELD(pressure),
      .reads = READS_NORMAL, .load = true,
      .formulas = {{"p(r) = (c_N0 c0^-k/pi) int_r^a g'(x) (x^2-r^2)^((k-1)/2) dx", "inverse of (3)", 0}}},
-    {.name = "qx", .by = MODEL_MEMORY, .title = "tangential traction", .keywords = "stress shear", .d = PRESSURE, .of = OF_FUNCTION, CALL(qx, r, LENGTH),
+    {.name = "qx", .by = MODEL_MEMORY, .title = "tangential traction", .keywords = "stress shear", .d = PRESSURE, .of = OF_FUNCTION, FIELD(traction),
      .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"q_x(r) = -(c_T0 c0^-k/pi) int_r^a u'(x) (x^2-r^2)^((k-1)/2) dx", "inverse of (3)", 0}}},
     {.name = "uz", .by = MODEL_QUADRATURE, .title = "normal surface displacement, both bodies' sum", .keywords = "deformation", .d = LENGTH, .of = OF_FUNCTION,
-     CALL(uz, r, LENGTH), .reads = READS_NORMAL, .load = true,
+     FIELD(surface), .reads = READS_NORMAL, .load = true,
      .formulas = {{"u_z(r) = (2 cos(pi k/2)/pi) int_0^min(r,a) x^k (delta_z-g) (r^2-x^2)^(-(1+k)/2) dx", "inverse of (3)", 0}}},
     {.name = "ux", .by = MODEL_MEMORY, .title = "tangential surface displacement, both bodies' sum, mean over the angle", .keywords = "deformation", .d = LENGTH,
-     .of = OF_FUNCTION, CALL(ux, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .of = OF_FUNCTION, FIELD(surface_x), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"u_x(r) = (2 cos(pi k/2)/pi) int_0^min(r,a) x^k u(x) (r^2-x^2)^(-(1+k)/2) dx", "inverse of (3)", 0}}},
     {.name = "slip", .by = MODEL_MEMORY, .title = "local slip, mean over the angle", .keywords = "relative displacement fretting annulus", .d = LENGTH,
-     .of = OF_FUNCTION, CALL(slip, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
+     .of = OF_FUNCTION, FIELD(slip), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"s(r) = delta_x-u_x(r)", "inverse of (3)", 0}}},
     {.name = "WdA", .by = MODEL_MEMORY, .title = "friction's work per area so far", .keywords = "dissipation energy wear fretting density", .d = STIFFNESS,
      .unit = "J/m^2", .of = OF_FUNCTION, CALL(WdA, r, LENGTH), .reads = READS_TANGENTIAL, .load = true,
@@ -251,25 +254,25 @@ static const quantity quantities[] = {
      .reads = READS_TANGENTIAL, .load = true, .formulas = {{"q_x(x) = c_T(x) u_1D(x)", "(14)", 0}}},
 
     /* ---- in the body ---- */
-    {.name = "sxx", .title = "stress along x inside, k = 0, tension positive", .keywords = "subsurface tensor tension bulk surface crack", STRESS(sxx),
+    {.name = "sxx", .title = "stress along x inside, k = 0, tension positive", .keywords = "subsurface tensor tension bulk surface crack", STRESS, .at = offsetof(fret_stress, xx),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xx + q_x(t) Q_xx] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "syy", .title = "stress across x inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(syy),
+    {.name = "syy", .title = "stress across x inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, yy),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_yy + q_x(t) Q_yy] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "szz", .title = "stress along z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(szz),
+    {.name = "szz", .title = "stress along z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, zz),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_zz + q_x(t) Q_zz] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "sxy", .title = "shear stress in the plane inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(sxy),
+    {.name = "sxy", .title = "shear stress in the plane inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, xy),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xy + q_x(t) Q_xy] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "sxz", .title = "shear stress, of x and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(sxz),
+    {.name = "sxz", .title = "shear stress, of x and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, xz),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xz + q_x(t) Q_xz] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "syz", .title = "shear stress, of y and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS(syz),
+    {.name = "syz", .title = "shear stress, of y and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, yz),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_yz + q_x(t) Q_yz] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "mises", .title = "equivalent stress of von Mises inside, k = 0", .keywords = "yield plastic subsurface", STRESS(mises),
+    {.name = "mises", .title = "equivalent stress of von Mises inside, k = 0", .keywords = "yield plastic subsurface", STRESS, .invariant = fret_stress_mises,
      .formulas = {{"sqrt(1/2 [(s1-s2)^2+(s2-s3)^2+(s3-s1)^2]) of the principal stresses", NULL, 0}}},
-    {.name = "tresca", .title = "equivalent stress of Tresca inside, k = 0", .keywords = "yield plastic shear subsurface", STRESS(tresca),
+    {.name = "tresca", .title = "equivalent stress of Tresca inside, k = 0", .keywords = "yield plastic shear subsurface", STRESS, .invariant = fret_stress_tresca,
      .formulas = {{"sigma1-sigma3, twice the largest shear stress", NULL, 0}}},
-    {.name = "sigma1", .title = "largest principal stress inside, k = 0", .keywords = "tension crack principal", STRESS(sigma1),
+    {.name = "sigma1", .title = "largest principal stress inside, k = 0", .keywords = "tension crack principal", STRESS, .invariant = stress_largest,
      .formulas = {{"largest eigenvalue of the stress", NULL, 0}}},
-    {.name = "sigma3", .title = "smallest principal stress inside, k = 0", .keywords = "compression principal", STRESS(sigma3),
+    {.name = "sigma3", .title = "smallest principal stress inside, k = 0", .keywords = "compression principal", STRESS, .invariant = stress_smallest,
      .formulas = {{"smallest eigenvalue of the stress", NULL, 0}}},
 };
 /* clang-format on */
@@ -334,6 +337,7 @@ static bool get_loading(const quantity *q, scene *s, long double *out, calc_erro
 
 bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *error) {
     const fret_press *press;
+    fret_press twin;
     fret_foundation foundation;
     switch (q->of) {
     case OF_INPUT:
@@ -342,6 +346,11 @@ bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *err
         if (!scene_press(s, &press, error))
             return false;
         *out = member(press, q->at);
+        return true;
+    case OF_TWIN:
+        if (!twin_press(s, &twin, error))
+            return false;
+        *out = member(&twin, q->at);
         return true;
     case OF_LOADING:
         return get_loading(q, s, out, error);
@@ -354,6 +363,40 @@ bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *err
         return true;
     default:
         return q->get(s, out, error);
+    }
+}
+
+bool quantity_call(const quantity *q, scene *s, const value arg[], long double *out, calc_error *error) {
+    const bool by_force = dim_equal(q->argument_d, DIM_FORCE);
+    fret_press press;
+    fret_loading first;
+    fret_stress stress;
+    double component;
+    switch (q->calls) {
+    case CALL_PRESS:
+        if (!pressed_by(s, by_force, arg->v, &press, error))
+            return false;
+        *out = member(&press, q->at);
+        return true;
+    case CALL_LOADING:
+        if (!loaded_by(s, by_force, arg->v, &first, error))
+            return false;
+        *out = member(&first, q->at);
+        return true;
+    case CALL_LOSS:
+        return loss_by(s, by_force, arg->v, out, error);
+    case CALL_MODULUS:
+        return modulus_at(s, arg->v, q->at == offsetof(fret_foundation, cT0), out, error);
+    case CALL_FIELD:
+        return field_at(s, q->by == MODEL_MEMORY, q->field, arg->v, out, error);
+    case CALL_STRESS:
+        if (!stress_at(s, arg, &stress, error))
+            return false;
+        memcpy(&component, (const char *)&stress + q->at, sizeof component);
+        *out = q->invariant ? q->invariant(&stress) : component;
+        return true;
+    default:
+        return q->call(s, *arg, out, error);
     }
 }
 
@@ -375,7 +418,7 @@ static unsigned holds(const quantity *q, scene *s, bool call) {
         return when;
     if (reach->normal_varies)
         return when | WHEN_HISTORY;
-    if (q->get == get_dW ? scene_closed_loss(s) : reach->first)
+    if (q->get == scene_cycle_loss ? scene_closed_loss(s) : reach->first)
         return when | WHEN_FIRST;
     return reach->alike ? when | WHEN_LATER : when;
 }
@@ -401,7 +444,7 @@ model_id quantity_model(const quantity *q, scene *s, bool call) {
     case OF_PRESS:
         return holds(q, s, false) & WHEN_HISTORY ? stepped : closed;
     case OF_GETTER:
-        if (q->get == get_dW)
+        if (q->get == scene_cycle_loss)
             return scene_closed_loss(s) ? closed : stepped;
         if (q->get == get_drig)
             return scene_closed_state(s) ? closed : stepped;

@@ -11,11 +11,24 @@ typedef enum quantity_of {
     OF_FUNCTION,   /* nothing: it is a function only */
     OF_INPUT,      /* the input */
     OF_PRESS,      /* member `at` of fret_press */
+    OF_TWIN,       /* the same with k = 0, at this F_N */
     OF_LOADING,    /* member `at` of fret_loading on first loading, `at_state` of fret_state after it */
     OF_STATE,      /* member `at_state` of fret_state */
     OF_FOUNDATION, /* member `at` of fret_foundation */
     OF_GETTER      /* what get says */
 } quantity_of;
+
+/* As a function. */
+typedef enum quantity_calls {
+    CALL_NONE,    /* it is none */
+    CALL_PRESS,   /* member `at` of fret_press, under this force or at this depth */
+    CALL_LOADING, /* member `at` of fret_loading, by this force or displacement */
+    CALL_LOSS,    /* of a cycle of this amplitude */
+    CALL_MODULUS, /* member `at` of fret_foundation, at this x */
+    CALL_FIELD,   /* what `field` says of the state now */
+    CALL_STRESS,  /* of a place x, y, z: member `at` of fret_stress, or `invariant` */
+    CALL_OWN      /* what call says */
+} quantity_calls;
 
 /* When a formula holds: all of these. */
 enum {
@@ -52,10 +65,10 @@ typedef struct quantity {
     size_t at, at_state;
     int in; /* 1 + the input that it is, of a press where it was pressed by it; 0: none */
     bool (*get)(scene *s, long double *out, calc_error *error);
-    /* as a function; NULL: it is none */
+    quantity_calls calls;
+    fret_status (*field)(const fret_field *of, fret_real r, fret_real *out);
+    double (*invariant)(const fret_stress *of);
     bool (*call)(scene *s, value arg, long double *out, calc_error *error);
-    /* as one of a place x, y, z; NULL: it is none */
-    bool (*call_at)(scene *s, const value place[3], long double *out, calc_error *error);
     model_id
         by; /* what answers for the function, or the getter; MODEL_CLOSED: the closed form, or polynomials */
     const char *argument;
@@ -87,7 +100,7 @@ static inline bool quantity_is_imposed(const quantity *q) {
 }
 /* How many it takes as a function; 0: it is none. */
 static inline unsigned quantity_arguments(const quantity *q) {
-    return q->call ? 1 : q->call_at ? 3 : 0;
+    return q->calls == CALL_STRESS ? 3 : q->calls != CALL_NONE;
 }
 /* Can it be asked for without an argument? */
 static inline bool quantity_has_value(const quantity *q) {
@@ -95,6 +108,8 @@ static inline bool quantity_has_value(const quantity *q) {
 }
 
 bool quantity_get(const quantity *q, scene *s, long double *out, calc_error *error);
+/* As a function of so many arguments. */
+bool quantity_call(const quantity *q, scene *s, const value arg[], long double *out, calc_error *error);
 /* The dimension in this scene: that of A depends on n. */
 dim quantity_dim(const quantity *q, const scene *s);
 /* The formula that makes the number in this scene; call: as a function. */

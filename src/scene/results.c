@@ -4,10 +4,6 @@
 
 #include "number/real.h"
 
-bool get_FN(scene *s, long double *out, calc_error *error) {
-    return scene_FN(s, out, error);
-}
-
 /* As it was given, where nothing has moved it. */
 static bool is_imposed(scene *s, input in) {
     const load_reach *reach;
@@ -42,10 +38,6 @@ bool get_Un(scene *s, long double *out, calc_error *error) {
         return false;
     *out = fret_normal_energy(normal, press);
     return true;
-}
-
-bool get_dW(scene *s, long double *out, calc_error *error) {
-    return scene_cycle_loss(s, out, error);
 }
 
 bool get_Vwear(scene *s, long double *out, calc_error *error) {
@@ -86,19 +78,11 @@ static bool k0_contact(scene *s, fret_pressed *out, calc_error *error) {
     return calc_status(error, &st);
 }
 
-bool get_a0(scene *s, long double *out, calc_error *error) {
+bool twin_press(scene *s, fret_press *out, calc_error *error) {
     fret_pressed contact;
     if (!k0_contact(s, &contact, error))
         return false;
-    *out = contact.press.a;
-    return true;
-}
-
-bool get_dz0(scene *s, long double *out, calc_error *error) {
-    fret_pressed contact;
-    if (!k0_contact(s, &contact, error))
-        return false;
-    *out = contact.press.dz;
+    *out = contact.press;
     return true;
 }
 
@@ -140,7 +124,7 @@ bool foundation_of(scene *s, bool only_normal, fret_foundation *out, calc_error 
 
 bool get_kappa(scene *s, long double *out, calc_error *error) {
     long double n = 0, k = 0;
-    if (s->in.geometry && !s->in.geometry->power)
+    if (s->in.geometry && !geometry_is_power(s->in.geometry))
         return calc_fail(error, 0, 0, "kappa is the factor of a gap of a single power, not of geometry %s",
                          s->in.geometry->name);
     if (!scene_get(s, IN_N, &n, error) || !scene_get(s, IN_K, &k, error))

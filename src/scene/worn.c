@@ -231,7 +231,7 @@ bool scene_is_worn(const scene *s) {
 }
 
 bool scene_is_power(const scene *s) {
-    return (!s->in.geometry || s->in.geometry->power) && !scene_is_worn(s);
+    return (!s->in.geometry || geometry_is_power(s->in.geometry)) && !scene_is_worn(s);
 }
 
 void scene_take_wear(scene *s, scene *from) {

@@ -112,7 +112,7 @@ static bool moved_to(probe *p, const cause *c, double x, long double *out) {
     trial_reset(p->t);
     bool ok;
     if (c->kind == CAUSE_ARGUMENT) {
-        ok = p->call->call(&p->t->scene, (value){x, c->v.d}, &v.v, why);
+        ok = quantity_call(p->call, &p->t->scene, &(value){x, c->v.d}, &v.v, why);
     } else {
         ok = set_to(p, c, x, why) && expr_eval(p->t->c, p->e, &v, why);
         if (c->kind == CAUSE_STEP)

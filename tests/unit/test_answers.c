@@ -120,7 +120,8 @@ static bool ask_places(scene *s, double v[VALUES]) {
     static const calc_value r = {1e-6L, {0, 1, 0, 0}};
     long double slip, shift, traction, pressure;
     if (!call_s1D(s, r, &slip, fresh()) || !call_u1D(s, r, &shift, &error) ||
-        !call_qx(s, r, &traction, &error) || !call_p(s, r, &pressure, &error))
+        !quantity_call(quantity_find("qx", 2), s, &r, &traction, &error) ||
+        !quantity_call(quantity_find("p", 1), s, &r, &pressure, &error))
         return false;
     CHECK(fabsl(traction) <= (s->in.v[IN_MU] + 1e-9L) * pressure);
     v[0] = (double)slip;
