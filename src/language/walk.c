@@ -88,7 +88,7 @@ static bool begin(walk *w, calc *c, size_t last_cycle, calc_error *error) {
 static bool make_run(walk *w, calc_error *error) {
     engine_end(&w->run.engine);
     w->run = (runner){.load = &w->load, .watch = watch_way(1)};
-    const fret_status st = engine_make(&w->run.engine, MODEL_MEMORY, w->load.normal, w->load.mu, 0, 0);
+    const fret_status st = engine_make(&w->run.engine, w->load.normal, w->load.mu);
     return calc_status(error, &st);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Arrays that grow. Touches nothing. Not installed. */
+/* Arrays that grow, and the order of what qsort puts in order. Touches nothing. Not installed. */
 #ifndef FRET_NUMBER_ARRAY_H
 #define FRET_NUMBER_ARRAY_H
 
@@ -15,6 +15,12 @@ static inline void *fret_array_for(void *items, size_t *room, size_t count, size
     if (grown)
         *room = more;
     return grown;
+}
+
+/* Of doubles, or of what begins with one. */
+static inline int fret_ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
 }
 
 #endif

@@ -67,104 +67,84 @@ bool scene_contact(scene *s, fret_pressed *out, calc_error *error) {
 
 /* ---- the tangential state ---------------------------------------------------------------------- */
 
-/* The state at the end of runs at all levels. */
-static void swinging_state(answers *a, const runner run[LEVELS]) {
-    sight at[LEVELS], limit;
-    for (unsigned i = 0; i < LEVELS; i++)
+/* Of a run, or of runs at all levels. */
+static void end_state(answers *a, const runner run[], unsigned levels) {
+    sight at[LEVELS] = {{.loss = 0}}, end;
+    for (unsigned i = 0; i < levels; i++)
         run_sight(&run[i], &at[i]);
-    sight_limit(at, &limit);
-    a->state = limit.state;
-    a->loss = limit.loss;
+    end = at[0];
+    if (levels > 1)
+        sight_limit(at, &end);
+    a->state = end.state;
+    a->loss = end.loss;
 }
 
-/* Of the load on its way. */
-static bool widest_contact(scene *s, long double *a, calc_error *error) {
+bool scene_widest(scene *s, double *radius, calc_error *error) {
     scene_trace t;
-    watch ends = watch_ends();
+    watch ends = watch_way(1);
+    long double a = 0;
     fret_state state;
     ends.once = true;
-    *a = 0;
     if (!trace_begin(&t, s, ends, false, error))
         return false;
     while (trace_next(&t, error)) {
         engine_state(&trace_now(&t)->engine, &state);
-        *a = fmaxl(*a, state.a);
+        a = fmaxl(a, state.a);
     }
+    *radius = fmin((double)(a * (1 + 1e-12L)), (double)fret_normal_end(t.load.normal));
     trace_end(&t);
     return !error->raised;
 }
 
-bool scene_engine(scene *s, const load_view *load, model_id model, unsigned count, engine *out,
-                  calc_error *error) {
-    long double a = 0;
-    if (models[model].count && !widest_contact(s, &a, error))
-        return false;
-    const double radius = fmin((double)(a * (1 + 1e-12L)), (double)fret_normal_end(load->normal));
-    fret_status st = engine_make(out, model, load->normal, load->mu, count, radius);
-    return calc_status(error, &st);
-}
-
-/* A model that steps, other than the memory diagram, was asked for. */
-static bool is_stepped(const scene *s) {
-    return !s->automatic && s->model != MODEL_MEMORY && models[s->model].steps && !s->now;
+/* Another model than the memory diagram steps, as was asked for. */
+static bool is_springs(const scene *s) {
+    return !s->automatic && s->model == MODEL_SPRINGS && !s->now;
 }
 
 /* At all levels that the load wants: they look at the load beside them. */
-static bool stepped_state(scene *s, calc_error *error) {
+static bool springs_state(scene *s, calc_error *error) {
     load_view load;
     runner run[LEVELS];
+    double radius;
     unsigned made = 0;
-    bool ok = scene_load_of(s, &load, error);
+    fret_status st = fine;
+    if (!scene_load_of(s, &load, error) || !scene_widest(s, &radius, error))
+        return false;
     const unsigned levels = s->answers.reach.swings ? LEVELS : 1;
-    while (made < levels && ok) {
+    while (made < levels && !st.code) {
         runner *r = &run[made];
         *r = (runner){.load = &load, .level = made++};
-        ok = scene_engine(s, &load, s->model, s->springs, &r->engine, error);
-        fret_status st = ok ? run_to(r, load.end) : fine;
-        ok = ok && calc_status(error, &st);
+        st = engine_springs(&r->engine, load.normal, load.mu, s->springs, radius, FRET_WEIGHT_CELL);
+        if (!st.code)
+            st = run_to(r, load.end);
     }
-    if (ok && levels > 1) {
-        swinging_state(&s->answers, run);
-    } else if (ok) {
-        engine_state(&run[0].engine, &s->answers.state);
-        s->answers.loss = run[0].cycle_loss;
-    }
+    if (!st.code)
+        end_state(&s->answers, run, levels);
     while (made)
         engine_end(&run[--made].engine);
-    return ok;
-}
-
-static void memory_state(scene *s, const runner *run) {
-    answers *a = &s->answers;
-    sight now;
-    if (!s->now && a->levels > 1) {
-        swinging_state(a, a->run);
-        return;
-    }
-    run_sight(run, &now);
-    a->state = now.state;
-    a->loss = now.loss;
+    return calc_status(error, &st);
 }
 
 bool scene_state(scene *s, const fret_state **state, calc_error *error) {
-    const bool stepped = is_stepped(s);
+    answers *a = &s->answers;
+    const bool springs = is_springs(s);
     const unsigned used = s->used; /* what only checks the load program does not answer */
-    if (!s->answers.state_ready) {
+    if (!a->state_ready) {
         const runner *run = NULL;
         if (!load_run(s, &run, error))
             return false;
         if (!s->automatic && s->model == MODEL_CLOSED)
             return calc_fail(error, 0, 0, "no closed form for this: set model auto");
-        if (stepped && !stepped_state(s, error))
+        if (springs && !springs_state(s, error))
             return false;
-        if (!stepped)
-            memory_state(s, run);
-        s->answers.state_ready = true;
+        if (!springs)
+            end_state(a, s->now ? run : a->run, s->now ? 1 : a->levels);
+        a->state_ready = true;
     }
-    s->used = used | USED(stepped ? s->model : MODEL_MEMORY);
-    if (!stepped && s->answers.levels)
-        scene_used_law(s, fret_contact_normal(s->answers.run[0].engine.contact));
-    *state = &s->answers.state;
+    s->used = used | USED(springs ? MODEL_SPRINGS : MODEL_MEMORY);
+    if (!springs && a->levels)
+        scene_used_law(s, fret_contact_normal(a->run[0].engine.contact));
+    *state = &a->state;
     return true;
 }
 
@@ -323,7 +303,7 @@ bool trace_begin(scene_trace *t, scene *s, watch w, bool limit, calc_error *erro
     while (t->levels < levels && !st.code) {
         runner *r = &t->run[t->levels];
         *r = (runner){.load = &t->load, .watch = w, .level = chords && !limit ? LEVELS - 1 : t->levels};
-        st = engine_make(&r->engine, MODEL_MEMORY, t->load.normal, t->load.mu, 0, 0);
+        st = engine_make(&r->engine, t->load.normal, t->load.mu);
         r->engine.sine = sine;
         t->levels++;
     }

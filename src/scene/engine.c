@@ -20,11 +20,15 @@ const model_row models[MODELS] = {
     [MODEL_BLOCKS] = {.name = "blocks", .title = "blocks of cycles"},
 };
 
-fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,
-                        double radius) {
-    *e = (engine){.kind = &models[id]};
-    return id == MODEL_SPRINGS ? fret_springs_make(normal, mu, count, radius, FRET_WEIGHT_CELL, &e->springs)
-                               : fret_contact_make(normal, mu, FRET_EXACT, &e->contact);
+fret_status engine_make(engine *e, const fret_normal *normal, double mu) {
+    *e = (engine){.contact = NULL};
+    return fret_contact_make(normal, mu, FRET_EXACT, &e->contact);
+}
+
+fret_status engine_springs(engine *e, const fret_normal *normal, double mu, unsigned count, double radius,
+                           fret_weight rule) {
+    *e = (engine){.contact = NULL};
+    return fret_springs_make(normal, mu, count, radius, rule, &e->springs);
 }
 
 void engine_end(engine *e) {
@@ -57,12 +61,11 @@ fret_status engine_chord(engine *e, const fret_step *step) {
     return step_in_parts(e, step, 1);
 }
 
-fret_status engine_swing(engine *e, const fret_sine *load, double from, double to, bool *taken) {
-    fret_status st = fret_contact_swing(e->contact, load, from, to);
-    *taken = !st.code;
-    if (*taken)
+fret_status engine_swing(engine *e, const fret_sine *load, double from, double to) {
+    const fret_status st = fret_contact_swing(e->contact, load, from, to);
+    if (!st.code)
         e->spent += fret_contact_last_loss(e->contact);
-    return st.code == FRET_OUTSIDE ? (fret_status){FRET_OK, NULL, 0, 0} : st;
+    return st;
 }
 
 void engine_state(const engine *e, fret_state *out) {
@@ -83,8 +86,6 @@ void engine_forces(const engine *e, fret_state *out) {
 
 fret_status engine_copy(engine *to, const engine *from) {
     fret_status st = {FRET_OK, NULL, 0, 0};
-    if (to->kind != from->kind)
-        engine_end(to);
     if (from->springs) {
         fret_springs_free(to->springs);
         to->springs = NULL;
@@ -95,7 +96,6 @@ fret_status engine_copy(engine *to, const engine *from) {
     }
     if (from->contact && !st.code)
         st = fret_contact_copy(to->contact, from->contact);
-    to->kind = from->kind;
     to->sine = from->sine;
     to->spent = from->spent;
     to->more = from->more;

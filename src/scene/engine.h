@@ -35,7 +35,6 @@ extern const model_row models[MODELS];
 
 /* A model on its way: a contact, or springs. */
 typedef struct engine {
-    const model_row *kind;
     fret_contact *contact;
     fret_springs *springs;
     fret_slips *slips; /* what slips is added to these, of who wants to know; or NULL */
@@ -47,9 +46,10 @@ typedef struct engine {
     long double more;  /* dissipated in periods that were not run: engine_repeat */
 } engine;
 
-/* count and radius (the largest contact radius to come) are for the springs. */
-fret_status engine_make(engine *e, model_id id, const fret_normal *normal, double mu, unsigned count,
-                        double radius);
+/* The memory diagram; or so many springs, of the largest contact radius to come. */
+fret_status engine_make(engine *e, const fret_normal *normal, double mu);
+fret_status engine_springs(engine *e, const fret_normal *normal, double mu, unsigned count, double radius,
+                           fret_weight rule);
 void engine_end(engine *e);
 bool engine_is_made(const engine *e);
 fret_status engine_step(engine *e, const fret_step *step);
@@ -64,9 +64,9 @@ fret_status engine_at_rig(const engine *e, double K_rig, fret_step *step);
 fret_status engine_copy(engine *to, const engine *from);
 /* `times` more periods that begin and end in the present state, each with the loss. */
 void engine_repeat(engine *e, unsigned times, long double loss);
-/* A period of the sine itself, or the part from one of its times, 0..1, to another; taken: false where the
+/* A period of the sine itself, or the part from one of its times, 0..1, to another; FRET_OUTSIDE where the
  * contact cannot, nothing has changed. */
-fret_status engine_swing(engine *e, const fret_sine *sine, double from, double to, bool *taken);
+fret_status engine_swing(engine *e, const fret_sine *sine, double from, double to);
 /* Slips are the caller's. */
 fret_status engine_watch(engine *e, fret_slips *slips);
 /* From here on engine_spent counts: a period begins; and has ended. */

@@ -85,7 +85,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
         drop_runs(a);
     if (a->levels == 0) {
         a->run[0] = (runner){.load = load};
-        st = engine_make(&a->run[0].engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
+        st = engine_make(&a->run[0].engine, load->normal, load->mu);
         a->levels = !st.code;
     }
     a->run[0].engine.sine = sine;
@@ -93,7 +93,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
         runner *r = &a->run[a->levels];
         *r = a->run[0];
         r->level = a->levels;
-        r->engine = (engine){.kind = a->run[0].engine.kind};
+        r->engine = (engine){.contact = NULL};
         st = engine_copy(&r->engine, &a->run[0].engine);
         a->levels++; /* to be dropped, too, if there is only half of it */
     }
@@ -116,7 +116,8 @@ static fret_status run_levels(answers *a, const load_view *load) {
     return st.code ? st : run_levels(a, load);
 }
 
-/* Brings the memory up to the end of the program, or to the step at which it fails. */
+/* Brings the memory up to the end of the program, or to the step at which it fails. A single step that is
+ * refused leaves the contact as it was; what is half-run otherwise is not to be used. */
 static bool run_up(scene *s, size_t *steps, calc_error *error) {
     answers *a = &s->answers;
     load_view load;
@@ -128,13 +129,21 @@ static bool run_up(scene *s, size_t *steps, calc_error *error) {
     if (s->end.steps > 1)
         s->used |= USED(MODEL_MEMORY);
     fret_status st = raise_levels(a, &load);
+    if (st.code)
+        return calc_status(error, &st);
+    const runner before = a->run[0];
+    const bool chords = a->chords, single = a->levels == 1 && before.at.steps + 1 == s->end.steps &&
+                                            s->program->steps[before.at.steps].kind == LOAD_STEP;
+    st = run_levels(a, &load);
     if (!st.code)
-        st = run_levels(a, &load);
-    if (st.code) {
-        for (unsigned i = 0; i < a->levels; i++)
-            *steps = a->run[i].at.steps < *steps ? a->run[i].at.steps : *steps;
-        drop_runs(a); /* half-run: not to be used */
-    }
+        return true;
+    for (unsigned i = 0; i < a->levels; i++)
+        *steps = a->run[i].at.steps < *steps ? a->run[i].at.steps : *steps;
+    if (single && st.code != FRET_INTERRUPTED)
+        a->run[0] = before;
+    else
+        drop_runs(a);
+    a->chords = chords;
     return calc_status(error, &st);
 }
 
@@ -143,56 +152,9 @@ static bool catch_up(scene *s, calc_error *error) {
     return run_up(s, &steps, error);
 }
 
-/* Keeps the contacts as they are; the storage is used again. */
-static fret_status keep_spares(answers *a) {
-    fret_status st = fine;
-    for (unsigned i = 0; i < a->levels && !st.code; i++) {
-        engine kept = a->spare[i].engine;
-        a->spare[i] = a->run[i];
-        a->spare[i].engine = kept;
-        st = engine_copy(&a->spare[i].engine, &a->run[i].engine);
-    }
-    return st;
-}
-
-static void use_spares(answers *a) {
-    for (unsigned i = 0; i < a->levels; i++) {
-        runner half = a->run[i];
-        a->run[i] = a->spare[i];
-        a->spare[i] = half;
-    }
-}
-
 /* What is always possible waits until a result is asked: to slide to a displacement at constant F_N. */
 static bool can_wait(const scene *s, const load_step *step) {
     return s->answers.levels && load_is_slide(step);
-}
-
-/* The step that has just been appended. A single step leaves the memory as it was when it fails; a cycle, or
- * one of several levels, needs the spares. */
-static bool run_appended(scene *s, bool whole, calc_error *error) {
-    answers *a = &s->answers;
-    load_view load;
-    if (!scene_load_of(s, &load, error))
-        return false;
-    fret_status st = raise_levels(a, &load);
-    const bool spares = whole || a->levels > 1, chords = a->chords;
-    const runner before = a->run[0];
-    if (!st.code && spares)
-        st = keep_spares(a);
-    if (st.code)
-        return calc_status(error, &st);
-    st = run_levels(a, &load);
-    if (!st.code)
-        return true;
-    if (a->chords != chords) /* begun anew: to be run again when it is asked for */
-        drop_runs(a);
-    else if (spares)
-        use_spares(a);
-    else
-        a->run[0] = before;
-    a->chords = chords;
-    return calc_status(error, &st);
 }
 
 /* From further away nothing of a contact would have digits on the way back. A press has no way back, and may
@@ -230,10 +192,8 @@ bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_
     inputs before; /* a cycle changes them */
     if (extra)
         inputs_copy(&before, &s->in);
-    bool ok = append_step(s, step, extra, error) && run_appended(s, extra != NULL, error);
-    if (ok) {
-        s->used |= USED(MODEL_MEMORY);
-    } else {
+    const bool ok = append_step(s, step, extra, error) && catch_up(s, error);
+    if (!ok) {
         s->end = end;
         s->answers.reach = reached;
         if (extra) {

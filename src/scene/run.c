@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "number/array.h"
 #include "number/real.h"
 #include "number/root.h"
 
@@ -47,15 +48,6 @@ static double next_time(const watch *w, const leg *l, double after) {
 
 watch watch_points(unsigned points) {
     return (watch){.next = next_point, .points = points};
-}
-
-static double next_end(const watch *w, const leg *l, double after) {
-    (void)w, (void)l, (void)after;
-    return 1;
-}
-
-watch watch_ends(void) {
-    return (watch){.next = next_end};
 }
 
 static double next_part(const watch *w, const leg *l, double after) {
@@ -122,9 +114,8 @@ static fret_status swing_part(runner *r) {
     const load_step *c = &r->item.step;
     const run_place *k = &r->place;
     const fret_sine load = {c->tangential_value, c->normal_value, r->item.extra.phase, k->FN};
-    bool taken;
-    const fret_status st = engine_swing(&r->engine, &load, k->from / (2 * pi), k->end / (2 * pi), &taken);
-    r->chorded = !st.code && !taken; /* this run ends: it must be run in chords from its beginning */
+    const fret_status st = engine_swing(&r->engine, &load, k->from / (2 * pi), k->end / (2 * pi));
+    r->chorded = st.code == FRET_OUTSIDE; /* this run ends: it must be run in chords from its beginning */
     return r->chorded ? interrupted : st;
 }
 
@@ -210,11 +201,6 @@ static bool next_branch(runner *r) {
                             .closes = sign > 0});
 }
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* An angle in 0..2 pi. */
 static double wrapped(double angle) {
     double turns = angle / (2 * pi);
@@ -282,7 +268,7 @@ static size_t find_nodes(swing *w, double node[RUN_NODES]) {
     node[count++] = wrapped(pi - phase);
     for (w->sign = -1; w->sign <= 1; w->sign += 2)
         count = find_turns(w, node, count);
-    qsort(node, count, sizeof *node, ascending);
+    qsort(node, count, sizeof *node, fret_ascending);
     size_t kept = 1;
     for (size_t i = 1; i < count; i++)
         if (node[i] - node[kept - 1] > 1e-9 && 2 * pi - node[i] > 1e-9)

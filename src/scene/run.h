@@ -52,8 +52,6 @@ struct watch {
 
 /* Every leg in so many parts. */
 watch watch_points(unsigned points);
-/* At the end of every leg and chord. */
-watch watch_ends(void);
 /* The end of every chord, other legs in so many parts evenly in time. */
 watch watch_way(unsigned points);
 /* At the times first + i*every, i = 0..last; turns: at turning points too. */

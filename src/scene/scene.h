@@ -56,8 +56,8 @@ typedef struct answers {
     friction_work work;
     bool press_ready, reach_ready, state_ready;
     fret_press press;
-    runner run[LEVELS], spare[LEVELS]; /* the memory diagram as far as it has been run */
-    fret_contact *chorded;             /* room for scene_straight */
+    runner run[LEVELS];    /* the memory diagram as far as it has been run */
+    fret_contact *chorded; /* room for scene_straight */
     unsigned levels;
     bool chords; /* the swinging load of the program cannot be taken as it is */
     load_reach reach;
@@ -239,9 +239,6 @@ bool trace_begin(scene_trace *t, scene *s, watch w, bool limit, calc_error *erro
 bool trace_next(scene_trace *t, calc_error *error);
 const runner *trace_now(const scene_trace *t); /* it has begun */
 void trace_end(scene_trace *t);
-/* A contact of its own for this load of a model that steps; springs are wide enough for the largest contact
- * of the program.
- */
-bool scene_engine(scene *s, const load_view *load, model_id model, unsigned count, engine *out,
-                  calc_error *error);
+/* The radius of the largest contact of the program: springs are to be as wide. */
+bool scene_widest(scene *s, double *radius, calc_error *error);
 #endif

@@ -31,7 +31,7 @@ static fret_status make_level(friction_work *w, const load_view *load, const ins
                               bool sine) {
     runner r = {.load = load, .level = level};
     fret_slips *slips = NULL;
-    fret_status st = engine_make(&r.engine, MODEL_MEMORY, load->normal, load->mu, 0, 0);
+    fret_status st = engine_make(&r.engine, load->normal, load->mu);
     r.engine.sine = sine;
     if (!st.code)
         st = fret_slips_make(&slips);

@@ -29,8 +29,13 @@ typedef struct bench {
     accuracy_study *study;
     accuracy_progress *progress;
     void *context;
-    double budget, end; /* seconds of the processor; when it is spent */
-    double enough;      /* seconds, to time one model */
+    double budget, end;   /* seconds of the processor; when it is spent */
+    double enough;        /* seconds, to time one model */
+    load_view load;       /* that is run: of the program, or pressing and a cycle alone */
+    load_item cycle;      /* whose last period is measured */
+    double radius;        /* of the largest contact on the way */
+    fret_pressed contact; /* not of a program */
+    fret_loading peak;
 } bench;
 
 static bool bench_stopped(const bench *b) {
@@ -90,27 +95,16 @@ static bool affords(const bench *b, double setting_up) {
     return (last->family != FAMILY_LOOP && last->size < 1000) || clock_worked() + next < b->end;
 }
 
-/* ---- models of a cycle at constant F_N --------------------------------------------------------- */
+/* ---- formulas of a cycle at constant F_N ------------------------------------------------------- */
 
-/* Everything that its models need. */
-typedef struct steady {
-    const bench *b;
-    fret_pressed contact;
-    bool by_force;
-    double amplitude;
-    fret_loading peak;
-    unsigned size;
-    engine engine; /* of those that step */
-} steady;
-
-static fret_status closed_loss(const steady *m, long double *out) {
-    return m->by_force ? fret_cycle_loss_by_force(&m->contact, m->amplitude, out)
-                       : fret_cycle_loss_by_displacement(&m->contact, m->amplitude, out);
+static fret_status closed_loss(const bench *b, long double *out) {
+    return (b->study->by_force ? fret_cycle_loss_by_force
+                               : fret_cycle_loss_by_displacement)(&b->contact, b->study->amplitude, out);
 }
 
-static fret_status find_peak(steady *m) {
-    return m->by_force ? fret_loading_by_force(&m->contact, m->amplitude, &m->peak)
-                       : fret_loading_by_displacement(&m->contact, m->amplitude, &m->peak);
+static fret_status find_peak(bench *b) {
+    return (b->study->by_force ? fret_loading_by_force
+                               : fret_loading_by_displacement)(&b->contact, b->study->amplitude, &b->peak);
 }
 
 static fret_status closed_cycle(void *model, long double *loss) {
@@ -118,218 +112,92 @@ static fret_status closed_cycle(void *model, long double *loss) {
     return closed_loss(model, loss ? loss : &unused);
 }
 
-/* Where F_N is constant this is the reference too: its row shows how far that can be trusted. */
+/* This is the reference too: its row shows how far that can be trusted. */
 static fret_status quadrature_cycle(void *model, long double *loss) {
-    steady *m = model;
+    bench *b = model;
     long double unused, error;
-    fret_status st = find_peak(m);
+    fret_status st = find_peak(b);
     if (!st.code)
-        st = fret_cycle_loss_by_definition(&m->contact, &m->peak, loss ? loss : &unused, &error);
+        st = fret_cycle_loss_by_definition(&b->contact, &b->peak, loss ? loss : &unused, &error);
     return st;
 }
 
-static fret_status step_to(steady *m, double part) {
-    const fret_step step = {FRET_KEEP_NORMAL, m->by_force ? FRET_TO_FX : FRET_TO_DX, 0, part * m->amplitude};
-    return *m->b->s->stop ? (fret_status){FRET_INTERRUPTED, NULL, 0, 0} : engine_step(&m->engine, &step);
-}
-
-/* Down and up again. */
-static fret_status stepped_cycle(void *model, long double *loss) {
-    steady *m = model;
-    fret_status st = fine;
-    if (loss)
-        engine_mark(&m->engine);
-    for (int sign = -1; sign <= 1 && !st.code; sign += 2)
-        st = step_to(m, sign);
-    if (loss)
-        *loss = engine_spent(&m->engine);
-    return st;
-}
-
-/* Each branch in m->size steps of a harmonic load. */
-static fret_status loop_cycle(void *model, long double *loss) {
-    const double pi = 3.14159265358979323846;
-    steady *m = model;
-    fret_state last, now;
-    long double area = 0;
-    engine_forces(&m->engine, &last);
-    for (unsigned i = 1; i <= 2 * m->size; i++) {
-        const double part = i == m->size ? -1 : i == 2 * m->size ? 1 : cos(pi * i / m->size);
-        fret_status st = step_to(m, part);
-        if (st.code)
-            return st;
-        engine_forces(&m->engine, &now);
-        area += (now.dx - last.dx) * (now.Fx + last.Fx) / 2;
-        last = now;
-    }
-    if (loss)
-        *loss = area;
-    return fine;
-}
-
-/* Pressed and taken to the first turning point. */
-static fret_status ready(steady *m) {
-    const fret_step down = {FRET_TO_FORCE, FRET_KEEP_DX, (double)m->contact.press.F, 0};
-    fret_status st = engine_step(&m->engine, &down);
-    return st.code ? st : step_to(m, 1);
-}
-
-static bool memory_rows(bench *b, steady *m) {
-    fret_status st = engine_make(&m->engine, MODEL_MEMORY, m->contact.normal, m->contact.mu, 0, 0);
-    if (!st.code)
-        st = ready(m);
-    bool ok = calc_status(b->error, &st) && measure(b, FAMILY_MEMORY, 0, stepped_cycle, m);
-    for (m->size = 10; ok && m->size <= 10000; m->size *= 10) {
-        ok = measure(b, FAMILY_LOOP, m->size, loop_cycle, m);
-        if (ok && !affords(b, 0))
-            break;
-    }
-    engine_end(&m->engine);
-    return ok;
-}
-
-static fret_status springs_ready(steady *m, unsigned count, double radius, fret_weight rule) {
-    m->engine = (engine){.kind = &models[MODEL_SPRINGS]};
-    fret_status st =
-        fret_springs_make(m->contact.normal, m->contact.mu, count, radius, rule, &m->engine.springs);
-    if (!st.code)
-        st = ready(m);
-    if (st.code)
-        engine_end(&m->engine);
-    return st;
-}
-
-/* With midpoint weights some stiffness is missing where k < 0: the contact that carries F_N is wider. Where
- * the gap ends before, or is beyond all numbers, there are no such springs. */
-static bool springs_rows(bench *b, steady *m, model_family family) {
-    const bool midpoint = family == FAMILY_MIDPOINT;
-    const fret_weight rule = midpoint ? FRET_WEIGHT_MIDPOINT : FRET_WEIGHT_CELL;
-    const unsigned wider = midpoint && fret_normal_foundation(m->contact.normal)->k < 0 ? 2 : 1;
-    bool ok = true;
-    for (unsigned count = 100; ok && count <= 1000000; count *= 10) {
-        const double start = clock_worked();
-        tell_row(b, family, count);
-        fret_status st = springs_ready(m, wider * count, wider * (double)m->contact.press.a, rule);
-        if (st.code && fret_status_category(st.code) != FRET_CAT_SYSTEM)
-            break;
-        if (!calc_status(b->error, &st))
-            return false;
-        const double setting_up = clock_worked() - start;
-        ok = measure(b, family, count, stepped_cycle, m);
-        engine_end(&m->engine);
-        if (ok && !affords(b, setting_up))
-            break;
-    }
-    return ok;
-}
-
-static bool steady_reference(bench *b, steady *m) {
-    accuracy_study *study = b->study;
-    fret_status st = find_peak(m);
-    if (!st.code)
-        st = fret_cycle_loss_by_definition(&m->contact, &m->peak, &study->value, &study->agreement);
-    if (st.code == FRET_GROSS_SLIP)
-        st.quantity = "FA";
-    if (!isfinite((double)study->value)) /* 0 where it failed */
-        st = (fret_status){FRET_OVERFLOW, NULL, 0, 0};
-    if (!calc_status(b->error, &st))
-        return false;
-    if (!(study->value > 0)) /* a general gap, and less slip than a long double tells from none */
-        return calc_fail(b->error, 0, 0, "the load is too small: no model of this gap can tell dW from 0");
-    study->agreement = fmaxl(study->agreement, rounding);
-    snprintf(study->reference, sizeof study->reference, "quadrature in long double");
-    study->automatic = fret_normal_is_power(m->contact.normal) ? "closed form"
-                                                               : "closed form, with polynomials over the gap";
-    study->why = "constant FN";
-    return true;
-}
-
-static bool measure_steady(bench *b, steady *m) {
-    bool ok = steady_reference(b, m) && measure(b, FAMILY_CLOSED, 0, closed_cycle, m) && memory_rows(b, m) &&
-              measure(b, FAMILY_QUADRATURE, 0, quadrature_cycle, m);
-    b->end -= b->budget / 4; /* kept for the last */
-    ok = ok && springs_rows(b, m, FAMILY_SPRINGS);
-    b->end += b->budget / 4;
-    /* at k = 0 the weights are the same */
-    return ok && (fret_normal_foundation(m->contact.normal)->k == 0 || springs_rows(b, m, FAMILY_MIDPOINT));
-}
-
-/* ---- models of any other load program ---------------------------------------------------------- */
+/* ---- models that run the load ------------------------------------------------------------------ */
 
 /* Two levels beyond those of the scene. */
 enum { FINEST = LEVELS + 1 };
 
-/* The last period of the program, on one model; on several numbers of chords where they are taken to the
- * limit. */
-typedef struct general {
-    load_view load;
-    load_item cycle;
+/* At the last period of the load; on several numbers of chords where they are taken to the limit. */
+typedef struct running {
     runner run[LEVELS];
     unsigned levels;
-    bool sine;           /* no chords: as the scene answers */
     unsigned long looks; /* of the last period */
-} general;
+} running;
 
 /* Straight steps alone are exact in one. */
 static bool swings(const bench *b) {
-    return b->s->answers.reach.swings;
+    return b->study->program && b->s->answers.reach.swings;
 }
 
-static void close_general(general *g) {
-    for (unsigned i = 0; i < g->levels; i++)
-        engine_end(&g->run[i].engine);
-    g->levels = 0;
+/* Does the scene answer for a swinging load without chords? */
+static bool by_sine(const bench *b) {
+    return swings(b) && b->s->answers.levels == 1;
+}
+
+static void end_running(running *m) {
+    while (m->levels)
+        engine_end(&m->run[--m->levels].engine);
+}
+
+/* With midpoint weights some stiffness is missing where k < 0: the contact that carries F_N is wider. */
+static fret_status make_engine(const bench *b, model_family family, unsigned springs, engine *out) {
+    const fret_normal *normal = b->load.normal;
+    const bool midpoint = family == FAMILY_MIDPOINT;
+    const unsigned wider = midpoint && fret_normal_foundation(normal)->k < 0 ? 2 : 1;
+    return families[family].model == MODEL_SPRINGS
+               ? engine_springs(out, normal, b->load.mu, wider * springs, wider * b->radius,
+                                midpoint ? FRET_WEIGHT_MIDPOINT : FRET_WEIGHT_CELL)
+               : engine_make(out, normal, b->load.mu);
 }
 
 /* Runs to the beginning of the last period. */
-static fret_status approach(general *g, runner *r) {
-    const load_mark here = {g->load.last_cycle, g->load.end.cycles - 1};
-    fret_status st = run_to(r, here);
-    load_item before = g->cycle;
+static fret_status approach(const bench *b, runner *r) {
+    const load_item press = {
+        .step = {.kind = LOAD_PRESS, .normal = BY_FORCE, .normal_value = (double)b->contact.press.F}};
+    load_item before = b->cycle;
     before.extra.times--;
+    fret_status st = b->study->program ? run_to(r, (load_mark){b->load.last_cycle, b->load.end.cycles - 1})
+                                       : run_item(r, &press);
     return st.code ? st : run_item(r, &before);
 }
 
 static const watch nowhere = {.next = NULL};
 
-/* `levels` numbers of chords, from level `first` on; springs 0: the memory diagram. The watch cuts every
- * leg. */
-static bool open_general(bench *b, general *g, unsigned springs, unsigned first, unsigned levels, watch w) {
-    calc_error *error = b->error;
-    g->levels = 0;
-    if (!scene_load_of(b->s, &g->load, error)) /* unreached: the scene has answered for this load */
-        return false;
-    g->cycle = program_item(g->load.program, (load_mark){g->load.last_cycle, g->load.end.cycles - 1},
-                            g->load.last_cycle, g->load.in);
-    g->cycle.step.points = 0; /* nothing is recorded here */
-    for (unsigned i = 0; i < levels; i++) {
-        runner *r = &g->run[i];
-        *r = (runner){.load = &g->load, .level = first + i, .watch = w};
-        fret_status st = fine;
-        if (springs && !scene_engine(b->s, &g->load, MODEL_SPRINGS, springs, &r->engine, error)) {
-            close_general(g);
-            return false;
-        }
-        if (!springs)
-            st = engine_make(&r->engine, MODEL_MEMORY, g->load.normal, g->load.mu, 0, 0);
-        r->engine.sine = g->sine;
-        g->levels = i + 1;
+/* `levels` numbers of chords, from level `first` on; none: the sine. The watch cuts every leg. */
+static fret_status begin_running(const bench *b, running *m, model_family family, unsigned springs,
+                                 unsigned first, unsigned levels, watch w) {
+    fret_status st = fine;
+    *m = (running){.levels = 0};
+    do {
+        runner *r = &m->run[m->levels];
+        *r = (runner){.load = &b->load, .level = first + m->levels, .watch = w};
+        st = make_engine(b, family, springs, &r->engine);
+        r->engine.sine = levels == 0;
+        m->levels++;
         if (!st.code)
-            st = approach(g, r);
-        if (!calc_status(error, &st)) {
-            close_general(g);
-            return false;
-        }
-    }
-    return true;
+            st = approach(b, r);
+    } while (m->levels < levels && !st.code);
+    if (st.code)
+        end_running(m);
+    return st;
 }
 
 /* The loss of one model, or its limit; moved: relative, what that is good to. */
-static fret_status limit_cycle(general *g, long double *loss, long double *moved) {
+static fret_status limit_cycle(running *m, long double *loss, long double *moved) {
     long double at[LEVELS] = {0};
     fret_status st = fine;
-    for (unsigned i = 0; i < g->levels && !st.code; i++) {
-        runner *r = &g->run[i];
+    for (unsigned i = 0; i < m->levels && !st.code; i++) {
+        runner *r = &m->run[i];
         run_more(r);
         while (run_item_next(r))
             ;
@@ -337,29 +205,29 @@ static fret_status limit_cycle(general *g, long double *loss, long double *moved
         at[i] = r->cycle_loss;
     }
     *moved = 0;
-    *loss = g->levels > 1 ? run_limit(at, moved) : at[0];
+    *loss = m->levels > 1 ? run_limit(at, moved) : at[0];
     return st;
 }
 
-static fret_status general_cycle(void *model, long double *loss) {
+static fret_status stepped_cycle(void *model, long double *loss) {
     long double unused, moved;
     return limit_cycle(model, loss ? loss : &unused, &moved);
 }
 
 /* What goes into the contact and is not stored: int F_x d(delta_x) by the trapezoidal rule, between looks. */
 static fret_status area_cycle(void *model, long double *loss) {
-    general *g = model;
-    runner *r = &g->run[0];
+    running *m = model;
+    runner *r = &m->run[0];
     fret_state from = {0}, last, now;
     long double area = 0;
     if (loss)
         engine_state(&r->engine, &from);
     engine_forces(&r->engine, &last);
-    g->looks = 0;
+    m->looks = 0;
     for (run_more(r); run_item_next(r); last = now) {
         engine_forces(&r->engine, &now);
         area += (now.dx - last.dx) * (now.Fx + last.Fx) / 2;
-        g->looks++;
+        m->looks++;
     }
     if (!r->status.code && loss) {
         engine_state(&r->engine, &now);
@@ -368,62 +236,86 @@ static fret_status area_cycle(void *model, long double *loss) {
     return r->status;
 }
 
-/* Does the scene answer for a swinging load without chords? */
-static bool by_sine(const bench *b) {
-    const answers *a = &b->s->answers;
-    return swings(b) && a->levels == 1;
-}
-
-/* more: is there time for one that is larger? */
-static bool general_row(bench *b, model_family family, unsigned springs, bool *more) {
-    general g = {.sine = family == FAMILY_MEMORY && by_sine(b)};
-    const unsigned levels = swings(b) && !g.sine ? LEVELS : 1;
+/* One row; *more: there is such a model, and time for one that is larger. Of a loop a period is seen at the
+ * ends of its chords, or where F_N is constant in it, each branch in so many parts, evenly in time. There are
+ * no springs where the gap ends before, or is beyond all numbers. */
+static bool measure_model(bench *b, model_family family, unsigned size, unsigned level, bool *more) {
+    const bool loop = family == FAMILY_LOOP, springs = families[family].model == MODEL_SPRINGS;
+    const bool chords = swings(b) && !(family == FAMILY_MEMORY && by_sine(b));
     const double start = clock_worked();
-    tell_row(b, family, springs);
-    if (!open_general(b, &g, springs, 0, levels, nowhere))
+    running m;
+    tell_row(b, family, size);
+    fret_status st = begin_running(b, &m, family, springs ? size : 0, loop ? level : 0,
+                                   loop || !swings(b) ? 1
+                                   : chords           ? LEVELS
+                                                      : 0,
+                                   nowhere);
+    *more = !st.code;
+    if (springs && st.code && fret_status_category(st.code) != FRET_CAT_SYSTEM)
+        return true;
+    if (!calc_status(b->error, &st))
         return false;
+    if (loop)
+        m.run[0].watch = watch_way(size);
     const double setting_up = clock_worked() - start;
-    bool ok = measure(b, family, springs, general_cycle, &g);
-    close_general(&g);
+    const bool ok = measure(b, family, size, loop ? area_cycle : stepped_cycle, &m);
+    if (ok && loop)
+        b->study->row[b->study->count - 1].size = m.looks / 2;
+    end_running(&m);
     *more = ok && affords(b, setting_up);
     return ok;
 }
 
-/* A period seen at the ends of its chords, or where F_N is constant in it, each branch in so many parts. */
-static bool loop_row(bench *b, unsigned level, unsigned parts, bool *more) {
-    general g = {.levels = 0};
-    const double start = clock_worked();
-    if (!open_general(b, &g, 0, level, 1, nowhere))
+/* Each of ten times the size of the last, as far as there is time. */
+static bool measure_models(bench *b, model_family family, unsigned size, unsigned most) {
+    bool more = true;
+    for (unsigned level = 0; more && size <= most; level += 2, size *= 10)
+        if (!measure_model(b, family, size, level, &more))
+            return false;
+    return true;
+}
+
+/* ---- the reference ----------------------------------------------------------------------------- */
+
+static bool steady_reference(bench *b) {
+    accuracy_study *study = b->study;
+    fret_status st = find_peak(b);
+    if (!st.code)
+        st = fret_cycle_loss_by_definition(&b->contact, &b->peak, &study->value, &study->agreement);
+    if (st.code == FRET_GROSS_SLIP)
+        st.quantity = "FA";
+    if (!isfinite((double)study->value)) /* 0 where it failed */
+        st = (fret_status){FRET_OVERFLOW, NULL, 0, 0};
+    if (!calc_status(b->error, &st))
         return false;
-    const bool swinging = g.cycle.step.normal_value != 0;
-    g.run[0].watch = swinging ? watch_ends() : watch_points(parts);
-    const double setting_up = clock_worked() - start;
-    bool ok =
-        measure(b, FAMILY_LOOP, swinging ? (unsigned long)(RUN_CHORDS << level) / 2 : parts, area_cycle, &g);
-    if (ok)
-        b->study->row[b->study->count - 1].size = g.looks / 2;
-    close_general(&g);
-    *more = ok && affords(b, setting_up);
-    return ok;
+    if (!(study->value > 0)) /* a general gap, and less slip than a long double tells from none */
+        return calc_fail(b->error, 0, 0, "the load is too small: no model of this gap can tell dW from 0");
+    snprintf(study->reference, sizeof study->reference, "quadrature in long double");
+    study->automatic = fret_normal_is_power(b->contact.normal) ? "closed form"
+                                                               : "closed form, with polynomials over the gap";
+    study->why = "constant FN";
+    return true;
 }
 
 /* The loss of the last period in chords of the finest levels; or where all is straight, each step cut in
  * `parts`. */
 static bool refined(bench *b, unsigned parts, long double *loss, long double *moved) {
-    general g = {.levels = 0};
-    fret_state now;
-    if (!open_general(b, &g, 0, parts ? 0 : FINEST - LEVELS + 1, parts ? 1 : LEVELS,
-                      parts ? watch_points(parts) : nowhere))
-        return false;
-    fret_status st = limit_cycle(&g, loss, moved);
-    engine_state(&g.run[0].engine, &now);
+    running m;
+    fret_state now = {.U = 0};
+    fret_status st = begin_running(b, &m, FAMILY_MEMORY, 0, parts ? 0 : FINEST - LEVELS + 1,
+                                   parts ? 1 : LEVELS, parts ? watch_points(parts) : nowhere);
+    if (!st.code) {
+        st = limit_cycle(&m, loss, moved);
+        engine_state(&m.run[0].engine, &now);
+        end_running(&m);
+    }
     if (*loss < nothing * now.U)
         *loss = 0;
-    close_general(&g);
     return calc_status(b->error, &st);
 }
 
-static bool straight_reference(bench *b, accuracy_study *study) {
+static bool straight_reference(bench *b) {
+    accuracy_study *study = b->study;
     long double coarse = 0, unused;
     if (!refined(b, 4, &coarse, &unused) || !refined(b, 8, &study->value, &unused))
         return false;
@@ -433,33 +325,37 @@ static bool straight_reference(bench *b, accuracy_study *study) {
     return true;
 }
 
-static bool sine_reference(bench *b, accuracy_study *study) {
+static bool sine_reference(bench *b) {
+    accuracy_study *study = b->study;
     snprintf(study->reference, sizeof study->reference, "memory diagram, limit of up to %d chords a period",
              RUN_CHORDS << FINEST);
     study->why = by_sine(b) ? "FN swings: the sine itself" : "FN swings: chords taken to their limit";
     return refined(b, 0, &study->value, &study->agreement);
 }
 
-static bool general_reference(bench *b) {
+static bool find_reference(bench *b) {
     accuracy_study *study = b->study;
-    if (!(swings(b) ? sine_reference : straight_reference)(b, study))
+    study->automatic = "memory diagram";
+    if (!(!study->program ? steady_reference : swings(b) ? sine_reference : straight_reference)(b))
         return false;
     if (!(study->value > 0))
         return calc_fail(b->error, 0, 0, "nothing slips in the last cycle: dW is 0");
     study->agreement = fmaxl(study->agreement, rounding);
-    study->automatic = "memory diagram";
     return true;
 }
 
-static bool measure_general(bench *b) {
-    bool more = true;
-    bool ok = general_reference(b) && general_row(b, FAMILY_MEMORY, 0, &more);
-    for (unsigned i = 0, parts = 10; ok && more && i < 4; i++, parts *= 10)
-        ok = loop_row(b, 2 * i, parts, &more);
-    more = true;
-    for (unsigned count = 100; ok && more && count <= 1000000; count *= 10)
-        ok = general_row(b, FAMILY_SPRINGS, count, &more);
-    return ok;
+static bool measure_all(bench *b) {
+    const bool steady = !b->study->program;
+    bool more;
+    bool ok = find_reference(b) && (!steady || measure(b, FAMILY_CLOSED, 0, closed_cycle, b)) &&
+              measure_model(b, FAMILY_MEMORY, 0, 0, &more) && measure_models(b, FAMILY_LOOP, 10, 10000) &&
+              (!steady || measure(b, FAMILY_QUADRATURE, 0, quadrature_cycle, b));
+    const bool midpoint =
+        steady && fret_normal_foundation(b->load.normal)->k != 0; /* else weights are alike */
+    b->end -= midpoint ? b->budget / 4 : 0;                       /* kept for the last */
+    ok = ok && measure_models(b, FAMILY_SPRINGS, 100, 1000000);
+    b->end += midpoint ? b->budget / 4 : 0;
+    return ok && (!midpoint || measure_models(b, FAMILY_MIDPOINT, 100, 1000000));
 }
 
 /* ---- the load ---------------------------------------------------------------------------------- */
@@ -494,37 +390,45 @@ static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_stud
     return true;
 }
 
-static bool choose_load(scene *s, const accuracy_load *given, accuracy_study *out, steady *m,
-                        calc_error *error) {
+/* What is run. Of a cycle at constant F_N the models that take a double all get the same one, which the gap
+ * carries. */
+static bool choose_load(bench *b, const accuracy_load *given) {
+    scene *s = b->s;
+    accuracy_study *out = b->study;
+    calc_error *error = b->error;
     long double unused;
     const load_reach *pressed; /* first: a missing load is reported before missing friction */
-    if (!scene_reach(s, &pressed, error) || !scene_contact(s, &m->contact, error))
+    if (!scene_reach(s, &pressed, error) || !scene_contact(s, &b->contact, error))
         return false;
-    out->FN = m->contact.press.F;
-    if (!choose_amplitude(s, given, out, m->contact.mu, pressed, error))
+    out->FN = b->contact.press.F;
+    if (!choose_amplitude(s, given, out, b->contact.mu, pressed, error))
         return false;
-    m->by_force = out->by_force;
-    m->amplitude = out->amplitude;
     if (out->program)
-        return true;
-    /* the models that take a double all get the same one, which the gap carries */
+        return scene_load_of(s, &b->load, error) && scene_widest(s, &b->radius, error) &&
+               scene_last_cycle(s, &b->cycle, error);
     const double F = (double)out->FN;
     fret_status st =
-        fret_press_by_force(m->contact.normal, F > out->FN ? nextafter(F, 0) : F, &m->contact.press);
+        fret_press_by_force(b->contact.normal, F > out->FN ? nextafter(F, 0) : F, &b->contact.press);
     if (!st.code)
-        st = closed_loss(m, &unused);
+        st = closed_loss(b, &unused);
+    b->load = (load_view){.normal = b->contact.normal, .mu = b->contact.mu, .stop = s->stop};
+    b->cycle = (load_item){.step = {.kind = LOAD_CYCLE,
+                                    .tangential = out->by_force ? BY_FORCE : BY_DISPLACEMENT,
+                                    .tangential_value = out->amplitude},
+                           .extra = {.times = 1}};
+    b->radius = (double)b->contact.press.a;
     return calc_status(error, &st);
 }
 
 bool accuracy_measure(scene *s, const accuracy_load *load, accuracy_progress *progress, void *context,
                       accuracy_study *out, calc_error *error) {
     bench b = {.s = s, .error = error, .study = out, .progress = progress, .context = context};
-    steady m = {.b = &b};
     *out = (accuracy_study){.count = 0};
-    if (!choose_load(s, load, out, &m, error))
+    if (!choose_load(&b, load))
         return false;
     b.budget = load->seconds;
     b.end = clock_worked() + load->seconds;
     b.enough = fmin(0.02, load->seconds / 150);
-    return out->program ? measure_general(&b) : measure_steady(&b, &m);
+    b.cycle.step.points = 0; /* nothing is recorded here */
+    return measure_all(&b);
 }

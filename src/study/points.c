@@ -123,6 +123,18 @@ bool points_keeps(points *p, size_t i, dim of, dim *d, bool *known) {
                      LEX_SHOWN(e->len), e->text + e->at);
 }
 
+bool points_keep_sides(points *p, const value v[2], dim *d, bool *known) {
+    const expr *right = &p->e[1];
+    char is[128], wants[128];
+    if (!points_keeps(p, 0, v[0].d, d, known))
+        return false;
+    if (dim_equal(v[1].d, *d) || (v[1].v == 0 && dim_equal(v[1].d, DIM_NONE)))
+        return true;
+    dim_describe(v[1].d, is, sizeof is);
+    dim_describe(*d, wants, sizeof wants);
+    return calc_fail(p->error, right->at, right->len, "the left side is %s, the right side is %s", wants, is);
+}
+
 long double points_place(long double lo, long double hi, bool ratios, long double part) {
     if (part == 1)
         return hi;
@@ -148,46 +160,31 @@ static bool one_here(points *p, const points_run *run, size_t i, const long doub
     return hand_over(p, run, i, x, p->v, all ? NULL : p->error->raised ? p->error : &p->none);
 }
 
-/* A part as it is given: the knobs of its points lie behind it. */
+/* A part as it is given: the knobs of its points. */
 typedef struct portion {
     size_t count;
+    long double x[];
 } portion;
 
-/* What comes of it; behind it the values, and the errors of those that lack one. */
+/* What comes of it: values, and the errors of those that lack one. */
 typedef struct outcome {
     scene_use used;
+    calc_error why[PORTION];
+    value v[];
 } outcome;
-
-static size_t aligned(size_t bytes) {
-    return (bytes + 63) / 64 * 64;
-}
-
-static size_t knobs_at(void) {
-    return aligned(sizeof(portion));
-}
-
-static size_t values_at(void) {
-    return aligned(sizeof(outcome));
-}
-
-static size_t errors_at(const points *p) {
-    return aligned(values_at() + PORTION * p->n * sizeof(value));
-}
 
 /* In a worker, on its own copy of the points. False: an error that ends all; the process that gave the part
  * computes it again and so meets the error itself. */
 static bool work(void *context, const void *in, void *out) {
     points *p = context;
     const portion *given = in;
-    const long double *x = (const long double *)((const char *)in + knobs_at());
-    value *v = (value *)((char *)out + values_at());
-    calc_error *why = (calc_error *)((char *)out + errors_at(p));
+    outcome *found = out;
     error_clear(p->error);
     p->t->scene.used = 0;
     for (size_t k = 0; k < given->count; k++)
-        if (!points_at(p, x + k * p->count, v + k * p->n))
-            why[k] = p->error->raised ? *p->error : p->none;
-    ((outcome *)out)->used = scene_answered_by(&p->t->scene);
+        if (!points_at(p, given->x + k * p->count, found->v + k * p->n))
+            found->why[k] = p->error->raised ? *p->error : p->none;
+    found->used = scene_answered_by(&p->t->scene);
     return !p->error->raised;
 }
 
@@ -203,7 +200,7 @@ static void give_portion(void *context, size_t part, void *in) {
     portion *given = in;
     given->count = left < sh->portion ? left : sh->portion;
     for (size_t k = 0; k < given->count; k++)
-        sh->run->give(sh->run->context, i + k, (long double *)((char *)in + knobs_at()) + k * sh->p->count);
+        sh->run->give(sh->run->context, i + k, given->x + k * sh->p->count);
 }
 
 static bool lacks(const value *v, size_t n) {
@@ -217,23 +214,22 @@ static bool take_portion(void *context, size_t part, const void *in, const void 
     const sharing *sh = context;
     points *p = sh->p;
     const portion *given = in;
-    const long double *x = (const long double *)((const char *)in + knobs_at());
+    const outcome *found = out;
     const size_t i = sh->first + part * sh->portion;
     if (!out) {
         for (size_t k = 0; k < given->count; k++)
-            if (!one_here(p, sh->run, i + k, x + k * p->count))
+            if (!one_here(p, sh->run, i + k, given->x + k * p->count))
                 return false;
         return true;
     }
-    const value *v = (const value *)((const char *)out + values_at());
-    const calc_error *why = (const calc_error *)((const char *)out + errors_at(p));
-    scene_also_used(&p->t->scene, ((const outcome *)out)->used);
+    scene_also_used(&p->t->scene, found->used);
     p->evaluations += (unsigned)given->count;
     for (size_t k = 0; k < given->count; k++) {
-        const bool gap = lacks(v + k * p->n, p->n);
+        const value *v = found->v + k * p->n;
+        const bool gap = lacks(v, p->n);
         if (gap)
-            p->none = why[k];
-        if (!hand_over(p, sh->run, i + k, x + k * p->count, v + k * p->n, gap ? &p->none : NULL))
+            p->none = found->why[k];
+        if (!hand_over(p, sh->run, i + k, given->x + k * p->count, v, gap ? &p->none : NULL))
             return false;
     }
     return true;
@@ -244,8 +240,8 @@ static bool shared(points *p, size_t left) {
     const size_t to_come = p->all > p->done + left ? p->all - p->done : left;
     if (p->team || p->alone || !team_pays(p->taken, (double)p->watched, (double)(p->watched + to_come)))
         return p->team && left > 1;
-    const size_t in = knobs_at() + PORTION * p->count * sizeof *p->now;
-    const size_t out = errors_at(p) + PORTION * sizeof(calc_error);
+    const size_t in = sizeof(portion) + PORTION * p->count * sizeof(long double),
+                 out = sizeof(outcome) + PORTION * p->n * sizeof(value);
     p->team = team_begin(&(team_job){.c = p->c, .in = in, .out = out, .work = work, .context = p});
     p->alone = !p->team;
     return p->team != NULL;

@@ -58,6 +58,10 @@ bool points_failed(points *p, const calc_error *error);
 /* The value of expression i has the dimension that it had at first: *d, where `known` has become true. */
 bool points_keeps(points *p, size_t i, dim of, dim *d, bool *known);
 
+/* Expressions 0 and 1 as two sides to be compared: the same of the left one, and the right one is like it; a
+ * bare 0 is. */
+bool points_keep_sides(points *p, const value v[2], dim *d, bool *known);
+
 /* The place of a part 0..1 of a range, evenly or, both ends on one side of 0, in ratios. */
 long double points_place(long double lo, long double hi, bool ratios, long double part);
 

@@ -38,16 +38,8 @@ static bool take_sides(void *context, size_t row, const long double x[], const v
     residuals *r = to->r;
     (void)x;
     r->bad_row = row * step_of(r);
-    if (why || !points_keeps(&r->p, 0, v[0].d, &r->d, &r->known))
+    if (why || !points_keep_sides(&r->p, v, &r->d, &r->known))
         return false;
-    if (!dim_equal(v[1].d, r->d)) {
-        const expr *right = &r->sides[1];
-        char is[128], wants[128];
-        dim_describe(r->d, wants, sizeof wants);
-        dim_describe(v[1].d, is, sizeof is);
-        return calc_fail(r->p.error, right->at, right->len, "the left side is %s, the right side is %s",
-                         wants, is);
-    }
     to->out[r->bad_row] = (double)(v[0].v - v[1].v);
     if (r->kept) {
         r->kept->left[row] = (double)v[0].v;
@@ -171,7 +163,7 @@ static bool loop_run(residuals *r, double *out) {
         !press_of(r, &press.step, &error) || (r->of->loop.rig && !read_rig(r, tried, &error)))
         return points_failed(&r->p, &error);
     view.K_rig = r->K_rig;
-    fret_status st = engine_make(&run.engine, MODEL_MEMORY, view.normal, view.mu, 0, 0);
+    fret_status st = engine_make(&run.engine, view.normal, view.mu);
     if (!st.code)
         st = run_item(&run, &press);
     if (!st.code)

@@ -7,7 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "number/array.h"
 #include "number/least.h"
+#include "number/root.h"
 #include "study/points.h"
 
 /* Intervals of the scan, and of the one where sides that jump or swing want more of them; halvings to an edge
@@ -43,18 +45,7 @@ typedef struct search {
 
 /* left - right. NaN: the question has ended. */
 static double apart(search *s, const value v[2]) {
-    const expr *right = &s->sides[1];
-    if (!points_keeps(&s->p, 0, v[0].d, &s->d, &s->known))
-        return (double)NAN;
-    /* a bare 0 has any dimension */
-    if (!dim_equal(v[1].d, s->d) && !(v[1].v == 0 && dim_equal(v[1].d, DIM_NONE))) {
-        char is[128], wants[128];
-        dim_describe(v[1].d, is, sizeof is);
-        dim_describe(s->d, wants, sizeof wants);
-        calc_fail(s->p.error, right->at, right->len, "the left side is %s, the right side is %s", wants, is);
-        return (double)NAN;
-    }
-    return (double)(v[0].v - v[1].v);
+    return points_keep_sides(&s->p, v, &s->d, &s->known) ? (double)(v[0].v - v[1].v) : (double)NAN;
 }
 
 /* NaN: no value there, too. */
@@ -345,7 +336,6 @@ static bool no_root(search *s, calc_error *error) {
 
 typedef struct sought {
     search *s;
-    double part;  /* of x: places that lie closer are one; of those that are the same double, 0 */
     double at;    /* asked last */
     unsigned end; /* evaluations: where they are that many, 0 */
     bool lost;    /* no value there */
@@ -353,7 +343,7 @@ typedef struct sought {
 
 static fret_real difference_there(fret_real x, fret_real *slope, void *context) {
     sought *t = context;
-    const bool again = fabs((double)x - t->at) <= t->part * fabs((double)x) || t->s->p.evaluations >= t->end;
+    const bool again = (double)x == t->at || t->s->p.evaluations >= t->end; /* no double lies closer */
     (void)slope;
     t->at = (double)x;
     const double f = again ? 0 : difference(t->s, t->at);
@@ -361,24 +351,15 @@ static fret_real difference_there(fret_real x, fret_real *slope, void *context) 
     return t->lost ? 0 : f;
 }
 
-/* To the last digit; rough: to six. */
-static bool refine(search *s, unsigned i, bool rough, double *x, calc_error *error) {
+/* To the last digit. False: there is no root, but a jump or a gap. */
+static bool find_root(search *s, unsigned i, double *x) {
     const place a = s->root[i], b = s->other[i];
-    sought t = {.s = s, .part = rough ? 1e-7 : 0, .at = (double)NAN, .end = s->p.evaluations + METHOD};
+    sought t = {.s = s, .at = (double)NAN, .end = s->p.evaluations + METHOD};
     *x = a.x;
     if (a.x == b.x)
         return true;
     *x = (double)fret_root(difference_there, &t, fmin(a.x, b.x), fmax(a.x, b.x), (double)NAN);
-    if (s->p.error->raised)
-        return false;
-    return !t.lost || calc_fail(error, s->of->left->at, s->of->left->len, "no value within the bracket: %s",
-                                s->p.none.text);
-}
-
-/* A change of sign may be a jump. */
-static bool jumps(search *s, unsigned i, double x) {
-    const double least = fmin(fabs(s->root[i].f), fabs(s->other[i].f));
-    return s->root[i].x != s->other[i].x && fabs(difference(s, x)) > 1e-3 * least;
+    return !t.lost && !(fabs(difference(s, *x)) > 1e-3 * fmin(fabs(a.f), fabs(b.f)));
 }
 
 static bool only_jumps(search *s, double x, calc_error *error) {
@@ -388,48 +369,27 @@ static bool only_jumps(search *s, double x, calc_error *error) {
                      "no root: the sides jump past each other at %s", there);
 }
 
-/* *is: there is a root at *x, no jump and no gap. Most roots show at six digits, which take less time. */
-static bool try_root(search *s, unsigned i, double *x, bool *is, calc_error *error) {
-    *is = false;
-    for (int rough = 1; rough >= 0 && !*is; rough--) {
-        calc_error *none = error_quiet();
-        const bool found = refine(s, i, rough, x, none);
-        *is = found && !jumps(s, i, *x);
-        if (none->stop)
-            *error = *none;
-        if (error->raised)
-            return false;
-    }
-    return true;
-}
-
-static int in_order(const void *a, const void *b) {
-    const double x = ((const place *)a)->x, y = ((const place *)b)->x;
-    return (x > y) - (x < y);
-}
-
 /* Leaves out the changes of sign that are jumps; where one root is left it is the answer. */
 static bool sift(search *s, solve_answer *out, calc_error *error) {
     place found[ROOTS];
     unsigned roots = 0, last = 0;
     for (unsigned i = 0; i < s->roots; i++) {
-        bool is;
-        if (!try_root(s, i, &out->x, &is, error))
+        double x;
+        const bool is = find_root(s, i, &x);
+        if (error->raised)
             return false;
         if (is) {
-            found[roots++].x = out->x;
+            found[roots++].x = out->x = x;
             last = i;
         } else {
             out->jumps = true;
+            s->jump = x;
         }
     }
-    s->jump = out->x;
-    s->root[0] = s->root[last];
-    s->other[0] = s->other[last];
+    out->lo = fmin(s->root[last].x, s->other[last].x);
+    out->hi = fmax(s->root[last].x, s->other[last].x);
     s->roots = roots;
-    if (roots == 1)
-        return refine(s, 0, false, &out->x, error);
-    qsort(found, roots, sizeof *found, in_order);
+    qsort(found, roots, sizeof *found, fret_ascending);
     memcpy(s->root, found, roots * sizeof *found);
     return true;
 }
@@ -445,33 +405,17 @@ static bool several(search *s, calc_error *error) {
                      "several roots, %s = %s: choose by from LO to HI", s->of->name.text, list);
 }
 
-/* One root, where it does not turn out to be a jump. */
-static bool single(search *s, solve_answer *out, calc_error *error) {
-    calc_error *none = error_quiet();
-    out->jumps = !refine(s, 0, false, &out->x, none) || jumps(s, 0, out->x);
-    if (none->stop)
-        *error = *none;
-    s->jump = out->x;
-    s->roots = !out->jumps;
-    return !error->raised;
-}
-
 static bool answer_root(search *s, solve_answer *out, calc_error *error) {
     if (!choose_range(s, error))
         return false;
     for (unsigned places = SCAN; places <= FINE && (places == SCAN || out->jumps || s->pole || s->swings);
-         places += FINE - SCAN) {
-        if (!look_for_roots(s, places))
+         places += FINE - SCAN)
+        if (!look_for_roots(s, places) || !sift(s, out, error))
             return false;
-        if (s->roots && !(s->roots > 1 || out->jumps ? sift : single)(s, out, error))
-            return false;
-    }
     if (!s->roots)
         return out->jumps ? only_jumps(s, s->jump, error) : no_root(s, error);
     if (s->roots > 1)
         return several(s, error);
-    out->lo = fmin(s->root[0].x, s->other[0].x);
-    out->hi = fmax(s->root[0].x, s->other[0].x);
     out->evaluations = s->p.evaluations;
     out->touches = s->touches;
     return true;
