@@ -9,6 +9,7 @@
 #include "commands/figures.h"
 #include "commands/tables.h"
 #include "measured/loop.h"
+#include "number/array.h"
 #include "statement/command.h"
 #include "study/determined.h"
 #include "study/fit.h"
@@ -418,11 +419,6 @@ typedef struct place {
     double x, y;
 } place;
 
-static int by_abscissa(const void *a, const void *b) {
-    const double x = ((const place *)a)->x, y = ((const place *)b)->x;
-    return (x > y) - (x < y);
-}
-
 static bool add_curve(const struct fitted *f, plot_series *s, calc_error *error) {
     const fit_points *k = &f->points;
     const column_knob *over = abscissa(&f->q);
@@ -432,7 +428,7 @@ static bool add_curve(const struct fitted *f, plot_series *s, calc_error *error)
     for (size_t i = 0; ok && i < n; i++)
         at[i] = k->nodes ? (place){k->x[i], k->y[i]} : (place){across(&f->q, over, i), k->right[i]};
     if (ok && f->q.left)
-        qsort(at, n, sizeof *at, by_abscissa);
+        qsort(at, n, sizeof *at, fret_ascending);
     for (size_t i = 0; ok && i < n; i++)
         ok = plot_point(s, at[i].x, at[i].y);
     free(at);

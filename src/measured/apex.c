@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "number/array.h"
 #include "number/least.h"
 
 typedef struct place {
@@ -17,11 +18,6 @@ typedef struct asymmetry {
     double left, square, tilt; /* square: what is left, a mean square */
     size_t pairs;
 } asymmetry;
-
-static int by_r(const void *a, const void *b) {
-    const double x = ((const place *)a)->r, y = ((const place *)b)->r;
-    return (x > y) - (x < y);
-}
 
 /* The parabola through three places, or what there is where two of them are one. */
 static double between(const place *p, double r) {
@@ -116,7 +112,7 @@ bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error) 
         return calc_no_memory(error);
     for (size_t i = 0; i < rows; i++)
         p[i] = (place){r[i], f[i]};
-    qsort(p, rows, sizeof *p, by_r);
+    qsort(p, rows, sizeof *p, fret_ascending);
     if (rows >= 8 && p[0].r < p[rows - 1].r && rises_on_both(p, rows)) {
         double at = 0, tilted_at = 0;
         const asymmetry plain = least(p, rows, false, &at), tilted = least(p, rows, true, &tilted_at),

@@ -6,10 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int by_size(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
+#include "number/array.h"
 
 bool turning_noise(const double *v, size_t n, double *noise, calc_error *error) {
     enum { ORDER = 6 };
@@ -27,7 +24,7 @@ bool turning_noise(const double *v, size_t n, double *noise, calc_error *error) 
             continue;
         for (size_t i = 0; i + k < n; i++)
             size[i] = fabs(d[i]);
-        qsort(size, n - k, sizeof *size, by_size);
+        qsort(size, n - k, sizeof *size, fret_ascending);
         *noise = fmin(*noise, size[(n - k) / 2] / (0.6745 * sqrt(over)));
     }
     free(d);

@@ -243,6 +243,14 @@ static bool begin_fit(state *s, const double *start, calc_error *error) {
     return !error->raised;
 }
 
+/* To where they were, in the numbers that they were there. */
+static void go_back(residuals *r, const residuals *to) {
+    memcpy(r->q, to->q, sizeof r->q);
+    memcpy(r->start, to->start, sizeof r->start);
+    memcpy(r->scale, to->scale, sizeof r->scale);
+    r->unit = to->unit;
+}
+
 /* A scale taken at the start may be wrong: where another name is 0 there, nothing may depend on this one. So
  * scales are taken anew where the fit has ended, and where one differs much, or the residuals have become
  * small beside their unit, the fit is repeated. */
@@ -262,12 +270,8 @@ static bool begin_again(state *s, bool *again, calc_error *error) {
     for (size_t i = 0; i < r->of->count; i++)
         *again = *again || fabs(log10(r->scale[i] / before.scale[i])) > 2;
     r->has_slopes = r->has_slopes && !*again;
-    if (!*again) {
-        r->unit = before.unit;
-        memcpy(r->q, before.q, sizeof r->q);
-        memcpy(r->start, before.start, sizeof r->start);
-        memcpy(r->scale, before.scale, sizeof r->scale);
-    }
+    if (!*again)
+        go_back(r, &before);
     return !error->raised;
 }
 
@@ -417,10 +421,7 @@ static bool run_fit(state *s, fit_answer *out, calc_error *error) {
     if (error->stop)
         return false;
     *error = first;
-    memcpy(r->q, there.q, sizeof r->q);
-    memcpy(r->start, there.start, sizeof r->start);
-    memcpy(r->scale, there.scale, sizeof r->scale);
-    r->unit = there.unit;
+    go_back(r, &there);
     return ok;
 }
 

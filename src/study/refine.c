@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "number/array.h"
+
 enum { ROUNDS = 12, POINTS = 3000 };
 static const double off_line = 1.0 / 2000, narrow = 1e-5;
 
@@ -22,11 +24,6 @@ typedef struct picture {
     bulk *of;
 } picture;
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static bulk bulk_of(const picture *p, size_t column, double *sorted) {
     size_t n = 0;
     for (size_t i = 0; i < p->n; i++) {
@@ -36,7 +33,7 @@ static bulk bulk_of(const picture *p, size_t column, double *sorted) {
     }
     if (!n)
         return (bulk){0, 0};
-    qsort(sorted, n, sizeof *sorted, ascending);
+    qsort(sorted, n, sizeof *sorted, fret_ascending);
     double lo = sorted[n / 20], hi = sorted[n - 1 - n / 20];
     if (!(hi > lo)) {
         lo = sorted[0];

@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "language/calc.h"
+#include "number/array.h"
 #include "study/nonnegative.h"
 
 #if GSL_MAJOR_VERSION == 2 && GSL_MINOR_VERSION < 8 /* which have other names for these */
@@ -59,11 +60,6 @@ typedef struct trial {
     double falls, drop; /* where f' < 0, and by how much f falls in all */
 } trial;
 
-static int by_r(const void *a, const void *b) {
-    const double x = ((const row *)a)->r, y = ((const row *)b)->r;
-    return (x > y) - (x < y);
-}
-
 static bool rows_make(rows *all, const double *r, const double *f, size_t count, calc_error *error) {
     *all = (rows){.row = malloc(count * sizeof *all->row), .at = malloc(count * sizeof *all->at)};
     if (!all->row || !all->at)
@@ -77,7 +73,7 @@ static bool rows_make(rows *all, const double *r, const double *f, size_t count,
     all->count = count;
     for (size_t i = 0; i < count; i++)
         all->row[i] = (row){fabs(r[i]) / all->r, f[i] / all->f};
-    qsort(all->row, count, sizeof *all->row, by_r);
+    qsort(all->row, count, sizeof *all->row, fret_ascending);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || all->row[i].r > all->row[i - 1].r)
             all->at[all->distinct++] = all->row[i].r;
@@ -369,11 +365,11 @@ static bool choose_within(trial *t, const rows *all, double within, file_stop st
 static bool hand_out(const trial *t, const rows *all, smooth_answer *out, calc_error *error) {
     const size_t n = t->pieces + 1;
     out->pieces = t->pieces;
-    out->r = malloc(n * sizeof *out->r);
-    out->f = malloc(n * sizeof *out->f);
-    out->slope = malloc(n * sizeof *out->slope);
-    if (!out->r || !out->f || !out->slope)
+    out->r = malloc(3 * n * sizeof *out->r);
+    if (!out->r)
         return calc_no_memory(error);
+    out->f = out->r + n;
+    out->slope = out->f + n;
     for (size_t i = 0; i < n; i++) {
         double f, slope;
         end_of(t, i, &f, &slope);
@@ -417,7 +413,5 @@ bool smooth(const double *r, const double *f, size_t count, smoothing how, file_
 
 void smooth_free(smooth_answer *a) {
     free(a->r);
-    free(a->f);
-    free(a->slope);
     *a = (smooth_answer){.pieces = 0};
 }
