@@ -94,7 +94,7 @@ static bool make_run(walk *w, calc_error *error) {
 
 /* A swinging load may want another contact than the one before it. */
 static bool stands(const walk *w) {
-    return engine_is_made(&w->run.engine) && fret_contact_normal(w->run.engine.contact) == w->load.normal;
+    return w->run.engine.contact && fret_contact_normal(w->run.engine.contact) == w->load.normal;
 }
 
 bool walk_follow(walk *w, calc *c, bool *anew, calc_error *error) {

@@ -2,7 +2,7 @@
 /* What follows from a scene, made ready on demand: the cheapest model answers that is exact. */
 #include <math.h>
 
-#include "scene/load.h"
+#include "scene/scene.h"
 
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
 
@@ -68,15 +68,15 @@ bool scene_contact(scene *s, fret_pressed *out, calc_error *error) {
 /* ---- the tangential state ---------------------------------------------------------------------- */
 
 /* Of a run, or of runs at all levels. */
-static void end_state(answers *a, const runner run[], unsigned levels) {
-    sight at[LEVELS] = {{.loss = 0}}, end;
+static sight end_of(const runner run[], unsigned levels) {
+    sight at[LEVELS], end;
+    run_sight(&run[0], &end);
+    if (levels == 1)
+        return end;
     for (unsigned i = 0; i < levels; i++)
         run_sight(&run[i], &at[i]);
-    end = at[0];
-    if (levels > 1)
-        sight_limit(at, &end);
-    a->state = end.state;
-    a->loss = end.loss;
+    sight_limit(at, &end);
+    return end;
 }
 
 bool scene_widest(scene *s, double *radius, calc_error *error) {
@@ -119,7 +119,7 @@ static bool springs_state(scene *s, calc_error *error) {
             st = run_to(r, load.end);
     }
     if (!st.code)
-        end_state(&s->answers, run, levels);
+        s->answers.end = end_of(run, levels);
     while (made)
         engine_end(&run[--made].engine);
     return calc_status(error, &st);
@@ -138,13 +138,13 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
         if (springs && !springs_state(s, error))
             return false;
         if (!springs)
-            end_state(a, s->now ? run : a->run, s->now ? 1 : a->levels);
+            a->end = end_of(s->now ? run : a->run, s->now ? 1 : a->levels);
         a->state_ready = true;
     }
     s->used = used | USED(springs ? MODEL_SPRINGS : MODEL_MEMORY);
     if (!springs && a->levels)
         scene_used_law(s, fret_contact_normal(a->run[0].engine.contact));
-    *state = &a->state;
+    *state = &a->end.state;
     return true;
 }
 
@@ -153,9 +153,9 @@ bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
     const runner *run = s->now ? s->now->run : NULL;
     if (!s->now || a->state_ready || run->coarse || (!s->automatic && s->model == MODEL_CLOSED))
         return scene_state(s, state, error);
-    engine_forces(&run->engine, &a->state);
+    engine_forces(&run->engine, &a->end.state);
     s->used |= USED(MODEL_MEMORY);
-    *state = &a->state;
+    *state = &a->end.state;
     return true;
 }
 
@@ -167,6 +167,23 @@ void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs)
 }
 
 /* ---- closed forms ------------------------------------------------------------------------------ */
+
+bool scene_loading(scene *s, bool by_force, double v, fret_loading *out, calc_error *error) {
+    fret_pressed contact;
+    if (!scene_contact(s, &contact, error))
+        return false;
+    fret_status st = (by_force ? fret_loading_by_force : fret_loading_by_displacement)(&contact, v, out);
+    return calc_status(error, &st);
+}
+
+bool scene_loss(scene *s, bool by_force, double amplitude, long double *out, calc_error *error) {
+    fret_pressed contact;
+    if (!scene_contact(s, &contact, error))
+        return false;
+    fret_status st =
+        (by_force ? fret_cycle_loss_by_force : fret_cycle_loss_by_displacement)(&contact, amplitude, out);
+    return calc_status(error, &st);
+}
 
 void scene_used_closed(scene *s) {
     if (scene_is_power(s))
@@ -195,24 +212,17 @@ bool scene_closed_loss(scene *s) {
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
     const fret_press *press;
     const load_reach *reach = &s->answers.reach;
-    fret_pressed contact;
     if (!scene_press(s, &press, error))
         return false;
-    if (!reach->by) {
-        *out = (fret_loading){0, 0, press->a, press->dz};
-        return true;
-    }
-    if (!scene_contact(s, &contact, error))
-        return false;
-    fret_status st = reach->by == BY_FORCE ? fret_loading_by_force(&contact, reach->end, out)
-                                           : fret_loading_by_displacement(&contact, reach->end, out);
-    return calc_status(error, &st);
+    if (reach->by)
+        return scene_loading(s, reach->by == BY_FORCE, reach->end, out, error);
+    *out = (fret_loading){0, 0, press->a, press->dz};
+    return true;
 }
 
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
     load_item cycle;
     const fret_state *state;
-    fret_pressed contact;
     const runner *run;
     if (s->now && !load_run(s, &run, error))
         return false;
@@ -220,19 +230,12 @@ bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
         return calc_fail(error, 0, 0, "no cycle has been closed yet");
     if (!s->now && !scene_last_cycle(s, &cycle, error))
         return false;
-    if (!scene_closed_loss(s)) {
-        if (!scene_state(s, &state, error))
-            return false;
-        *loss = s->answers.loss;
-        return true;
-    }
-    if (!scene_contact(s, &contact, error))
+    if (scene_closed_loss(s))
+        return scene_loss(s, cycle.step.tangential == BY_FORCE, cycle.step.tangential_value, loss, error);
+    if (!scene_state(s, &state, error))
         return false;
-    const double amplitude = cycle.step.tangential_value;
-    fret_status st = cycle.step.tangential == BY_FORCE
-                         ? fret_cycle_loss_by_force(&contact, amplitude, loss)
-                         : fret_cycle_loss_by_displacement(&contact, amplitude, loss);
-    return calc_status(error, &st);
+    *loss = s->answers.end.loss;
+    return true;
 }
 
 /* ---- fields ------------------------------------------------------------------------------------ */

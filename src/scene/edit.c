@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes of a scene that hold whole or not at all: of its inputs, and of its load. It asks what follows from
  * the scene; nothing of that asks it. */
-#include "scene/load.h"
+#include "scene/scene.h"
 
 static bool complete(const scene *s) {
     const inputs *in = &s->in;

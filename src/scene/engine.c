@@ -38,10 +38,6 @@ void engine_end(engine *e) {
     e->springs = NULL;
 }
 
-bool engine_is_made(const engine *e) {
-    return e->contact || e->springs;
-}
-
 /* A ramp by force that changes F_N is no straight line for the springs: 64 parts, an error of 1e-8. */
 static fret_status step_in_parts(engine *e, const fret_step *step, unsigned parts) {
     const bool ramp = step->normal_by != FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_FX;

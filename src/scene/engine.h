@@ -51,7 +51,6 @@ fret_status engine_make(engine *e, const fret_normal *normal, double mu);
 fret_status engine_springs(engine *e, const fret_normal *normal, double mu, unsigned count, double radius,
                            fret_weight rule);
 void engine_end(engine *e);
-bool engine_is_made(const engine *e);
 fret_status engine_step(engine *e, const fret_step *step);
 /* A step that stands for a part of a curve: as long as it goes from end to end, any path near it will do. */
 fret_status engine_chord(engine *e, const fret_step *step);

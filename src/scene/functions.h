@@ -11,15 +11,11 @@ typedef bool quantity_call_function(scene *s, value arg, long double *out, calc_
 /* results.c */
 quantity_get_function get_p0, get_pmean, get_Un, get_kn, get_dxmax, get_dx0max, get_kappa, get_W1D, get_time,
     get_drig, get_Vwear, get_dVwear;
+quantity_call_function call_p0;
+/* By force, or to a depth. */
+bool pressed_by(scene *s, bool by_force, long double v, fret_press *out, calc_error *error);
 /* The same bodies with k = 0, under the force now. */
 bool twin_press(scene *s, fret_press *out, calc_error *error);
-
-/* functions.c: of the scene, tangentially unloaded */
-quantity_call_function call_p0;
-/* By force, or to a depth; by force, or to a displacement; a cycle by the amplitude of either. */
-bool pressed_by(scene *s, bool by_force, long double v, fret_press *out, calc_error *error);
-bool loaded_by(scene *s, bool by_force, long double v, fret_loading *out, calc_error *error);
-bool loss_by(scene *s, bool by_force, long double v, long double *out, calc_error *error);
 
 /* damper.c: over a closed cycle of an amplitude, at constant F_N */
 quantity_call_function call_Ksec, call_Kp, call_Kpp, call_loss_factor;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The load program of a scene: it grows by steps that can be, and is run as far as answers want it. */
-#include "scene/load.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

@@ -379,12 +379,12 @@ bool quantity_call(const quantity *q, scene *s, const value arg[], long double *
         *out = member(&press, q->at);
         return true;
     case CALL_LOADING:
-        if (!loaded_by(s, by_force, arg->v, &first, error))
+        if (!scene_loading(s, by_force, (double)arg->v, &first, error))
             return false;
         *out = member(&first, q->at);
         return true;
     case CALL_LOSS:
-        return loss_by(s, by_force, arg->v, out, error);
+        return scene_loss(s, by_force, (double)arg->v, out, error);
     case CALL_MODULUS:
         return modulus_at(s, arg->v, q->at == offsetof(fret_foundation, cT0), out, error);
     case CALL_FIELD:

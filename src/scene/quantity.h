@@ -94,10 +94,6 @@ static inline bool quantity_is_input(const quantity *q) {
 static inline input quantity_input(const quantity *q) {
     return (input)(q->in - 1);
 }
-/* Is it one of a press? Where that is by another one it is a result. */
-static inline bool quantity_is_imposed(const quantity *q) {
-    return q->in && INPUT_PRESS & INPUT_BIT(q->in - 1);
-}
 /* How many it takes as a function; 0: it is none. */
 static inline unsigned quantity_arguments(const quantity *q) {
     return q->calls == CALL_STRESS ? 3 : q->calls != CALL_NONE;

@@ -136,7 +136,7 @@ void scene_save(scene *s, scene_mark *m, bool move) {
     inputs_copy(&m->in, &s->in);
     m->program = counted_hold(s->program ? &s->program->base : NULL);
     m->end = s->end;
-    m->kept = move;
+    m->answers = (answers){.normal = NULL};
     if (move) {
         m->answers = s->answers;
         s->answers = (answers){.normal = NULL};
@@ -148,9 +148,7 @@ void scene_drop(scene_mark *m) {
     inputs_drop(&m->in);
     counted_drop(m->program ? &m->program->base : NULL);
     m->program = NULL;
-    if (m->kept)
-        answers_end(&m->answers, false);
-    m->kept = false;
+    answers_end(&m->answers, false);
 }
 
 void scene_back(scene *s, scene_mark *m) {
@@ -161,8 +159,7 @@ void scene_back(scene *s, scene_mark *m) {
     s->in = m->in;
     s->program = m->program;
     s->end = m->end;
-    if (m->kept)
-        s->answers = m->answers;
+    s->answers = m->answers;
 }
 
 /* ---- inputs ------------------------------------------------------------------------------------ */
@@ -292,10 +289,6 @@ bool scene_friction(scene *s, double *mu, calc_error *error) {
 
 /* ---- the load ---------------------------------------------------------------------------------- */
 
-static bool is_pressed(const scene *s, calc_error *error) {
-    return s->end.steps > 0 || calc_missing(error, IN_FN);
-}
-
 bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
     program *own = step->kind == LOAD_PRESS ? program_make() : program_copy(s->program, s->end);
     load_mark end = step->kind == LOAD_PRESS ? (load_mark){0, 0} : s->end;
@@ -345,7 +338,9 @@ static void reach_step(load_reach *r, const load_step *step, unsigned times) {
 
 bool scene_reach(scene *s, const load_reach **out, calc_error *error) {
     load_reach *r = &s->answers.reach;
-    if (!is_pressed(s, error) || (s->end.cycles && !s->before && !resolve(s, INPUT_CYCLE, error)))
+    if (!s->end.steps)
+        return calc_missing(error, IN_FN);
+    if (s->end.cycles && !s->before && !resolve(s, INPUT_CYCLE, error))
         return false;
     if (!s->answers.reach_ready || r->seen.steps > s->end.steps) {
         *r = (load_reach){.seen = {1, 0}, .alike = true, .first = true};

@@ -61,8 +61,7 @@ typedef struct answers {
     unsigned levels;
     bool chords; /* the swinging load of the program cannot be taken as it is */
     load_reach reach;
-    fret_state state;
-    long double loss; /* of the last period */
+    sight end; /* now */
 } answers;
 
 typedef struct scene scene;
@@ -132,8 +131,7 @@ typedef struct scene_mark {
     inputs in;
     program *program;
     load_mark end;
-    bool kept; /* answers too: they have moved here */
-    answers answers;
+    answers answers; /* that have moved here */
 } scene_mark;
 /* move: takes the answers along; the scene begins with none. */
 void scene_save(scene *s, scene_mark *m, bool move);
@@ -211,6 +209,10 @@ bool scene_forces(scene *s, const fret_state **state, calc_error *error);
 /* What the load has left: as it is, after a swinging load curved; and with that in chords. */
 bool scene_history(scene *s, const fret_contact **contact, calc_error *error);
 bool scene_straight(scene *s, const fret_contact **contact, calc_error *error);
+/* On first loading under this force, or at this displacement; of a closed cycle of such an amplitude. */
+bool scene_loading(scene *s, bool by_force, double v, fret_loading *out, calc_error *error);
+bool scene_loss(scene *s, bool by_force, double amplitude, long double *out, calc_error *error);
+/* As the program has gone. */
 bool scene_first_loading(scene *s, fret_loading *out, calc_error *error);
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error);
 
@@ -220,6 +222,17 @@ bool scene_closed_state(scene *s);
 bool scene_closed_loss(scene *s);
 void scene_used_closed(scene *s);
 void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs);
+
+/* ---- the load of the scene, for answers and changes ---- */
+
+/* scene_load of a step that is no press. */
+bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error);
+/* The press at the beginning of the program. */
+bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error *error);
+/* Can a swinging load be taken as it is? On no table of rows. */
+bool load_takes_sine(const load_view *load);
+/* The run that has come to the end of the program, or to now. */
+bool load_run(scene *s, const runner **run, calc_error *error);
 
 /* ---- running it again ---- */
 

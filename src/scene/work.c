@@ -2,7 +2,7 @@
 /* Friction's work by place: the load program is run once more, on a contact that is watched. */
 #include <stdint.h>
 
-#include "scene/load.h"
+#include "scene/scene.h"
 
 /* To the end of the program, or to an instant on its way: by the same looks, since a load that is parted
  * otherwise in time is another one. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "number/real.h"
-#include "scene/load.h"
+#include "scene/scene.h"
 
 /* One law, what is held, and how it wears: a run rests at cycles that these alone tell, `first` 4^i, and goes
  * to the cycles asked for from the last of them. So what comes does not depend on what was asked before. */

@@ -319,40 +319,29 @@ static size_t most_pieces(const rows *all, size_t most) {
     return all->distinct / 4 < most ? all->distinct / 4 : most;
 }
 
-static size_t next_pieces(size_t pieces) {
-    return pieces + 1 + pieces / 8;
-}
-
-static bool choose_freely(trial *t, const rows *all, file_stop stop, calc_error *error) {
+/* Of those tried, the fewest that come within; else those with the least error of prediction. */
+static bool choose_pieces(trial *t, const rows *all, smoothing how, file_stop stop, calc_error *error) {
     const size_t most = most_pieces(all, SMOOTH_PIECES_TRIED);
-    double best = INFINITY;
+    const bool freely = how.by == SMOOTH_FREELY;
+    char wanted[CALC_VALUE_TEXT], got[CALC_VALUE_TEXT];
+    double best = INFINITY, least = INFINITY;
     size_t pieces = 1;
-    for (size_t i = 1; i <= most; i = next_pieces(i)) {
+    calc_error falls;
+    error_clear(&falls);
+    for (size_t i = 1; i <= most; i += 1 + i / 8) {
         if (!attempt(t, all, i, stop, error))
             return false;
+        if (!freely && t->rms * all->f <= how.within && rises(t, all, &falls))
+            return true;
         const double score = t->rms / (1 - (double)t->unknowns / (double)all->count);
         pieces = score < best ? i : pieces;
         best = fmin(score, best);
-        trial_end(t);
-    }
-    return attempt(t, all, pieces, stop, error) && rises(t, all, error);
-}
-
-static bool choose_within(trial *t, const rows *all, double within, file_stop stop, calc_error *error) {
-    const size_t most = most_pieces(all, SMOOTH_PIECES_TRIED);
-    char wanted[CALC_VALUE_TEXT], got[CALC_VALUE_TEXT];
-    double least = INFINITY;
-    calc_error falls;
-    error_clear(&falls);
-    for (size_t i = 1; i <= most; i = next_pieces(i)) {
-        if (!attempt(t, all, i, stop, error))
-            return false;
-        if (t->rms * all->f <= within && rises(t, all, &falls))
-            return true;
         least = fmin(least, t->rms * all->f);
         trial_end(t);
     }
-    calc_value_text(DIM_LENGTH, within, wanted);
+    if (freely)
+        return attempt(t, all, pieces, stop, error) && rises(t, all, error);
+    calc_value_text(DIM_LENGTH, how.within, wanted);
     calc_value_text(DIM_LENGTH, least, got);
     *error = falls;
     return calc_fail(error, 0, 0,
@@ -388,10 +377,8 @@ static bool choose(trial *t, const rows *all, smoothing how, file_stop stop, cal
     const size_t most = most_pieces(all, SMOOTH_PIECES_MOST);
     if (most == 0)
         return calc_fail(error, 0, 0, "%zu different r are too few to smooth", all->distinct);
-    if (how.by == SMOOTH_FREELY)
-        return choose_freely(t, all, stop, error);
-    if (how.by == SMOOTH_WITHIN)
-        return choose_within(t, all, how.within, stop, error);
+    if (how.by != SMOOTH_PIECES)
+        return choose_pieces(t, all, how, stop, error);
     if (how.pieces > most)
         return calc_fail(error, 0, 0, "%zu different r carry up to %zu pieces", all->distinct, most);
     return attempt(t, all, how.pieces, stop, error) && rises(t, all, error);
