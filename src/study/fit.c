@@ -5,6 +5,7 @@
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multilarge_nlinear.h>
+#include <gsl/gsl_qrng.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -126,17 +127,6 @@ static void choose_unit(residuals *r) {
         r->unit = 1;
 }
 
-/* The part 0..1 of a sequence that fills a box evenly, one base a name. */
-static double evenly(unsigned i, size_t name) {
-    static const unsigned base[FIT_NAMES] = {2, 3, 5, 7, 11, 13, 17, 19};
-    double part = 0, digit = 1;
-    for (; i; i /= base[name]) {
-        digit /= base[name];
-        part += digit * (i % base[name]);
-    }
-    return part;
-}
-
 /* The sum of squares of some rows at these names, turning points as measured; infinite where there is none.
  */
 static double glance(residuals *r, const double *at) {
@@ -166,24 +156,29 @@ static bool spanned(const residuals *r, size_t name, double *lo, double *hi) {
     return any;
 }
 
-/* The start that is given is one of many: others about it, by so many decades or over a range, then closer to
- * the best of them. Every other one takes a name that may be an offset from what its columns span. False:
- * none is better. */
+/* The start that is given is one of many: others about it, by so many decades or over a range, evenly, then
+ * closer to the best of them. Every other one takes a name that may be an offset from what its columns span.
+ * False: none is better. */
 static bool seek(state *s, double *best, double farthest) {
     enum { SAMPLES = 24, ROUNDS = 8 };
     residuals *r = &s->r;
     const size_t names = r->of->count;
-    double lo[FIT_NAMES], hi[FIT_NAMES], given, least;
+    double lo[FIT_NAMES], hi[FIT_NAMES], part[FIT_NAMES], centre[FIT_NAMES], at[FIT_NAMES];
     bool span[FIT_NAMES];
+    gsl_qrng *even = gsl_qrng_alloc(gsl_qrng_halton, (unsigned)names);
+    if (!even)
+        return calc_no_memory(r->p.error);
     for (size_t i = 0; i < names; i++)
         span[i] = spanned(r, i, &lo[i], &hi[i]);
-    given = least = glance(r, best);
+    const double given = glance(r, best);
+    double least = given;
     for (unsigned round = 0; round < ROUNDS; round++) {
-        double centre[FIT_NAMES], at[FIT_NAMES];
         memcpy(centre, best, names * sizeof *best);
+        gsl_qrng_init(even);
         for (unsigned k = 1; k <= SAMPLES * names && !r->p.error->raised; k++) {
+            gsl_qrng_get(even, part);
             for (size_t i = 0; i < names; i++) {
-                const double by = (2 * evenly(k, i) - 1) / (1u << round);
+                const double by = (2 * part[i] - 1) / (1u << round);
                 at[i] = s->bounded[i]      ? centre[i] + by * 5 * r->scale[i]
                         : span[i] && k % 2 ? (round ? centre[i] : (lo[i] + hi[i]) / 2) + by * (hi[i] - lo[i])
                                            : centre[i] * pow(10, farthest * by);
@@ -195,6 +190,7 @@ static bool seek(state *s, double *best, double farthest) {
             }
         }
     }
+    gsl_qrng_free(even);
     return least < given;
 }
 

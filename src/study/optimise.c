@@ -17,6 +17,12 @@ enum { N = OPTIMISE_NAMES, LINE = 16, EDGE_EVALUATIONS = 60, ROUNDS = 8, SIMPLEX
 /* Narrow enough for Newton's method. */
 #define NARROW 2e-3
 
+/* A place in parts of the ranges, and what is there, to be made small; NaN: nothing. */
+typedef struct place {
+    double u[N];
+    long double f;
+} place;
+
 typedef struct search {
     const optimise_question *of;
     points p;
@@ -25,18 +31,17 @@ typedef struct search {
     dim d;
     long double seen; /* the first value */
     bool fixed[N];    /* at an end of the range */
-    double u[N];      /* the best place so far */
-    long double f;    /* and what is there, to be made small */
+    place best;       /* so far */
     calc_error why;
 } search;
 
-static double place_of(const search *s, size_t i, double u) {
+static double knob_of(const search *s, size_t i, double u) {
     return (double)points_place(s->of->lo[i], s->of->hi[i], s->ratios[i], fmin(fmax(u, 0), 1));
 }
 
 static void set_knobs(const search *s, const double *u, long double x[N]) {
     for (size_t i = 0; i < s->of->count; i++)
-        x[i] = place_of(s, i, u[i]);
+        x[i] = knob_of(s, i, u[i]);
 }
 
 /* To be made small; NaN: no value there, or the question has ended. */
@@ -58,13 +63,17 @@ static long double at_parts(search *s, const double *u) {
     return take_value(s, &v, points_at(&s->p, x, &v) ? NULL : &s->p.none);
 }
 
-static bool better(search *s, const double *u, long double f) {
-    if (!(f < s->f) && !isnan(s->f))
-        return false;
-    s->f = f;
-    for (size_t i = 0; i < s->of->count; i++)
-        s->u[i] = u[i];
-    return true;
+/* Takes what is better. */
+static bool better(place *best, const place *now) {
+    const bool is = now->f < best->f || (isnan(best->f) && !isnan(now->f));
+    if (is)
+        *best = *now;
+    return is;
+}
+
+static bool better_there(search *s, place to) {
+    to.f = at_parts(s, to.u);
+    return better(&s->best, &to);
 }
 
 /* ---- many places at once ----------------------------------------------------------------------- */
@@ -74,20 +83,19 @@ enum { PLACES = 128 };
 typedef struct places {
     search *s;
     size_t count;
-    double u[PLACES][N];
-    long double f[PLACES];
+    place at[PLACES];
 } places;
 
 static void give_place(void *context, size_t i, long double x[]) {
     const places *p = context;
-    set_knobs(p->s, p->u[i], x);
+    set_knobs(p->s, p->at[i].u, x);
 }
 
 static bool take_place(void *context, size_t i, const long double x[], const value v[],
                        const calc_error *why) {
     places *p = context;
     (void)x;
-    p->f[i] = take_value(p->s, v, why);
+    p->at[i].f = take_value(p->s, v, why);
     return true;
 }
 
@@ -104,10 +112,7 @@ typedef struct line {
     search *s;
     size_t axis;
     bool nested;
-    double base[N];
-    double u;        /* the best part so far */
-    double place[N]; /* where all names are there */
-    long double f;
+    place base, best;
     double lo, hi; /* bracket around it; lo = hi: none */
     unsigned evaluations;
     optimise_end end;
@@ -116,43 +121,37 @@ typedef struct line {
 
 static bool search_line(line *l);
 
-static void line_place(const line *l, double u, double place[N]) {
-    for (size_t i = 0; i < N; i++)
-        place[i] = l->base[i];
-    place[l->axis] = u;
+static double best_part(const line *l) {
+    return l->best.u[l->axis];
 }
 
-/* Takes what is better. */
-static long double line_take(line *l, double u, const double place[N], long double f) {
+static place line_place(const line *l, double u) {
+    place at = l->base;
+    at.u[l->axis] = u;
+    return at;
+}
+
+static long double line_take(line *l, const place *at) {
     l->evaluations++;
-    if (f < l->f || (isnan(l->f) && !isnan(f))) {
-        l->u = u;
-        l->f = f;
-        for (size_t i = 0; i < N; i++)
-            l->place[i] = place[i];
-    }
-    return f;
+    better(&l->best, at);
+    return at->f;
+}
+
+static const place nowhere = {.f = (long double)NAN};
+
+static bool goes_within(const line *l) {
+    return l->nested && l->axis + 1 < l->s->of->count;
 }
 
 static long double line_at(line *l, double u) {
-    double place[N];
-    long double f;
-    line_place(l, u, place);
-    if (l->nested && l->axis + 1 < l->s->of->count) {
-        line inner = {.s = l->s, .axis = l->axis + 1, .nested = true, .f = (long double)NAN};
-        for (size_t i = 0; i < N; i++)
-            inner.base[i] = place[i];
-        if (!search_line(&inner)) {
-            l->evaluations++;
-            return (long double)NAN;
-        }
-        for (size_t i = 0; i < N; i++)
-            place[i] = inner.place[i];
-        f = inner.f;
+    place at = line_place(l, u);
+    if (goes_within(l)) {
+        line inner = {.s = l->s, .axis = l->axis + 1, .nested = true, .base = at, .best = nowhere};
+        at = search_line(&inner) ? inner.best : nowhere;
     } else {
-        f = at_parts(l->s, place);
+        at.f = at_parts(l->s, at.u);
     }
-    return line_take(l, u, place, f);
+    return line_take(l, &at);
 }
 
 static fret_real line_value(fret_real u, fret_real *slope, void *context) {
@@ -164,11 +163,11 @@ static fret_real line_value(fret_real u, fret_real *slope, void *context) {
 /* The best place lies between: to this part of what is left on either side. */
 static bool narrow(line *l, double lo, double hi, double part) {
     static const double round = 1e-2; /* of what is left, each time */
-    for (int i = 0; i < ROUNDS && hi - lo > part * fmin(l->u, 1 - l->u); i++) {
+    for (int i = 0; i < ROUNDS && hi - lo > part * fmin(best_part(l), 1 - best_part(l)); i++) {
         const double apart = round * (hi - lo);
-        fret_least(line_value, l, lo, hi, l->u, round);
-        lo = fmax(lo, l->u - apart);
-        hi = fmin(hi, l->u + apart);
+        fret_least(line_value, l, lo, hi, best_part(l), round);
+        lo = fmax(lo, best_part(l) - apart);
+        hi = fmin(hi, best_part(l) + apart);
     }
     l->lo = lo;
     l->hi = hi;
@@ -177,11 +176,11 @@ static bool narrow(line *l, double lo, double hi, double part) {
 
 /* At an end of the range, unless it is better a little inside. */
 static bool leave_end(line *l, double next) {
-    const double end = l->u;
+    const double end = best_part(l);
     line_at(l, end + (next - end) * 1e-4);
     if (l->s->p.error->raised)
         return false;
-    if (l->u == end) {
+    if (best_part(l) == end) {
         l->end = end > 0 ? END_HIGH : END_LOW;
         return true;
     }
@@ -193,14 +192,14 @@ static bool leave_end(line *l, double next) {
 static bool approach_edge(line *l, double bad, double other) {
     calc_error why = l->s->why;
     while (l->evaluations < EDGE_EVALUATIONS) { /* too few of them to come to neighbouring numbers */
-        const double good = l->u, mid = bad + (good - bad) / 2;
+        const double good = best_part(l), mid = bad + (good - bad) / 2;
         const long double f = line_at(l, mid);
         if (l->s->p.error->raised)
             return false;
         if (isnan(f)) {
             bad = mid;
             why = l->s->why;
-        } else if (l->u == mid) {
+        } else if (best_part(l) == mid) {
             other = good;
         } else {
             return other == good ? leave_end(l, mid) : narrow(l, fmin(mid, other), fmax(mid, other), NARROW);
@@ -213,44 +212,38 @@ static bool approach_edge(line *l, double bad, double other) {
 
 static bool search_line(line *l) {
     const double apart = 1 / (double)LINE;
-    long double f[LINE + 1];
     int best = -1;
     places all = {.s = l->s, .count = LINE + 1};
-    const bool nested = l->nested && l->axis + 1 < l->s->of->count;
     for (int i = 0; i <= LINE; i++)
-        line_place(l, i * apart, all.u[i]);
-    if (!nested && !at_all(&all))
+        all.at[i] = line_place(l, i * apart);
+    if (!goes_within(l) && !at_all(&all))
         return false;
     for (int i = 0; i <= LINE; i++) {
-        f[i] = nested ? line_at(l, i * apart) : line_take(l, i * apart, all.u[i], all.f[i]);
+        if (goes_within(l))
+            all.at[i].f = line_at(l, i * apart);
+        else
+            line_take(l, &all.at[i]);
         if (l->s->p.error->raised)
             return false;
-        if (!isnan(f[i]) && l->u == i * apart)
+        if (!isnan(all.at[i].f) && best_part(l) == i * apart)
             best = i;
     }
     if (best < 0)
         return true;
-    const double u = l->u, before = (best - 1) * apart, after = (best + 1) * apart;
-    if (best > 0 && isnan(f[best - 1]))
+    const double u = best_part(l), before = (best - 1) * apart, after = (best + 1) * apart;
+    if (best > 0 && isnan(all.at[best - 1].f))
         return approach_edge(l, before, best < LINE ? after : u);
-    if (best < LINE && isnan(f[best + 1]))
+    if (best < LINE && isnan(all.at[best + 1].f))
         return approach_edge(l, after, best ? before : u);
     if (best == 0 || best == LINE)
         return leave_end(l, best ? before : after);
     return narrow(l, before, after, NARROW);
 }
 
-/* Takes over what the line has found. */
-static void keep_line(search *s, const line *l) {
-    s->f = l->f;
-    for (size_t i = 0; i < N; i++)
-        s->u[i] = l->place[i];
-}
-
 static bool search_one(search *s, line *l, optimise_end *end) {
     if (!search_line(l))
         return false;
-    keep_line(s, l);
+    s->best = l->best;
     *end = l->end;
     s->fixed[0] = l->end == END_LOW || l->end == END_HIGH;
     if (l->end == END_SCENE)
@@ -265,7 +258,7 @@ static void parts_of(const search *s, const gsl_vector *angles, double u[N]) {
     size_t next = 0;
     for (size_t i = 0; i < s->of->count; i++) {
         const double sine = s->fixed[i] ? 0 : sin(gsl_vector_get(angles, next++));
-        u[i] = s->fixed[i] ? s->u[i] : sine * sine;
+        u[i] = s->fixed[i] ? s->best.u[i] : sine * sine;
     }
 }
 
@@ -286,7 +279,7 @@ static bool simplex(search *s, size_t free, double step, double size) {
         size_t next = 0;
         for (size_t i = 0; i < s->of->count; i++)
             if (!s->fixed[i])
-                gsl_vector_set(start, next++, asin(sqrt(s->u[i])));
+                gsl_vector_set(start, next++, asin(sqrt(s->best.u[i])));
         gsl_vector_set_all(steps, step);
         int status = gsl_multimin_fminimizer_set(m, &f, start, steps);
         for (int i = 0; !status && i < SIMPLEX_STEPS && !s->p.error->raised; i++) {
@@ -294,10 +287,10 @@ static bool simplex(search *s, size_t free, double step, double size) {
             if (gsl_multimin_fminimizer_size(m) < size)
                 break;
         }
-        double u[N];
-        parts_of(s, gsl_multimin_fminimizer_x(m), u);
+        place end = s->best;
+        parts_of(s, gsl_multimin_fminimizer_x(m), end.u);
         if (!s->p.error->raised)
-            better(s, u, at_parts(s, u));
+            better_there(s, end);
     }
     if (m)
         gsl_multimin_fminimizer_free(m);
@@ -313,11 +306,11 @@ static bool search_grid(search *s) {
         all.count *= side;
     for (size_t p = 0; p < all.count; p++)
         for (size_t i = 0, rest = p; i < count; i++, rest /= side)
-            all.u[p][i] = (double)(rest % side) / (double)(side - 1);
+            all.at[p].u[i] = (double)(rest % side) / (double)(side - 1);
     if (!at_all(&all))
         return false;
     for (size_t p = 0; p < all.count; p++)
-        better(s, all.u[p], all.f[p]);
+        better(&s->best, &all.at[p]);
     return true;
 }
 
@@ -325,29 +318,25 @@ static bool search_grid(search *s) {
 static size_t fix_ends(search *s, optimise_end end[N]) {
     size_t free = 0;
     for (size_t i = 0; i < s->of->count; i++) {
-        const double to = s->u[i] < 0.5 ? 0 : 1;
-        double u[N];
-        for (size_t j = 0; j < N; j++)
-            u[j] = s->u[j];
-        u[i] = to;
-        if (fabs(s->u[i] - to) < 1e-3 && (s->u[i] == to || better(s, u, at_parts(s, u)))) {
+        const double to = s->best.u[i] < 0.5 ? 0 : 1;
+        place there = s->best;
+        there.u[i] = to;
+        if (fabs(s->best.u[i] - to) < 1e-3 && (s->best.u[i] == to || better_there(s, there))) {
             /* it may only have begun there */
-            u[i] = to > 0 ? 1 - 1e-4 : 1e-4;
-            if (better(s, u, at_parts(s, u)))
-                continue;
-            s->fixed[i] = true;
-            end[i] = to > 0 ? END_HIGH : END_LOW;
+            there.u[i] = to > 0 ? 1 - 1e-4 : 1e-4;
+            s->fixed[i] = !better_there(s, there);
+            if (s->fixed[i])
+                end[i] = to > 0 ? END_HIGH : END_LOW;
         }
-    }
-    for (size_t i = 0; i < s->of->count; i++)
         free += !s->fixed[i];
+    }
     return free;
 }
 
 static bool search_several(search *s, optimise_end end[N]) {
     if (!search_grid(s))
         return false;
-    if (isnan(s->f))
+    if (isnan(s->best.f))
         return true;
     if (!simplex(s, s->of->count, 0.15, 1e-4))
         return false;
@@ -361,12 +350,10 @@ static bool search_several(search *s, optimise_end end[N]) {
 static const long double second_weight[ASK_SLOPES] = {3 / 2.0L, -3 / 20.0L, 1 / 90.0L};
 
 static long double moved(search *s, size_t i, double by, size_t j, double also) {
-    double u[N];
-    for (size_t k = 0; k < N; k++)
-        u[k] = s->u[k];
-    u[i] += by;
-    u[j] += also;
-    return at_parts(s, u);
+    place to = s->best;
+    to.u[i] += by;
+    to.u[j] += also;
+    return at_parts(s, to.u);
 }
 
 /* Gradient and curvature at the best place; false: not all neighbours have values, or the question has ended.
@@ -379,7 +366,7 @@ static bool differences(search *s, const size_t *free, size_t count, const doubl
         for (int j = 1; j <= ASK_SLOPES; j++) {
             const long double up = moved(s, i, j * h[i], i, 0), down = moved(s, i, -j * h[i], i, 0);
             slope += ask_slope[j - 1] * (up - down);
-            bend += second_weight[j - 1] * ((up - s->f) + (down - s->f));
+            bend += second_weight[j - 1] * ((up - s->best.f) + (down - s->best.f));
         }
         gsl_vector_set(g, a, (double)(slope / h[i]));
         gsl_matrix_set(H, a, a, (double)(bend / ((long double)h[i] * h[i])));
@@ -399,10 +386,11 @@ static bool differences(search *s, const size_t *free, size_t count, const doubl
 /* One step; *length of it in parts of the ranges. False: none can be made. */
 static bool newton_step(search *s, const size_t *free, size_t count, gsl_vector *g, gsl_matrix *H,
                         gsl_vector *step, double *length) {
-    double h[N] = {0}, u[N];
+    double h[N] = {0};
+    place to = s->best;
     for (size_t a = 0; a < count; a++) {
-        const double rest = fmin(s->u[free[a]], 1 - s->u[free[a]]);
-        h[free[a]] = fmin(ask_step(1e-3, s->u[free[a]], 1), 0.05 * rest); /* of the range */
+        const double u = to.u[free[a]], rest = fmin(u, 1 - u);
+        h[free[a]] = fmin(ask_step(1e-3, u, 1), 0.05 * rest); /* of the range */
         if (h[free[a]] < 1e-9)
             return false;
     }
@@ -410,22 +398,18 @@ static bool newton_step(search *s, const size_t *free, size_t count, gsl_vector 
         return false;
     gsl_linalg_cholesky_solve(H, g, step);
     *length = 0;
-    for (size_t k = 0; k < N; k++)
-        u[k] = s->u[k];
     for (size_t a = 0; a < count; a++) {
-        const double by = gsl_vector_get(step, a), at = u[free[a]];
+        const double by = gsl_vector_get(step, a), at = to.u[free[a]];
         if (!(fabs(by) < fmin(0.1, fmin(at, 1 - at))))
             return false;
-        u[free[a]] -= by;
+        to.u[free[a]] -= by;
         *length = fmax(*length, fabs(by));
     }
-    const long double f = at_parts(s, u);
+    to.f = at_parts(s, to.u);
     /* where the value stands still, its slope still tells */
-    if (!(f <= s->f + 1e-9L * fabsl(s->f)))
+    if (!(to.f <= s->best.f + 1e-9L * fabsl(s->best.f)))
         return false;
-    s->f = f;
-    for (size_t k = 0; k < N; k++)
-        s->u[k] = u[k];
+    s->best = to;
     return true;
 }
 
@@ -471,10 +455,10 @@ static bool go_on(search *s, size_t free) {
     static const double steps[IDLE] = {1e-3, 1e-2, 1e-4};
     int idle = 0;
     for (int i = 0; i < AGAIN && idle < IDLE; i++) {
-        const long double before = s->f;
+        const long double before = s->best.f;
         if (!simplex(s, free, steps[i % IDLE], 1e-10))
             return false;
-        idle = s->f < before - 1e-9L * fabsl(before) ? 0 : idle + 1;
+        idle = s->best.f < before - 1e-9L * fabsl(before) ? 0 : idle + 1;
     }
     return true;
 }
@@ -485,7 +469,7 @@ static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     size_t free = 0;
     if (s->of->count == 1) {
         const bool ok = !(l->lo < l->hi) || narrow(l, l->lo, l->hi, 1e-15);
-        keep_line(s, l);
+        s->best = l->best;
         return ok;
     }
     for (size_t i = 0; i < s->of->count; i++)
@@ -494,22 +478,22 @@ static bool stay_blunt(search *s, line *l, optimise_answer *out) {
         return false;
     if (!end_of_scene(s, out))
         return !s->p.error->raised;
-    line outer = {.s = s, .nested = true, .f = (long double)NAN};
+    line outer = {.s = s, .nested = true, .best = nowhere};
     if (!search_line(&outer) || !narrow(&outer, outer.lo, outer.hi, 1e-8))
         return false;
-    keep_line(s, &outer);
+    s->best = outer.best;
     for (size_t i = 0; i < s->of->count; i++)
-        out->end[i] = s->u[i] <= 0 ? END_LOW : s->u[i] >= 1 ? END_HIGH : END_INNER;
+        out->end[i] = s->best.u[i] <= 0 ? END_LOW : s->best.u[i] >= 1 ? END_HIGH : END_INNER;
     end_of_scene(s, out);
     return !s->p.error->raised;
 }
 
 static bool answer_optimum(search *s, optimise_answer *out, calc_error *error) {
     const expr *e = s->of->e;
-    line l = {.s = s, .f = (long double)NAN};
+    line l = {.s = s, .best = nowhere};
     if (!(s->of->count == 1 ? search_one(s, &l, out->end) : search_several(s, out->end)))
         return false;
-    if (isnan(s->f))
+    if (isnan(s->best.f))
         return calc_fail(error, e->at, e->len, "no value anywhere in the range: %s", s->why.text);
     if (!s->varies)
         return calc_fail(error, e->at, e->len, "%.*s is the same everywhere in the range", LEX_SHOWN(e->len),
@@ -517,8 +501,8 @@ static bool answer_optimum(search *s, optimise_answer *out, calc_error *error) {
     if (out->end[0] != END_SCENE && !(sharpen(s, &out->sharp) && (out->sharp || stay_blunt(s, &l, out))))
         return false;
     for (size_t i = 0; i < s->of->count; i++)
-        out->x[i] = place_of(s, i, s->u[i]);
-    out->value = s->of->most ? -s->f : s->f;
+        out->x[i] = knob_of(s, i, s->best.u[i]);
+    out->value = s->of->most ? -s->best.f : s->best.f;
     out->d = s->d;
     out->why = s->why;
     out->evaluations = s->p.evaluations;
@@ -526,7 +510,7 @@ static bool answer_optimum(search *s, optimise_answer *out, calc_error *error) {
 }
 
 bool optimise(const optimise_question *question, optimise_answer *out, calc_error *error) {
-    search s = {.of = question, .f = (long double)NAN, .seen = (long double)NAN};
+    search s = {.of = question, .best = nowhere, .seen = (long double)NAN};
     *out = (optimise_answer){.value = 0};
     gsl_set_error_handler_off();
     for (size_t i = 0; i < question->count; i++)

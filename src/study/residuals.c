@@ -195,62 +195,28 @@ bool residuals_at(residuals *r, double *out) {
 
 /* A turning point is felt from the end of the branch that it ends until the next but one wipes it out: in the
  * rows of these branches and in the levels that they come to. The last one of a closed loop, which comes
- * before all, is felt everywhere, as names are: these are columns of their own, in front. */
-enum { FELT = 4, WIDEST = FIT_NAMES + 1 + FELT };
+ * before all, is felt everywhere, as names are. */
+enum { FELT = 4 };
 
 static size_t banded(const residuals *r) {
     const size_t turns = r->unknowns - r->of->count;
     return turns - (r->twice && turns > 0);
 }
 
-static size_t dense(const residuals *r) {
-    return r->unknowns - banded(r);
+static void put_slopes(residuals *r, size_t unknown, size_t begin, size_t end) {
+    for (size_t row = begin; row < end; row++)
+        r->slopes[row * r->unknowns + unknown] = r->above[row];
 }
 
-static size_t width(const residuals *r) {
-    return dense(r) + (banded(r) ? FELT : 0);
-}
-
-/* The unknown of a column in front. */
-static size_t dense_unknown(const residuals *r, size_t column) {
-    return column < r->of->count ? column : r->unknowns - 1;
-}
-
-/* Rows that the same unknowns are felt in: those of a branch, or the level of a turning point. */
-typedef struct block {
-    size_t begin, end;
-    size_t turn; /* the latest turning point that is felt, from 1; 0: none */
-} block;
-
-static size_t block_count(const residuals *r) {
-    const size_t turns = r->unknowns - r->of->count;
-    return turns ? 2 * turns + 1 : 1;
-}
-
-static block block_at(const residuals *r, size_t i) {
-    const size_t turns = r->unknowns - r->of->count, rows = r->of->rows;
-    if (!turns)
-        return (block){0, rows, 0};
-    return i <= turns ? (block){r->loop.first[i], r->loop.first[i + 1], i + 1}
-                      : (block){rows + i - turns - 1, rows + i - turns, i - turns};
-}
-
-/* The unknown of each column in the rows of a block, as a place among those that vary; or none. */
-static void unknowns_of(const residuals *r, const block *b, size_t *place) {
-    size_t at[UNKNOWNS];
-    const size_t fronts = dense(r), n = width(r);
-    for (size_t i = 0; i < r->unknowns; i++)
-        at[i] = NO_ROW;
-    for (size_t i = 0; i < r->frees; i++)
-        at[r->free[i]] = i;
-    for (size_t i = 0; i < n; i++) {
-        const size_t back = i - fronts; /* turns before the latest */
-        if (i < fronts)
-            place[i] = at[dense_unknown(r, i)];
-        else
-            place[i] = back < b->turn && b->turn - back <= banded(r) ? at[r->of->count + b->turn - 1 - back]
-                                                                     : NO_ROW;
+/* The differences that have been found, in the rows that the unknown is felt in; others stay 0. */
+static void keep_slopes(residuals *r, size_t unknown) {
+    const size_t names = r->of->count, turns = r->unknowns - names, turn = unknown - names, end = turn + FELT;
+    if (unknown < names || turn >= banded(r)) {
+        put_slopes(r, unknown, 0, r->count);
+        return;
     }
+    put_slopes(r, unknown, r->loop.first[turn], r->loop.first[end <= turns ? end : turns + 1]);
+    put_slopes(r, unknown, r->of->rows + turn, r->of->rows + (end < turns ? end : turns));
 }
 
 static bool at_moved(residuals *r, size_t first, size_t every, size_t end, double by, double *out) {
@@ -288,9 +254,9 @@ static bool differences(residuals *r, size_t first, size_t every, size_t end) {
     return !r->p.error->raised;
 }
 
-/* Of those in front one by one; of turning points far from each other at once. */
+/* Of names one by one; of turning points far from each other at once. */
 bool residuals_slopes(residuals *r) {
-    const size_t n = width(r), fronts = dense(r), names = r->of->count;
+    const size_t names = r->of->count, bands = banded(r);
     if (r->has_slopes && !memcmp(r->sloped, r->q, sizeof r->q))
         return true;
     if (memcmp(r->now, r->q, sizeof r->q) && !residuals_at(r, r->above) && r->p.error->raised)
@@ -298,20 +264,14 @@ bool residuals_slopes(residuals *r) {
     memcpy(r->sloped, r->q, sizeof r->q);
     r->has_slopes = false;
     r->loop.warm = true;
-    for (size_t column = 0; column < n && !r->p.error->raised; column++) {
-        const size_t comb = column - fronts;
-        if (column < fronts)
-            differences(r, dense_unknown(r, column), 1, dense_unknown(r, column) + 1);
-        else if (comb < banded(r))
-            differences(r, names + comb, FELT, names + banded(r));
-        for (size_t i = 0; i < block_count(r); i++) {
-            const block b = block_at(r, i);
-            /* the latest turn of this comb */
-            const size_t back = b.turn ? (b.turn - 1 + FELT - comb % FELT) % FELT : 0,
-                         to = column < fronts ? column : fronts + back;
-            for (size_t row = b.begin; row < b.end; row++)
-                r->slopes[row * n + to] = r->above[row];
-        }
+    for (size_t first = 0; first < r->unknowns && !r->p.error->raised; first++) {
+        const bool comb = first >= names && first < names + bands;
+        const size_t every = comb ? FELT : 1, end = comb ? names + bands : first + 1;
+        if (comb && first >= names + FELT)
+            continue;
+        differences(r, first, every, end);
+        for (size_t i = first; i < end; i += every)
+            keep_slopes(r, i);
     }
     r->loop.warm = false;
     memcpy(r->now, r->q, sizeof r->now);
@@ -320,55 +280,33 @@ bool residuals_slopes(residuals *r) {
 }
 
 void residuals_products(const residuals *r, const gsl_vector *u, gsl_vector *v, gsl_matrix *N) {
-    const size_t n = width(r);
-    size_t place[WIDEST];
-    double sum[WIDEST], square[WIDEST * WIDEST];
     if (v)
         gsl_vector_set_zero(v);
     if (N)
         gsl_matrix_set_zero(N);
-    for (size_t k = 0; k < block_count(r); k++) {
-        const block b = block_at(r, k);
-        unknowns_of(r, &b, place);
-        memset(sum, 0, n * sizeof *sum);
-        memset(square, 0, n * n * sizeof *square);
-        for (size_t row = b.begin; row < b.end; row++) {
-            const double *slope = r->slopes + row * n, left = v ? gsl_vector_get(u, row) : 0;
-            for (size_t i = 0; i < n; i++) {
-                sum[i] += slope[i] * left;
-                for (size_t j = 0; j <= i && N; j++)
-                    square[i * n + j] += slope[i] * slope[j];
-            }
-        }
-        for (size_t i = 0; i < n; i++) {
-            if (place[i] == NO_ROW)
+    for (size_t row = 0; row < r->count; row++) {
+        const double *slope = r->slopes + row * r->unknowns;
+        for (size_t i = 0; i < r->frees; i++) {
+            const double own = slope[r->free[i]] / r->unit;
+            if (own == 0) /* most are, of many turning points */
                 continue;
             if (v)
-                *gsl_vector_ptr(v, place[i]) += sum[i] / r->unit;
-            for (size_t j = 0; j <= i && N; j++) {
-                if (place[j] == NO_ROW)
-                    continue;
-                const double more = square[i * n + j] / (r->unit * r->unit);
-                *gsl_matrix_ptr(N, place[i], place[j]) += more;
-                if (i != j)
-                    *gsl_matrix_ptr(N, place[j], place[i]) += more;
-            }
+                *gsl_vector_ptr(v, i) += own * gsl_vector_get(u, row);
+            for (size_t j = 0; j <= i && N; j++)
+                *gsl_matrix_ptr(N, i, j) += own * slope[r->free[j]] / r->unit;
         }
     }
+    for (size_t i = 0; i < r->frees && N; i++)
+        for (size_t j = 0; j < i; j++)
+            gsl_matrix_set(N, j, i, gsl_matrix_get(N, i, j));
 }
 
 void residuals_along(const residuals *r, const gsl_vector *u, gsl_vector *v) {
-    const size_t n = width(r);
-    size_t place[WIDEST];
-    for (size_t k = 0; k < block_count(r); k++) {
-        const block b = block_at(r, k);
-        unknowns_of(r, &b, place);
-        for (size_t row = b.begin; row < b.end; row++) {
-            double sum = 0;
-            for (size_t i = 0; i < n; i++)
-                sum += place[i] == NO_ROW ? 0 : r->slopes[row * n + i] * gsl_vector_get(u, place[i]);
-            gsl_vector_set(v, row, sum / r->unit);
-        }
+    for (size_t row = 0; row < r->count; row++) {
+        double sum = 0;
+        for (size_t i = 0; i < r->frees; i++)
+            sum += r->slopes[row * r->unknowns + r->free[i]] * gsl_vector_get(u, i);
+        gsl_vector_set(v, row, sum / r->unit);
     }
 }
 
@@ -433,7 +371,7 @@ bool residuals_open(residuals *r, const fit_question *of, calc_error *error) {
         r->q[i] = 1;
         r->free[r->frees++] = i;
     }
-    r->memory = malloc((3 + width(r)) * r->count * sizeof *r->memory);
+    r->memory = calloc((3 + r->unknowns) * r->count, sizeof *r->memory);
     r->out = r->memory;
     if (!r->memory)
         return calc_no_memory(error);
