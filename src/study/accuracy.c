@@ -361,30 +361,29 @@ static bool measure_all(bench *b) {
 /* ---- the load ---------------------------------------------------------------------------------- */
 
 /* Of the load program where none is given. */
-static bool choose_amplitude(scene *s, const accuracy_load *given, accuracy_study *out, double mu,
-                             const load_reach *reach, calc_error *error) {
+static bool choose_amplitude(bench *b, const accuracy_load *given, const load_reach *reach) {
     const fret_state *state;
-    load_item cycle;
+    accuracy_study *out = b->study;
     out->by_force = given->by_force;
     out->amplitude = given->amplitude;
     out->from = FROM_USER;
     if (given->given)
         return true;
-    if (s->end.cycles) {
-        scene_last_cycle(s, &cycle, error); /* cannot fail: scene_reach has read it */
-        out->by_force = cycle.step.tangential == BY_FORCE;
-        out->amplitude = cycle.step.tangential_value;
+    if (b->s->end.cycles) {
+        scene_last_cycle(b->s, &b->cycle, b->error); /* cannot fail: scene_reach has read it */
+        out->by_force = b->cycle.step.tangential == BY_FORCE;
+        out->amplitude = b->cycle.step.tangential_value;
         out->program = reach->normal_varies || reach->rig;
         out->from = FROM_CYCLE;
         return true;
     }
-    if (!scene_state(s, &state, error))
+    if (!scene_state(b->s, &state, b->error))
         return false;
     out->by_force = true;
     out->amplitude = fabs((double)state->Fx);
     out->from = FROM_STEP;
     if (!(out->amplitude > 0)) {
-        out->amplitude = mu * (double)out->FN / 2;
+        out->amplitude = b->contact.mu * (double)out->FN / 2;
         out->from = FROM_LIMIT;
     }
     return true;
@@ -401,11 +400,10 @@ static bool choose_load(bench *b, const accuracy_load *given) {
     if (!scene_reach(s, &pressed, error) || !scene_contact(s, &b->contact, error))
         return false;
     out->FN = b->contact.press.F;
-    if (!choose_amplitude(s, given, out, b->contact.mu, pressed, error))
+    if (!choose_amplitude(b, given, pressed))
         return false;
     if (out->program)
-        return scene_load_of(s, &b->load, error) && scene_widest(s, &b->radius, error) &&
-               scene_last_cycle(s, &b->cycle, error);
+        return scene_load_of(s, &b->load, error) && scene_widest(s, &b->radius, error);
     const double F = (double)out->FN;
     fret_status st =
         fret_press_by_force(b->contact.normal, F > out->FN ? nextafter(F, 0) : F, &b->contact.press);

@@ -14,17 +14,12 @@ double residuals_unknown(const residuals *r, size_t i) {
 
 /* ---- equations --------------------------------------------------------------------------------- */
 
-typedef struct sides {
-    residuals *r;
-    double *out; /* left - right of all rows */
-} sides;
-
 static size_t step_of(const residuals *r) {
     return r->stride ? r->stride : 1;
 }
 
 static void give_data(void *context, size_t row, long double x[]) {
-    const residuals *r = ((const sides *)context)->r;
+    const residuals *r = context;
     const fit_question *of = r->of;
     for (size_t i = 0; i < of->count; i++)
         x[i] = r->x[i];
@@ -34,13 +29,12 @@ static void give_data(void *context, size_t row, long double x[]) {
 
 static bool take_sides(void *context, size_t row, const long double x[], const value v[],
                        const calc_error *why) {
-    const sides *to = context;
-    residuals *r = to->r;
+    residuals *r = context;
     (void)x;
     r->bad_row = row * step_of(r);
     if (why || !points_keep_sides(&r->p, v, &r->d, &r->known))
         return false;
-    to->out[r->bad_row] = (double)(v[0].v - v[1].v);
+    r->to[r->bad_row] = (double)(v[0].v - v[1].v);
     if (r->kept) {
         r->kept->left[row] = (double)v[0].v;
         r->kept->right[row] = (double)v[1].v;
@@ -50,11 +44,11 @@ static bool take_sides(void *context, size_t row, const long double x[], const v
 }
 
 static bool equations(residuals *r, double *out) {
-    sides to = {r, out};
+    r->to = out;
     return points_go(&r->p, &(points_run){.count = (r->of->rows - 1) / step_of(r) + 1,
                                           .give = give_data,
                                           .take = take_sides,
-                                          .context = &to});
+                                          .context = r});
 }
 
 /* ---- loops ------------------------------------------------------------------------------------- */

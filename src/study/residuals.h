@@ -38,6 +38,7 @@ typedef struct residuals {
     double sloped[UNKNOWNS];  /* q of the slopes, where there are any */
     bool has_slopes;
     double *memory, *out, *above, *below, *slopes;
+    double *to; /* where equations go */
 } residuals;
 
 /* Columns, the loop and its turning points; every unknown varies. Close whatever comes. */
