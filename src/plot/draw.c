@@ -51,9 +51,7 @@ static const plot_kind in_page = {
 /* Copies what gnuplot drew; every error of reading or writing is one. */
 static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error *error) {
     char block[1 << 14];
-    FILE *from = fopen(r->out, "r");
-    if (!from)
-        return calc_errno(error, errno, "cannot read what gnuplot drew");
+    FILE *const from = r->out;
     bool html = !strcmp(kind->ending, ".html"), tex = !strcmp(kind->ending, ".tex"), any = false;
     /* the prologue of a file, or what sends the cursor home */
     const char *begin = html || kind == &in_page ? "<svg" : kind == &sixel ? "\033P" : NULL;
@@ -74,7 +72,6 @@ static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error 
         fputs(foot_tex, to);
     if (html)
         fputs(foot_html, to);
-    fclose(from);
     if (bad)
         return calc_errno(error, code, "cannot read what gnuplot drew");
     return any || calc_fail(error, 0, 0, "gnuplot drew nothing");
@@ -92,13 +89,10 @@ static bool write_script(FILE *to, const scripted *s, calc_error *error) {
                     : plot_write_picture(to, s->reel, s->kind, s->target, error);
 }
 
-/* Writes the script into the run's folder and has it drawn. */
+/* Writes the script and has it drawn. */
 static bool have_drawn(const plot_run *r, const scripted *s, calc_error *error) {
-    FILE *script = fopen(r->script, "w");
-    if (!script)
-        return calc_errno(error, errno, "cannot write a script for gnuplot");
-    bool ok = write_script(script, s, error), bad = ferror(script) != 0;
-    if (fclose(script) || bad)
+    const bool ok = write_script(r->script, s, error);
+    if (fflush(r->script) || ferror(r->script))
         return calc_errno(error, errno, "cannot write a script for gnuplot");
     return ok && plot_run_gnuplot(r, s->target, error);
 }
@@ -138,11 +132,10 @@ static void sheets_free(sheets *s) {
     *s = (sheets){.count = 0};
 }
 
-static char *read_all(const char *path) {
-    FILE *f = fopen(path, "r");
+static char *read_all(FILE *f) {
     char *text = NULL;
     size_t room = 1 << 15, n = 0, got = 1;
-    while (f && got) {
+    while (got) {
         char *grown = realloc(text, room *= 2);
         if (!grown)
             break;
@@ -150,10 +143,7 @@ static char *read_all(const char *path) {
         got = fread(text + n, 1, room - n - 1, f);
         n += got;
     }
-    bool ok = f && !got && !ferror(f);
-    if (f)
-        fclose(f);
-    if (!ok) {
+    if (got || ferror(f)) {
         free(text);
         return NULL;
     }

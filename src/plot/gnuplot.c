@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Running gnuplot: in a folder of our own, in a process group of its own, with a time-out. It reads its
- * standard input and writes its standard output; no name of a file ever reaches it. */
+/* Running gnuplot: on files of our own without names, in a process group of its own, with a time-out. It
+ * reads its standard input and writes its standard output; no name of a file ever reaches it. */
+#define _GNU_SOURCE /* mkostemp */
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -15,76 +16,61 @@
 
 extern char **environ;
 
-enum { FOLDER, SCRIPT, OUT, ERR, PAUSE = 1 /* ms */ };
+enum { PAUSE = 1 /* ms */ };
 
-static char *joined(const char *dir, const char *name) {
-    size_t room = strlen(dir) + strlen(name) + 2;
-    char *path = malloc(room);
-    if (path)
-        snprintf(path, room, "%s/%s", dir, name);
-    return path;
+/* A file to write and to read again, which is gone when it is closed. NULL with errno. */
+static FILE *nameless(const char *dir) {
+    char path[FILE_PATH];
+    sigset_t before;
+    if (snprintf(path, sizeof path, "%s/fret-XXXXXX", dir) >= (int)sizeof path) {
+        errno = ENAMETOOLONG;
+        return NULL;
+    }
+    file_signals_hold(&before); /* it has a name for a moment */
+    const int fd = mkostemp(path, O_CLOEXEC);
+    if (fd >= 0)
+        unlink(path);
+    file_signals_release(&before);
+    FILE *made = fd < 0 ? NULL : fdopen(fd, "w+");
+    if (fd >= 0 && !made)
+        close(fd);
+    return made;
 }
 
 void plot_run_close(plot_run *r) {
-    char *const files[] = {r->script, r->out, r->err};
-    for (int i = 0; i < 3; i++) {
+    FILE *const files[] = {r->script, r->out, r->err};
+    for (int i = 0; i < 3; i++)
         if (files[i])
-            unlink(files[i]);
-        free(files[i]);
-    }
-    if (r->guard[FOLDER] >= 0)
-        rmdir(r->dir);
-    for (int i = 0; i < 4; i++)
-        file_unguard(r->guard[i]);
-    free(r->dir);
-    *r = (plot_run){.guard = {-1, -1, -1, -1}};
+            fclose(files[i]);
+    *r = (plot_run){.script = NULL};
 }
 
 bool plot_run_open(plot_run *r, calc_error *error) {
     const char *tmp = getenv("TMPDIR");
     tmp = tmp && *tmp ? tmp : "/tmp";
-    *r = (plot_run){.guard = {-1, -1, -1, -1}, .dir = joined(tmp, "fret-XXXXXX")};
-    sigset_t before;
-    file_signals_hold(&before);
-    int code = r->dir ? 0 : ENOMEM;
-    if (!code && !mkdtemp(r->dir))
-        code = errno;
-    bool made = !code;
-    if (made) {
-        r->guard[FOLDER] = file_guard_dir(r->dir);
-        r->script = joined(r->dir, "script");
-        r->out = joined(r->dir, "out");
-        r->err = joined(r->dir, "err");
-        if (r->guard[FOLDER] < 0) {
-            rmdir(r->dir);
-            code = ENOMEM;
-        }
-    }
-    char *const files[] = {r->script, r->out, r->err};
-    for (int i = 0; i < 3 && !code; i++) {
-        r->guard[SCRIPT + i] = files[i] ? file_guard_file(files[i]) : -1;
-        if (r->guard[SCRIPT + i] < 0)
-            code = ENOMEM;
-    }
-    file_signals_release(&before);
-    if (code) {
-        calc_errno(error, code, "cannot make a temporary directory in %s", tmp);
-        plot_run_close(r);
-    }
-    return !code;
+    *r = (plot_run){.script = nameless(tmp)};
+    r->out = r->script ? nameless(tmp) : NULL;
+    r->err = r->out ? nameless(tmp) : NULL;
+    if (r->err)
+        return true;
+    calc_errno(error, errno, "cannot make a temporary file in %s", tmp);
+    plot_run_close(r);
+    return false;
 }
 
 /* Starts gnuplot; 0 or an error number. */
-static int start(const plot_run *r, char *const argv[], pid_t *pid, int *guard) {
+static int start(const plot_run *r, pid_t *pid, int *guard) {
+    /* loaded as a file, not typed in: then it stops at the first error */
+    char *const argv[] = {"gnuplot", "-d", "/dev/stdin", NULL};
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t before, defaults;
     posix_spawn_file_actions_init(&actions); /* neither of them asks for memory */
     posix_spawnattr_init(&attributes);
-    int flags = O_WRONLY | O_CREAT | O_TRUNC;
-    int code = posix_spawn_file_actions_addopen(&actions, 0, r->script, O_RDONLY, 0);
-    code = code ? code : posix_spawn_file_actions_addopen(&actions, 1, r->out, flags, 0600);
-    code = code ? code : posix_spawn_file_actions_addopen(&actions, 2, r->err, flags, 0600);
+    rewind(r->script);
+    int code = posix_spawn_file_actions_adddup2(&actions, fileno(r->script), 0);
+    code = code ? code : posix_spawn_file_actions_adddup2(&actions, fileno(r->out), 1);
+    code = code ? code : posix_spawn_file_actions_adddup2(&actions, fileno(r->err), 2);
     /* a group of its own: Ctrl-C reaches fret alone, which then ends it whole */
     posix_spawnattr_setflags(&attributes,
                              POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
@@ -131,8 +117,8 @@ static end wait_for(pid_t pid, int guard, const plot_target *target, double time
 static void message(const plot_run *r, char *text, size_t size) {
     char line[300];
     *text = 0;
-    FILE *f = fopen(r->err, "r");
-    while (f && fgets(line, sizeof line, f)) {
+    rewind(r->err);
+    while (fgets(line, sizeof line, r->err)) {
         line[strcspn(line, "\n")] = 0;
         const char *from = strstr(line, "line ");
         const char *said =
@@ -141,8 +127,6 @@ static void message(const plot_run *r, char *text, size_t size) {
         if (*said)
             snprintf(text, size, "%s", said);
     }
-    if (f)
-        fclose(f);
     char *clean = plot_text(text, PLOT_UNICODE);
     snprintf(text, size, "%s", clean && *clean ? clean : "no message");
     free(clean);
@@ -151,9 +135,9 @@ static void message(const plot_run *r, char *text, size_t size) {
 static const char missing[] =
     "plots need gnuplot, which is not installed (Debian: apt-get install gnuplot-nox)";
 
-static bool run(const plot_run *r, char *const argv[], const plot_target *target, calc_error *error) {
+bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error) {
     pid_t pid;
-    int guard, status = 0, code = start(r, argv, &pid, &guard);
+    int guard, status = 0, code = start(r, &pid, &guard);
     double timeout = target->timeout > 0 ? target->timeout : 60;
     if (code == ENOENT || code == ENOTDIR)
         return calc_fail(error, 0, 0, "%s", missing);
@@ -169,6 +153,7 @@ static bool run(const plot_run *r, char *const argv[], const plot_target *target
     case ENDED:
         break;
     }
+    rewind(r->out);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return true;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127) /* a C library that finds out late */
@@ -176,10 +161,4 @@ static bool run(const plot_run *r, char *const argv[], const plot_target *target
     char text[300];
     message(r, text, sizeof text);
     return calc_fail(error, 0, 0, "gnuplot failed: %s", text);
-}
-
-bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error) {
-    /* loaded as a file, not typed in: then it stops at the first error */
-    char *argv[] = {"gnuplot", "-d", "/dev/stdin", NULL};
-    return run(r, argv, target, error);
 }

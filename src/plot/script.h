@@ -116,17 +116,14 @@ bool plot_draw_reel(const plot_reel *reel, const plot_target *target, file_repor
 
 /* ---- gnuplot.c: running it ---------------------------------------------------------------------- */
 
-/* Our own folder for a run: gnuplot reads `script` there and leaves its output in `out`. Names never reach
- * it. */
+/* Files of our own for a run: gnuplot reads `script`, and leaves its output and its words in the others. */
 typedef struct plot_run {
-    char *dir, *script, *out, *err;
-    int guard[4];
+    FILE *script, *out, *err;
 } plot_run;
 
 bool plot_run_open(plot_run *r, calc_error *error);
-/* Runs gnuplot on the script. */
+/* Runs gnuplot on the script; its output is then read from the beginning. */
 bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error);
-/* Removes everything; may be called twice. */
 void plot_run_close(plot_run *r);
 
 #endif

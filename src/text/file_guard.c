@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-typedef enum kind { NOTHING, A_FILE, A_DIR, A_GROUP, A_TERMINAL } kind;
+typedef enum kind { NOTHING, A_FILE, A_GROUP, A_TERMINAL } kind;
 
 enum { GUARDS = 64 };
 
@@ -41,10 +41,6 @@ static int set(int row, kind what) {
 
 int file_guard_file(const char *path) {
     return set(take_guard(path), A_FILE);
-}
-
-int file_guard_dir(const char *path) {
-    return set(take_guard(path), A_DIR);
 }
 
 int file_guard_group(pid_t group) {
@@ -85,9 +81,6 @@ void file_emergency(void) {
     for (int i = 0; i < GUARDS; i++)
         if (guards[i].kind == A_FILE)
             unlink(guards[i].path);
-    for (int i = 0; i < GUARDS; i++)
-        if (guards[i].kind == A_DIR)
-            rmdir(guards[i].path);
 }
 
 bool file_signal_ends(int number) {

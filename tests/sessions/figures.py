@@ -134,7 +134,7 @@ def points(tests):
     tests.check("decades along the axes in the terminal", [rows[i].split()[0] for i in (1, 4, 6, 9)] == ["1e+12", "1e+08", "10000", "1"]
                 and rows[10].split() == ["1", "100", "10000", "1e+06"], "\n".join(rows))
     done = tests.run("-c", SCENE + "plot loop to x.png", cwd=where, env={"TMPDIR": "/nonexistent"})
-    tests.check("no folder for gnuplot", done.returncode == 1 and "cannot make a temporary directory in /nonexistent"
+    tests.check("no folder for gnuplot", done.returncode == 1 and "cannot make a temporary file in /nonexistent"
                 in done.stderr, tests.report(done))
     clean(tests, "no folder for gnuplot", where, ["a.gp", "b.gp", "c.gp"])
 

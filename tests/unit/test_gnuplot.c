@@ -85,8 +85,6 @@ int main(int argc, char **argv) {
     if (!CHECK(mkdtemp(dir) && !chdir(dir) && !setenv("TMPDIR", dir, 1) && !setenv("PATH", ".", 1)))
         return unit_finish();
     if (CHECK(plot_run_open(&r, &error))) {
-        FILE *script = fopen(r.script, "w");
-        CHECK(script && !fclose(script));
         CASE(lost(&r));
         CASE(wordless(&r));
         plot_run_close(&r);
