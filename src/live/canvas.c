@@ -14,21 +14,13 @@
 #include "text/characters.h"
 #include "text/file.h"
 
-bool canvas_make(canvas *c, rect at, bool braille) {
-    *c = (canvas){.at = at,
-                  .wide = at.cols * (braille ? 2 : 1),
-                  .high = at.rows * (braille ? 4 : 2),
-                  .braille = braille};
-    if (at.rows <= 0)
+bool canvas_make(plot_cells *c, rect at, bool braille) {
+    if (at.rows <= 0 || at.cols <= 0)
         return false;
-    const bool made = plot_cells_make(&c->cells, at.cols, at.rows, braille ? 2 : 1, braille ? 4 : 2);
+    const bool made = plot_cells_make(c, at.cols, at.rows, braille ? 2 : 1, braille ? 4 : 2);
     if (!made)
         put_text(at, 0, INK_ERROR, "out of memory");
     return made;
-}
-
-void canvas_sign(const canvas *c, int x, int y, char sign, ink of) {
-    plot_cells_sign(&c->cells, x / c->cells.across, y / c->cells.up, (char[]){sign, 0}, (unsigned char)of);
 }
 
 /* Of an ink on this terminal. */
@@ -41,18 +33,18 @@ static int ink_attributes(ink of) {
     return (int)((chtype)COLOR_PAIR((int)of) | more);
 }
 
-void canvas_show(canvas *c) {
+void canvas_show(plot_cells *c, rect at) {
     char shown[CELL_TEXT];
-    for (int i = 0; i < c->at.rows; i++)
-        for (int j = 0; j < c->at.cols; j++) {
-            const ink of = (ink)plot_cells_show(&c->cells, j, i, shown);
+    for (int i = 0; i < at.rows; i++)
+        for (int j = 0; j < at.cols; j++) {
+            const ink of = (ink)plot_cells_show(c, j, i, shown);
             if (!*shown)
                 continue;
             attrset(ink_attributes(of));
-            mvaddstr(c->at.top + i, c->at.left + j, shown);
+            mvaddstr(at.top + i, at.left + j, shown);
         }
     attrset(A_NORMAL);
-    free(c->cells.cell);
+    free(c->cell);
 }
 
 void put_text(rect at, int row, ink of, const char *format, ...) {

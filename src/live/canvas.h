@@ -24,19 +24,10 @@ typedef struct rect {
     int top, left, rows, cols;
 } rect;
 
-typedef struct canvas {
-    rect at;
-    int wide, high; /* dots */
-    bool braille;
-    plot_cells cells;
-} canvas;
-
-/* False: out of memory, or no room; nothing is to be freed then. */
-bool canvas_make(canvas *c, rect at, bool braille);
-/* A character in the cell of a dot. */
-void canvas_sign(const canvas *c, int x, int y, char sign, ink of);
-/* Puts it on the screen and frees it. */
-void canvas_show(canvas *c);
+/* Cells for the rectangle. False: out of memory, or no room; nothing is to be freed then. */
+bool canvas_make(plot_cells *c, rect at, bool braille);
+/* Puts them on the screen and frees them. */
+void canvas_show(plot_cells *c, rect at);
 
 /* Text in the rectangle's row, cut to its width; what does not show is written as \x1b. */
 #if defined(__GNUC__)

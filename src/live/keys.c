@@ -25,7 +25,7 @@ static double number(const live *l, const char *name, double otherwise) {
     return otherwise;
 }
 
-static const double parts = 25, fine = 1 / 10.0;
+static const double parts = 25;
 
 /* By a part of the whole. */
 static void step_by(live *l, const char *name, double whole, double way) {
@@ -45,31 +45,6 @@ static void push(live *l, double way) {
 static void press(live *l, double way) {
     const char *name = l->by_displacement ? "dz" : "FN";
     step_by(l, name, number(l, name, 0), way);
-}
-
-static void right(live *l) {
-    push(l, 1);
-}
-static void left(live *l) {
-    push(l, -1);
-}
-static void right_fine(live *l) {
-    push(l, fine);
-}
-static void left_fine(live *l) {
-    push(l, -fine);
-}
-static void up(live *l) {
-    press(l, 1);
-}
-static void down(live *l) {
-    press(l, -1);
-}
-static void up_fine(live *l) {
-    press(l, fine);
-}
-static void down_fine(live *l) {
-    press(l, -fine);
 }
 
 static void drive(live *l) {
@@ -104,25 +79,6 @@ static void rub(live *l, double by) {
     live_say(l, "mu = %g", round(100 * (input_now(l, IN_MU) + by)) / 100);
 }
 
-static void k_up(live *l) {
-    grade(l, 0.05);
-}
-static void k_down(live *l) {
-    grade(l, -0.05);
-}
-static void mu_up(live *l) {
-    rub(l, 0.02);
-}
-static void mu_down(live *l) {
-    rub(l, -0.02);
-}
-static void c0_up(live *l) {
-    deepen(l, 1.25);
-}
-static void c0_down(live *l) {
-    deepen(l, 0.8);
-}
-
 static void next_shape(live *l) {
     static const char *const shapes[] = {"sphere R=10 mm", "cone slope=0.02", "power n=4 h=2 um r0=0.2 mm",
                                          "flat-rounded b=0.1 mm R=10 mm"};
@@ -155,20 +111,8 @@ static void wider(live *l, double way) {
     l->changed = true;
 }
 
-static void FA_up(live *l) {
-    wider(l, 1);
-}
-static void FA_down(live *l) {
-    wider(l, -1);
-}
-
-static void faster(live *l) {
-    l->speed = fmin(l->speed * 2, 8);
-    l->changed = true;
-}
-
-static void slower(live *l) {
-    l->speed = fmax(l->speed / 2, 0.0625);
+static void hurry(live *l, double by) {
+    l->speed = fmin(fmax(l->speed * by, 0.0625), 8);
     l->changed = true;
 }
 
@@ -318,43 +262,47 @@ static void mouse(live *l) {
 static void help(live *l);
 
 typedef struct key_row {
-    int key, other; /* other: on another keyboard, 0: none */
-    void (*act)(live *l);
+    int key, other;          /* other: on another keyboard, 0: none */
     const char *keys, *does; /* for help; NULL: said by the row before */
+    void (*act)(live *l);
+    void (*change)(live *l, double by); /* in place of it */
+    double by;
 } key_row;
 
 static const key_row keys[] = {
-    {KEY_RIGHT, 'l', right, "right, left", "push tangentially; with shift, or as l h and L H: finely"},
-    {KEY_LEFT, 'h', left, NULL, NULL},
-    {KEY_SRIGHT, 'L', right_fine, NULL, NULL},
-    {KEY_SLEFT, 'H', left_fine, NULL, NULL},
-    {KEY_UP, 'i', up, "up, down", "press more, less; with shift, or as i j and I J: finely"},
-    {KEY_DOWN, 'j', down, NULL, NULL},
-    {KEY_SR, 'I', up_fine, NULL, NULL},
-    {KEY_SF, 'J', down_fine, NULL, NULL},
-    {'f', 0, drive, "f", "arrows by force, or by displacement"},
-    {'k', 0, k_up, "k, K", "grading k up, down"},
-    {'K', 0, k_down, NULL, NULL},
-    {'c', 0, c0_up, "c, C", "its depth c0 up, down"},
-    {'C', 0, c0_down, NULL, NULL},
-    {'m', 0, mu_up, "m, M", "friction mu up, down"},
-    {'M', 0, mu_down, NULL, NULL},
-    {'g', 0, next_shape, "g", "the next shape"},
-    {' ', 0, play_key, "space", "a cycle plays; again: the last one, its end; script: next line"},
-    {'+', '=', FA_up, "+, -", "amplitude FA of the cycle"},
-    {'-', 0, FA_down, NULL, NULL},
-    {']', 0, faster, "], [", "its speed"},
-    {'[', 0, slower, NULL, NULL},
-    {'n', 0, swing, "n", "FN swings too, by 10 % more; none again"},
-    {'a', 0, phase, "a", "phase of FN against Fx, 15 deg more"},
-    {'u', 0, undo_last, "u", "undo"},
-    {'b', 0, back, "b", "back: a line of the script, else undo"},
-    {'r', 0, reset, "r", "as pressed at first: nothing pushed"},
-    {':', 0, statement, ":", "any statement; Tab completes; compare k = -0.5, 0.5"},
-    {'s', 0, save, "s", "save the scene as a script"},
-    {'p', 0, picture, "p", "springs, loop and traction as a picture"},
-    {'?', KEY_F(1), help, "?", "this help"},
-    {'q', KEY_STOP, leave, "q, Ctrl-C", "leave; Ctrl-Z stops, fg goes on"},
+    {KEY_RIGHT, 'l', "right, left", "push tangentially; with shift, or as l h and L H: finely",
+     .change = push, .by = 1},
+    {KEY_LEFT, 'h', .change = push, .by = -1},
+    {KEY_SRIGHT, 'L', .change = push, .by = 0.1},
+    {KEY_SLEFT, 'H', .change = push, .by = -0.1},
+    {KEY_UP, 'i', "up, down", "press more, less; with shift, or as i j and I J: finely", .change = press,
+     .by = 1},
+    {KEY_DOWN, 'j', .change = press, .by = -1},
+    {KEY_SR, 'I', .change = press, .by = 0.1},
+    {KEY_SF, 'J', .change = press, .by = -0.1},
+    {'f', 0, "f", "arrows by force, or by displacement", .act = drive},
+    {'k', 0, "k, K", "grading k up, down", .change = grade, .by = 0.05},
+    {'K', 0, .change = grade, .by = -0.05},
+    {'c', 0, "c, C", "its depth c0 up, down", .change = deepen, .by = 1.25},
+    {'C', 0, .change = deepen, .by = 0.8},
+    {'m', 0, "m, M", "friction mu up, down", .change = rub, .by = 0.02},
+    {'M', 0, .change = rub, .by = -0.02},
+    {'g', 0, "g", "the next shape", .act = next_shape},
+    {' ', 0, "space", "a cycle plays; again: the last one, its end; script: next line", .act = play_key},
+    {'+', '=', "+, -", "amplitude FA of the cycle", .change = wider, .by = 1},
+    {'-', 0, .change = wider, .by = -1},
+    {']', 0, "], [", "its speed", .change = hurry, .by = 2},
+    {'[', 0, .change = hurry, .by = 0.5},
+    {'n', 0, "n", "FN swings too, by 10 % more; none again", .act = swing},
+    {'a', 0, "a", "phase of FN against Fx, 15 deg more", .act = phase},
+    {'u', 0, "u", "undo", .act = undo_last},
+    {'b', 0, "b", "back: a line of the script, else undo", .act = back},
+    {'r', 0, "r", "as pressed at first: nothing pushed", .act = reset},
+    {':', 0, ":", "any statement; Tab completes; compare k = -0.5, 0.5", .act = statement},
+    {'s', 0, "s", "save the scene as a script", .act = save},
+    {'p', 0, "p", "springs, loop and traction as a picture", .act = picture},
+    {'?', KEY_F(1), "?", "this help", .act = help},
+    {'q', KEY_STOP, "q, Ctrl-C", "leave; Ctrl-Z stops, fg goes on", .act = leave},
 };
 enum { KEYS = sizeof keys / sizeof *keys };
 
@@ -481,7 +429,10 @@ void live_key(live *l, int key) {
     } else {
         for (size_t i = 0; i < KEYS; i++)
             if (keys[i].key == key || (keys[i].other && keys[i].other == key)) {
-                keys[i].act(l);
+                if (keys[i].change)
+                    keys[i].change(l, keys[i].by);
+                else
+                    keys[i].act(l);
                 return;
             }
         live_tell(l, false, "? lists the keys");

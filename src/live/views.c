@@ -64,19 +64,49 @@ static scales scales_of(const live *l) {
                     roomy(most.Fx), roomy(most.energy), roomy(most.lost)};
 }
 
-static void amount(double v, dim d, char text[40]) {
-    live_amount(v, d, text, 40);
+/* ---- panes ------------------------------------------------------------------------------------- */
+
+/* A view on the screen. */
+typedef struct pane {
+    const side *side;
+    const shot *shot; /* what is shown of it */
+    const scales *most;
+    plot_cells cells;
+    int wide, high; /* in dots */
+    int digits;     /* of numbers */
+} pane;
+
+static void put_label(const pane *p, int column, int row, ink of, const char *text) {
+    plot_cells_text(&p->cells, column, row, text, (unsigned char)of);
+}
+
+/* How far the picture reaches: in the first row at its left, in others at its right. */
+static void put_scale(const pane *p, int row, const char *name, double v, dim d) {
+    char number[40], text[48];
+    live_amount(v, d, number, sizeof number);
+    const int n = snprintf(text, sizeof text, "%s%s", name, number);
+    put_label(p, row ? p->cells.cols - n : 0, row, INK_FRAME, text);
+}
+
+static plot_pen pen_of(const pane *p, const char *dash, ink of) {
+    return plot_pen_of(&p->cells, dash, (unsigned char)of);
+}
+
+static void draw_line(const pane *p, const char *dash, ink of, double x0, double y0, double x1, double y1) {
+    plot_pen pen = pen_of(p, dash, of);
+    plot_pen_line(&pen, x0, y0, x1, y1);
 }
 
 /* ---- the contact disc -------------------------------------------------------------------------- */
 
 typedef struct zone {
     ink of;
-    char sign;
+    const char *name, *sign, *dots;
     int every; /* dots of a row, so that zones differ without colours */
 } zone;
 
-static const zone stick = {INK_STICK, '#', 1}, slip = {INK_SLIP, '.', 4}, earlier = {INK_MEMORY, '+', 2};
+static const zone stick = {INK_STICK, "stick", "#", "\u28ff", 1}, slip = {INK_SLIP, "slip", ".", "\u2801", 4},
+                  earlier = {INK_MEMORY, "earlier", "+", "\u28a5", 2};
 
 static const zone *zone_at(const shot *s, double r) {
     if (r > s->a)
@@ -98,77 +128,50 @@ static bool on_edge(const shot *s, double r, double width) {
 }
 
 /* dot: its size. */
-static void put_zone(const canvas *c, const shot *s, const zone *z, double dot) {
-    const int mx = c->wide / 2, my = c->high / 2;
-    for (int y = 0; y < c->high; y++)
-        for (int x = 0; x < c->wide; x++) {
+static void put_zone(const pane *p, int high, const zone *z, double dot) {
+    const int mx = p->wide / 2, my = high / 2;
+    for (int y = 0; y < high; y++)
+        for (int x = 0; x < p->wide; x++) {
             const double r = hypot(x - mx + 0.5, y - my + 0.5) * dot;
-            if (zone_at(s, r) != z || on_edge(s, r, 0.5 * dot))
+            if (zone_at(p->shot, r) != z || on_edge(p->shot, r, 0.5 * dot))
                 continue;
-            if (!c->braille)
-                canvas_sign(c, x, y, z->sign, z->of);
+            if (!terminal_unicode())
+                put_label(p, x, y / p->cells.up, z->of, z->sign);
             else if ((x + 2 * (y % 2) * (z->every / 4) + (y % 2) * (z->every == 2)) % z->every == 0 &&
                      (z->every < 4 || y % 2 == 0))
-                plot_cells_dot(&c->cells, x, y, (unsigned char)z->of);
+                plot_cells_dot(&p->cells, x, y, (unsigned char)z->of);
         }
 }
 
-static void draw_disc(live *l, const side *sd, const scales *sc, rect at) {
-    const shot *s = side_shown(l, sd);
-    canvas c;
-    rect disc = at;
-    (void)l;
-    disc.rows -= 1;
-    if (!canvas_make(&c, disc, terminal_unicode()))
-        return;
-    const double dot = sc->a / (fmin(c.wide, c.high) / 2.0 - 0.5);
-    put_zone(&c, s, &earlier, dot);
-    put_zone(&c, s, &stick, dot);
-    put_zone(&c, s, &slip, dot);
-    canvas_show(&c);
-    static const char *const names[] = {"stick", "slip", "earlier"};
-    const zone *zones[] = {&stick, &slip, &earlier};
-    rect part = {at.top, at.left + 1, at.rows, at.cols - 1};
+static void draw_disc(const pane *p) {
+    const zone *const zones[] = {&stick, &slip, &earlier}, *const upwards[] = {&earlier, &stick, &slip};
+    const int below = p->cells.rows - 1, high = below * p->cells.up;
+    const double dot = p->most->a / (fmin(p->wide, high) / 2.0 - 0.5);
+    int column = 1;
+    for (size_t i = 0; i < 3; i++)
+        put_zone(p, high, upwards[i], dot);
     for (size_t i = 0; i < 3; i++) {
-        put_text(part, at.rows - 1, zones[i]->of, "%s %s",
-                 terminal_unicode() ? (i == 0   ? "\u28ff"
-                                       : i == 1 ? "\u2801"
-                                                : "\u28a5")
-                                    : (char[]){zones[i]->sign, 0},
-                 names[i]);
-        const int used = (int)strlen(names[i]) + 4;
-        part.left += used;
-        part.cols -= used;
+        put_label(p, column, below, zones[i]->of, terminal_unicode() ? zones[i]->dots : zones[i]->sign);
+        put_label(p, column + 2, below, zones[i]->of, zones[i]->name);
+        column += (int)strlen(zones[i]->name) + 4;
     }
-}
-
-/* ---- lines -------------------------------------------------------------------------------------- */
-
-static void draw_line(const canvas *c, const char *dash, ink of, double x0, double y0, double x1, double y1) {
-    plot_pen pen = plot_pen_of(&c->cells, dash, (unsigned char)of);
-    plot_pen_line(&pen, x0, y0, x1, y1);
 }
 
 /* ---- the springs ------------------------------------------------------------------------------- */
 
-static void draw_springs(live *l, const side *sd, const scales *sc, rect at) {
-    const shot *s = side_shown(l, sd);
-    char text[40];
-    canvas c;
-    rect box = {at.top, at.left, at.rows - 1, at.cols};
-    (void)l;
-    if (!canvas_make(&c, box, terminal_unicode()))
-        return;
-    const double mx = (c.wide - 1) / 2.0, my = (c.high - 1) / 2.0, kx = mx / sc->a, ky = my / sc->bound;
-    draw_line(&c, "1000", INK_FRAME, 0, my, c.wide - 1, my);
+static void draw_springs(const pane *p) {
+    const shot *s = p->shot;
+    const int below = p->cells.rows - 1;
+    const double mx = (p->wide - 1) / 2.0, my = (below * p->cells.up - 1) / 2.0, kx = mx / p->most->a,
+                 ky = my / p->most->bound;
+    draw_line(p, "1000", INK_FRAME, 0, my, p->wide - 1, my);
     for (int way = -1; way <= 1; way += 2) {
         const double step = way * kx * s->a / (double)SHOT_SAMPLES;
-        plot_pen above = plot_pen_of(&c.cells, "10", INK_BOUND), below = above,
-                 u = plot_pen_of(&c.cells, "1", INK_STICK);
+        plot_pen above = pen_of(p, "10", INK_BOUND), under = above, u = pen_of(p, "1", INK_STICK);
         for (int i = 0; i < SHOT_SAMPLES; i++) {
             const double x0 = mx + step * i, x1 = x0 + step;
             plot_pen_line(&above, x0, my - ky * s->B[i], x1, my - ky * s->B[i + 1]);
-            plot_pen_line(&below, x0, my + ky * s->B[i], x1, my + ky * s->B[i + 1]);
+            plot_pen_line(&under, x0, my + ky * s->B[i], x1, my + ky * s->B[i + 1]);
         }
         for (int i = 0; i < SHOT_SAMPLES; i++) {
             const double x0 = mx + step * i, x1 = x0 + step;
@@ -176,122 +179,92 @@ static void draw_springs(live *l, const side *sd, const scales *sc, rect at) {
             plot_pen_line(&u, x0, my - ky * s->u[i], x1, my - ky * s->u[i + 1]);
         }
     }
-    canvas_show(&c);
-    amount(sc->bound, DIM_LENGTH, text);
-    put_text(at, 0, INK_FRAME, "%s", text);
+    put_scale(p, 0, "", p->most->bound, DIM_LENGTH);
     /* which springs slip, along the bottom */
-    for (int col = 0; col < at.cols; col++) {
-        const double r = fabs((col + 0.5) * c.wide / at.cols - mx) / kx;
-        rect one = {at.top, at.left + col, at.rows, 1};
+    for (int col = 0; col < p->cells.cols; col++) {
+        const double r = fabs((col + 0.5) * p->wide / p->cells.cols - mx) / kx;
         if (r <= s->a)
-            put_text(one, at.rows - 1, r > s->c ? INK_SLIP : INK_STICK, r > s->c ? "~" : "=");
+            put_label(p, col, below, r > s->c ? INK_SLIP : INK_STICK, r > s->c ? "~" : "=");
     }
-    amount(sc->a, DIM_LENGTH, text);
-    rect right = {at.top, at.left + at.cols - (int)strlen(text), at.rows, (int)strlen(text)};
-    put_text(right, at.rows - 2, INK_FRAME, "%s", text);
+    put_scale(p, below - 1, "", p->most->a, DIM_LENGTH);
 }
 
 /* ---- the loop ---------------------------------------------------------------------------------- */
 
-static void draw_loop(live *l, const side *sd, const scales *sc, rect at) {
-    const shot *s = side_shown(l, sd);
-    char text[40];
-    canvas c;
-    if (!canvas_make(&c, at, terminal_unicode()))
-        return;
-    const double mx = (c.wide - 1) / 2.0, my = (c.high - 1) / 2.0, kx = mx / sc->dx, ky = my / sc->Fx;
-    draw_line(&c, "1000", INK_FRAME, 0, my, c.wide - 1, my);
-    draw_line(&c, "1000", INK_FRAME, mx, 0, mx, c.high - 1);
-    draw_line(&c, "1000", INK_BOUND, 0, my - ky * s->slip, c.wide - 1, my - ky * s->slip);
-    draw_line(&c, "1000", INK_BOUND, 0, my + ky * s->slip, c.wide - 1, my + ky * s->slip);
-    plot_pen path = plot_pen_of(&c.cells, "1", INK_CURVE);
-    const track *t = &sd->way.path;
+static void draw_loop(const pane *p) {
+    const shot *s = p->shot;
+    const double mx = (p->wide - 1) / 2.0, my = (p->high - 1) / 2.0, kx = mx / p->most->dx,
+                 ky = my / p->most->Fx;
+    draw_line(p, "1000", INK_FRAME, 0, my, p->wide - 1, my);
+    draw_line(p, "1000", INK_FRAME, mx, 0, mx, p->high - 1);
+    draw_line(p, "1000", INK_BOUND, 0, my - ky * s->slip, p->wide - 1, my - ky * s->slip);
+    draw_line(p, "1000", INK_BOUND, 0, my + ky * s->slip, p->wide - 1, my + ky * s->slip);
+    plot_pen path = pen_of(p, "1", INK_CURVE);
+    const track *t = &p->side->way.path;
     const double until = s->time + 1e-9;
     for (size_t i = 0; i + 1 < t->count && t->point[i].time <= until; i++) {
-        const track_point *p = &t->point[i], *q = p + 1;
-        const bool whole = q->time <= until; /* else as far as the present point */
-        plot_pen_line(&path, mx + kx * p->dx, my - ky * p->Fx, mx + kx * (whole ? q->dx : s->dx),
-                      my - ky * (whole ? q->Fx : s->Fx));
+        const track_point *from = &t->point[i], *to = from + 1;
+        const bool whole = to->time <= until; /* else as far as the present point */
+        plot_pen_line(&path, mx + kx * from->dx, my - ky * from->Fx, mx + kx * (whole ? to->dx : s->dx),
+                      my - ky * (whole ? to->Fx : s->Fx));
     }
-    canvas_sign(&c, (int)lround(mx + kx * s->dx), (int)lround(my - ky * s->Fx), 'O', INK_POINT);
-    canvas_show(&c);
-    amount(sc->Fx, DIM_FORCE, text);
-    put_text(at, 0, INK_FRAME, "Fx %s", text);
-    amount(sc->dx, DIM_LENGTH, text);
-    const int n = (int)strlen(text) + 3;
-    put_text((rect){at.top, at.left + at.cols - n, at.rows, n}, at.rows - 1, INK_FRAME, "dx %s", text);
-    if (sd == &l->side[0]) {
-        l->loop = at;
-        l->loop_dx = sc->dx;
-    }
+    put_label(p, (int)lround(mx + kx * s->dx) / p->cells.across, (int)lround(my - ky * s->Fx) / p->cells.up,
+              INK_POINT, "O");
+    put_scale(p, 0, "Fx ", p->most->Fx, DIM_FORCE);
+    put_scale(p, p->cells.rows - 1, "dx ", p->most->dx, DIM_LENGTH);
 }
 
 /* ---- energies ---------------------------------------------------------------------------------- */
 
-static void draw_energies(live *l, const side *sd, const scales *sc, rect at) {
-    const shot *s = side_shown(l, sd);
-    const track *t = &sd->way.path;
-    char text[40];
-    canvas c;
-    if (!canvas_make(&c, at, terminal_unicode()))
-        return;
-    (void)l;
+static void draw_energies(const pane *p) {
+    const track *t = &p->side->way.path;
     const double begin = t->point[0].time, end = fmax(t->point[t->count - 1].time, begin + 1);
-    const double kx = (c.wide - 1) / (end - begin), ky = (c.high - 1) / sc->energy, floor_y = c.high - 1;
-    plot_pen W = plot_pen_of(&c.cells, "1", INK_SLIP), U = plot_pen_of(&c.cells, "10", INK_OTHER);
-    for (size_t i = 0; i + 1 < t->count && t->point[i + 1].time <= s->time + 1e-9; i++) {
-        const track_point *p = &t->point[i], *q = p + 1;
-        const double x0 = kx * (p->time - begin), x1 = kx * (q->time - begin);
-        plot_pen_line(&W, x0, floor_y - ky * p->W, x1, floor_y - ky * q->W);
-        plot_pen_line(&U, x0, floor_y - ky * p->U, x1, floor_y - ky * q->U);
+    const double kx = (p->wide - 1) / (end - begin), bottom = p->high - 1, ky = bottom / p->most->energy;
+    plot_pen W = pen_of(p, "1", INK_SLIP), U = pen_of(p, "10", INK_OTHER);
+    for (size_t i = 0; i + 1 < t->count && t->point[i + 1].time <= p->shot->time + 1e-9; i++) {
+        const track_point *from = &t->point[i], *to = from + 1;
+        const double x0 = kx * (from->time - begin), x1 = kx * (to->time - begin);
+        plot_pen_line(&W, x0, bottom - ky * from->W, x1, bottom - ky * to->W);
+        plot_pen_line(&U, x0, bottom - ky * from->U, x1, bottom - ky * to->U);
     }
-    canvas_show(&c);
-    amount(sc->energy, DIM_ENERGY, text);
-    put_text(at, 0, INK_FRAME, "%s", text);
+    put_scale(p, 0, "", p->most->energy, DIM_ENERGY);
 }
 
 /* ---- where energy is lost ---------------------------------------------------------------------- */
 
-static void draw_lost(live *l, const side *s, const scales *sc, rect at) {
-    char text[40];
-    canvas c;
-    (void)l;
-    if (!canvas_make(&c, at, terminal_unicode()))
-        return;
-    const double step = (c.wide - 1) * s->now.a / sc->a / SHOT_SAMPLES, ky = (c.high - 1) / sc->lost;
-    plot_pen lost = plot_pen_of(&c.cells, "1", INK_SLIP);
+static void draw_lost(const pane *p) {
+    const side *s = p->side;
+    char text[40] = "of a cycle at constant FN";
+    const double step = (p->wide - 1) * s->now.a / p->most->a / SHOT_SAMPLES, bottom = p->high - 1,
+                 ky = bottom / p->most->lost;
+    plot_pen lost = pen_of(p, "1", INK_SLIP);
     for (int i = 0; i < SHOT_SAMPLES && s->loses; i++)
-        plot_pen_line(&lost, step * i, c.high - 1 - ky * s->lost[i], step * (i + 1),
-                      c.high - 1 - ky * s->lost[i + 1]);
-    canvas_show(&c);
-    put_text(at, 0, INK_FRAME, s->loses ? "%.3g J/m^2" : "of a cycle at constant FN", sc->lost);
-    amount(sc->a, DIM_LENGTH, text);
-    const int n = (int)strlen(text) + 2;
-    put_text((rect){at.top, at.left + at.cols - n, at.rows, n}, at.rows - 1, INK_FRAME, "r %s", text);
+        plot_pen_line(&lost, step * i, bottom - ky * s->lost[i], step * (i + 1),
+                      bottom - ky * s->lost[i + 1]);
+    if (s->loses)
+        snprintf(text, sizeof text, "%.3g J/m^2", p->most->lost);
+    put_label(p, 0, 0, INK_FRAME, text);
+    put_scale(p, p->cells.rows - 1, "r ", p->most->a, DIM_LENGTH);
 }
 
 /* ---- the numbers ------------------------------------------------------------------------------- */
 
-static void draw_numbers(live *l, const side *sd, const scales *sc, rect at) {
-    const shot *s = side_shown(l, sd);
-    const int columns = at.cols < 30 ? 1 : 2, rows = (SHOT_VALUES + columns - 1) / columns;
-    (void)sc;
+static void draw_numbers(const pane *p) {
+    const shot *s = p->shot;
+    const int columns = p->cells.cols < 30 ? 1 : 2, rows = (SHOT_VALUES + columns - 1) / columns,
+              wide = (p->cells.cols - 1) / columns;
     for (int i = 0; i < SHOT_VALUES; i++) {
         char number[48] = "-";
-        rect cell = {at.top, at.left + 1 + i / rows * ((at.cols - 1) / columns), at.rows,
-                     (at.cols - 1) / columns};
-        put_text(cell, i % rows, INK_CURVE, "%-3s", shot_name((size_t)i));
-        cell.left += 4;
-        cell.cols -= 4;
-        const int most = s->digits && s->digits < *l->host->digits ? s->digits : *l->host->digits;
-        for (int digits = most; s->known[i] && digits > 0; digits--) { /* as many as there is room for */
+        const int column = 1 + i / rows * wide;
+        for (int digits = p->digits; s->known[i] && digits > 0; digits--) { /* as many as there is room for */
             char in[32];
             const long double scale = unit_choose(s->d[i], s->value[i], digits, in, sizeof in);
             if (snprintf(number, sizeof number, "%.*g %s", digits, (double)(s->value[i] / scale), in) <
-                cell.cols)
+                wide - 4)
                 break;
         }
-        put_text(cell, i % rows, INK_NONE, "%s", number);
+        put_label(p, column, i % rows, INK_CURVE, shot_name((size_t)i));
+        put_label(p, column + 4, i % rows, INK_NONE, number);
     }
 }
 
@@ -299,7 +272,7 @@ static void draw_numbers(live *l, const side *sd, const scales *sc, rect at) {
 
 typedef struct view {
     const char *title;
-    void (*draw)(live *l, const side *s, const scales *sc, rect at);
+    void (*draw)(const pane *p);
     bool right; /* in the right column; narrow screens have one column */
     int share;  /* of the height of its column; 0: it takes these rows */
     int rows;
@@ -330,6 +303,22 @@ static void put_title(const char *of, const char *title, rect at) {
     put_text(at, 0, INK_FRAME, "%s", text);
 }
 
+static void draw_view(live *l, const view *v, const side *s, const scales *sc, rect at) {
+    pane p = {.side = s, .shot = side_shown(l, s), .most = sc, .digits = *l->host->digits};
+    if (p.shot->digits && p.shot->digits < p.digits)
+        p.digits = p.shot->digits;
+    if (!canvas_make(&p.cells, at, terminal_unicode()))
+        return;
+    p.wide = at.cols * p.cells.across;
+    p.high = at.rows * p.cells.up;
+    v->draw(&p);
+    canvas_show(&p.cells, at);
+    if (v->draw == draw_loop && s == &l->side[0]) {
+        l->loop = at;
+        l->loop_dx = sc->dx;
+    }
+}
+
 /* Views of a column, one below the other: those without a share as high as they must be. */
 static void draw_column(live *l, const side *s, const scales *sc, rect all, rect column, bool narrow,
                         bool right) {
@@ -352,7 +341,7 @@ static void draw_column(live *l, const side *s, const scales *sc, rect all, rect
         if (*v->title)
             put_title(s->title, v->title, at);
         const int title = *v->title != 0;
-        v->draw(l, s, sc, (rect){at.top + title, at.left, at.rows - title, at.cols});
+        draw_view(l, v, s, sc, (rect){at.top + title, at.left, at.rows - title, at.cols});
         at.top += at.rows;
     }
 }
