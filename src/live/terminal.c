@@ -221,39 +221,20 @@ bool terminal_unicode(void) {
 
 /* ---- slow lines -------------------------------------------------------------------------------- */
 
-/* Bytes that a row takes from one screen to the other, about: signs, moves of the cursor, colours. */
-static int row_bytes(int y) {
-    enum { MOVE = 7, LOOK = 11 };
-    int bytes = 0, at = -1;
-    cchar_t look;
-    for (int x = 0; x < COLS; x++) {
-        cchar_t from, to;
-        mvwin_wch(curscr, y, x, &from);
-        mvwin_wch(newscr, y, x, &to);
-        if (!memcmp(&from, &to, sizeof to))
-            continue;
-        const int sign = to.chars[0] >= 0x800 ? 3 : 1, gap = at < 0 ? MOVE : x - at;
-        const bool other = at < 0 || look.attr != to.attr;
-        bytes += sign + (gap > MOVE ? MOVE : gap) + (other ? LOOK : 0);
-        look = to;
-        at = x + 1;
-    }
-    return bytes;
-}
-
-static int bytes_to_send(void) {
-    int bytes = 0;
-    for (int y = 0; y < LINES; y++)
-        bytes += row_bytes(y);
-    return bytes;
-}
-
-/* Curses keeps a place in what it compares. */
+/* Bytes that the update takes, about: of a sign, and its share of moves and colours. Curses keeps a place in
+ * what is compared. */
 static int bytes_of_update(void) {
-    int y, x, v, w;
+    enum { EACH = 4 };
+    int bytes = 0, y, x, v, w;
     getyx(curscr, y, x);
     getyx(newscr, v, w);
-    const int bytes = bytes_to_send();
+    for (int row = 0; row < LINES; row++)
+        for (int column = 0; column < COLS; column++) {
+            cchar_t from, to;
+            mvwin_wch(curscr, row, column, &from);
+            mvwin_wch(newscr, row, column, &to);
+            bytes += memcmp(&from, &to, sizeof to) ? EACH : 0;
+        }
     wmove(curscr, y, x);
     wmove(newscr, v, w);
     return bytes;

@@ -118,149 +118,53 @@ static bool to_file(const scripted *s, file_report *report, calc_error *error) {
 
 /* ---- text --------------------------------------------------------------------------------------- */
 
-/* What gnuplot drew as text: pages, parted at its form feeds. */
-enum { COLOR = 24 };
-
-typedef struct sheets {
-    char *text, **page;
-    size_t count;
-} sheets;
-
-static void sheets_free(sheets *s) {
-    free(s->text);
-    free(s->page);
-    *s = (sheets){.count = 0};
-}
-
-static char *read_all(FILE *f) {
-    char *text = NULL;
-    size_t room = 1 << 15, n = 0, got = 1;
-    while (got) {
-        char *grown = realloc(text, room *= 2);
-        if (!grown)
-            break;
-        text = grown;
-        got = fread(text + n, 1, room - n - 1, f);
-        n += got;
-    }
-    if (got || ferror(f)) {
-        free(text);
-        return NULL;
-    }
-    text[n] = 0;
-    return text;
-}
-
-static bool sheets_read(sheets *s, const plot_run *r, calc_error *error) {
-    *s = (sheets){.text = read_all(r->out)};
-    if (!s->text)
-        return calc_errno(error, errno, "cannot read what gnuplot drew");
-    for (const char *p = s->text; *p; p++)
-        s->count += *p == '\f';
-    s->page = malloc((s->count + 1) * sizeof *s->page);
-    if (!s->page || !s->count) {
-        bool drawn = s->count > 0;
-        sheets_free(s);
-        return drawn ? calc_no_memory(error) : calc_fail(error, 0, 0, "gnuplot drew nothing");
-    }
-    size_t n = 0;
-    for (char *p = s->text; *p; p++)
-        if (*p == '\f') {
-            *p = 0;
-            s->page[n++] = p + 1;
-        }
-    for (size_t i = 0; i < n; i++) { /* what follows the last line sets colours back */
-        char *last = strrchr(s->page[i], '\n');
-        if (last)
-            last[1] = 0;
-    }
-    return true;
-}
-
-/* What a page shows next, and the colour that holds there: gnuplot 6 lets one reach over many lines. */
-typedef struct reader {
-    const char *at;
-    char color[COLOR];
-} reader;
-
-/* A sequence of colour at the text: its length, and the reader remembers it; 0: none. */
-static size_t take_color(reader *r, const char *text) {
-    if (text[0] != '\033' || text[1] != '[')
-        return 0;
-    const size_t n = 2 + strspn(text + 2, "0123456789;");
-    if (text[n] != 'm')
-        return 0;
-    const bool plain = !strncmp(text, "\033[0;39m", 7) || !strncmp(text, "\033[22;39m", 8) || n + 1 >= COLOR;
-    snprintf(r->color, COLOR, "%.*s", plain ? 0 : (int)(n + 1), text);
-    return n + 1;
-}
-
-/* A line of each page, side by side; the pages move on. False after the last. */
-static bool print_line(FILE *out, reader *page, size_t count, int columns, const char *end) {
-    size_t trailing = 0;
-    bool more = false;
-    char color[COLOR] = ""; /* of the terminal */
-    for (size_t i = 0; i < count; i++) {
-        reader *r = &page[i];
-        const char *line = r->at;
-        const size_t n = strcspn(line, "\n");
-        more |= line[n] && line[n + 1];
-        r->at += n + (line[n] != 0);
-        if (!*line) /* this page is shorter than its neighbours */
-            trailing += (size_t)columns;
-        for (size_t k = 0, step; k < n; k += step) {
-            step = take_color(r, line + k);
-            if (step)
-                continue;
-            step = 1;
-            if (line[k] == ' ') { /* blanks at the end of a line are not worth their bytes */
-                trailing++;
-                continue;
-            }
-            fprintf(out, "%*s", (int)trailing, "");
-            trailing = 0;
-            if (strcmp(color, r->color))
-                fputs(*r->color ? r->color : "\033[39m", out);
-            memcpy(color, r->color, COLOR);
-            putc(line[k], out);
-        }
-    }
-    fputs(*color ? "\033[39m" : "", out);
-    fputs(end, out);
-    return more;
-}
-
-/* A frame's pages; the number of lines it took. */
-static size_t print_pages(FILE *out, char *const *page, size_t panels, const plot_pages *pages,
-                          const char *end) {
-    size_t lines = 0, abreast = pages->beside ? panels : 1;
-    for (size_t i = 0; i < panels; i += abreast) {
-        reader at[PLOT_PANELS];
-        for (size_t k = 0; k < abreast; k++)
-            at[k] = (reader){page[i + k], ""};
-        do
+/* The next page of what gnuplot drew, which form feeds part: the number of its lines. Blanks at their ends
+ * are not worth their bytes; what follows the last one sets colours back. */
+static size_t print_page(FILE *from, FILE *out, const char *end) {
+    char *page = NULL;
+    size_t room = 0, lines = 0;
+    if (getdelim(&page, &room, '\f', from) > 0) {
+        char *line = page;
+        for (char *stop; (stop = strchr(line, '\n')); line = stop + 1) {
+            const char *last = stop;
+            while (last > line && last[-1] == ' ')
+                last--;
+            fwrite(line, 1, (size_t)(last - line), out);
+            fputs(end, out);
             lines++;
-        while (print_line(out, at, abreast, pages->columns, end));
+        }
+        fwrite(line, 1, strcspn(line, "\f"), out);
     }
+    free(page);
     return lines;
 }
 
 /* A frame of pages that gnuplot drew; NULL: as it is drawn here. The number of lines; 0 with the error. */
-static size_t print_frame(const sheets *s, const scripted *w, size_t n, const char *end, calc_error *error) {
-    const size_t panels = w->reel->frame[0].count;
-    return s ? print_pages(w->target->out, s->page + n * panels, panels, w->pages, end)
-             : plot_print_frame(w->reel, n, w->target, w->pages, end, error);
+static size_t print_frame(const plot_run *r, const scripted *w, size_t n, const char *end,
+                          calc_error *error) {
+    if (!r)
+        return plot_print_frame(w->reel, n, w->target, w->pages, end, error);
+    size_t lines = 0;
+    for (size_t i = 0; i < (w->pages->beside ? 1 : w->reel->frame[n].count); i++) {
+        const size_t more = print_page(r->out, w->target->out, end);
+        lines += more;
+        if (!more) {
+            calc_fail(error, 0, 0, "gnuplot drew nothing");
+            return 0;
+        }
+    }
+    return lines;
 }
 
 /* Frames one after another in place: the cursor goes back up, each line is written over. */
-static bool play(const sheets *s, const scripted *w, calc_error *error) {
+static bool play(const plot_run *r, const scripted *w, calc_error *error) {
     const plot_target *t = w->target;
     const size_t frames = w->reel->count;
     size_t lines = 0;
-    for (size_t n = t->moving ? 0 : frames - 1; n < frames; n++) {
+    for (size_t n = 0; n < frames; n++) {
         if (lines)
             fprintf(t->out, "\033[%zuA", lines);
-        lines = print_frame(s, w, n, t->moving ? "\033[K\n" : "\n", error);
+        lines = print_frame(r, w, n, t->moving ? "\033[K\n" : "\n", error);
         if (!lines)
             return false;
         if (fflush(t->out))
@@ -276,24 +180,20 @@ static bool play(const sheets *s, const scripted *w, calc_error *error) {
 
 /* What gnuplot drew to the terminal. */
 static bool show_drawn(const plot_run *r, const scripted *s, calc_error *error) {
-    const size_t count = s->reel->count * s->reel->frame[0].count;
-    sheets pages;
     if (s->kind) {
         const bool ok = copy(r, s->target->out, s->kind, error);
         fputc('\n', s->target->out);
         return ok;
     }
-    if (!sheets_read(&pages, r, error))
-        return false;
-    const bool ok = pages.count == count
-                        ? play(&pages, s, error)
-                        : calc_fail(error, 0, 0, "gnuplot drew %zu pages of %zu", pages.count, count);
-    sheets_free(&pages);
-    return ok;
+    for (int c; (c = getc(r->out)) != '\f' && c != EOF;) /* before the first page */
+        continue;
+    return play(r, s, error);
 }
 
 static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error *error) {
     plot_run r;
+    const plot_reel last = {reel->frame + reel->count - 1, 1, reel->extent, 0};
+    reel = t->moving ? reel : &last;
     plot_pages pages = plot_pages_for(t, &reel->frame[0], reel->count > 1);
     scripted s = {.reel = reel, .target = t, .pages = &pages};
     if (pages.braille)

@@ -20,29 +20,35 @@ static void set_tics(FILE *to, char name, const page_ruler *r) {
     fputs(")\n", to);
 }
 
-/* gnuplot counts rows from below. */
-static void set_label(FILE *to, const plot_page *g, const char *text, int column, int row) {
-    fputs("set label ", to);
-    plot_quote(to, text);
-    fprintf(to, " at character %d,%d left", column, g->rows - 1 - row);
+/* Pages beside each other are one of gnuplot's, which counts rows from below. */
+typedef struct sheet {
+    FILE *to;
+    int columns, rows, from; /* from: column where the present page begins */
+} sheet;
+
+static void set_label(const sheet *s, const char *text, int column, int row) {
+    fputs("set label ", s->to);
+    plot_quote(s->to, text);
+    fprintf(s->to, " at character %d,%d left", s->from + column, s->rows - 1 - row);
 }
 
-static void set_texts(FILE *to, const plot_page *g) {
-    set_label(to, g, g->head, g->head_column, 0);
+static void set_texts(const sheet *s, const plot_page *g) {
+    FILE *to = s->to;
+    set_label(s, g->head, g->head_column, 0);
     fputs("\nset xlabel ", to);
     plot_quote(to, g->foot);
     fputs("\nunset key\n", to);
     for (size_t i = 0; i < g->entries && g->entry[i].row >= 0; i++) {
         const page_entry *e = &g->entry[i];
-        set_label(to, g, e->sign, e->column, e->row);
+        set_label(s, e->sign, e->column, e->row);
         fprintf(to, " tc rgb '%s'\n", colors[e->ink]);
-        set_label(to, g, e->text, e->text_column, e->row);
+        set_label(s, e->text, e->text_column, e->row);
         putc('\n', to);
     }
     for (size_t i = 0; i < g->panel->words; i++) {
         int column, row;
         page_word(g, i, &column, &row);
-        set_label(to, g, g->panel->word[i].text, column, row);
+        set_label(s, g->panel->word[i].text, column, row);
         fputs(" front\n", to);
     }
 }
@@ -77,17 +83,38 @@ static bool draw(FILE *to, const plot_page *g) {
 }
 
 /* False: out of memory. */
-static bool write_page(FILE *to, const plot_page *g, bool color) {
-    fputs("reset\nset encoding utf8\nset border back\nset tics back\n", to);
-    fprintf(to,
-            "set terminal dumb size %d,%d noenhanced %s\nset lmargin %d\nset rmargin %d\nset tmargin %d\nset "
-            "bmargin %d\n",
-            g->columns, g->rows, color ? "ansi256" : "mono", g->left, g->columns - 1 - g->left - g->x.cells,
-            g->top, g->bottom);
-    set_tics(to, 'x', &g->x);
-    set_tics(to, 'y', &g->y);
-    set_texts(to, g);
-    return draw(to, g);
+static bool write_page(const sheet *s, const plot_page *g) {
+    const int left = s->from + g->left;
+    fprintf(s->to,
+            "reset\nset encoding utf8\nset border back\nset tics back\nset lmargin %d\nset rmargin %d\n"
+            "set tmargin %d\nset bmargin %d\n",
+            left, s->columns - 1 - left - g->x.cells, g->top, s->rows - g->rows + g->bottom);
+    set_tics(s->to, 'x', &g->x);
+    set_tics(s->to, 'y', &g->y);
+    set_texts(s, g);
+    return draw(s->to, g);
+}
+
+/* Panels beside each other, from the first one on. */
+static bool write_sheet(FILE *to, const plot_reel *reel, size_t n, size_t first, const plot_target *target,
+                        const plot_pages *pages, calc_error *error) {
+    plot_page page[PLOT_PANELS];
+    size_t count = pages->beside ? reel->frame[n].count : 1, made = 0;
+    sheet s = {to, (int)count * pages->columns, 0, 0};
+    while (made < count && page_make(&page[made], reel->frame[n].panel[first + made],
+                                     &reel->extent[first + made], target, pages, error)) {
+        s.rows = page[made].rows > s.rows ? page[made].rows : s.rows;
+        made++;
+    }
+    fprintf(to, "set terminal dumb size %d,%d noenhanced %s\nset multiplot\n", s.columns, s.rows,
+            target->color ? "ansi256" : "mono");
+    bool ok = made == count;
+    for (size_t i = 0; i < made; i++, s.from += pages->columns) {
+        ok = ok && (write_page(&s, &page[i]) || calc_no_memory(error));
+        page_free(&page[i]);
+    }
+    fputs("unset multiplot\n", to);
+    return ok;
 }
 
 bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
@@ -95,15 +122,9 @@ bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target
     for (size_t n = 0; n < reel->count; n++) {
         if (plot_stopped(target))
             return calc_interrupted(error);
-        for (size_t i = 0; i < reel->frame[n].count; i++) {
-            plot_page g;
-            if (!page_make(&g, reel->frame[n].panel[i], &reel->extent[i], target, pages, error))
+        for (size_t i = 0; i < (pages->beside ? 1 : reel->frame[n].count); i++)
+            if (!write_sheet(to, reel, n, i, target, pages, error))
                 return false;
-            const bool ok = write_page(to, &g, target->color);
-            page_free(&g);
-            if (!ok)
-                return calc_no_memory(error);
-        }
     }
     return true;
 }

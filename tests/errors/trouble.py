@@ -216,14 +216,10 @@ def gnuplot(tests):
             env = {"PATH": fake + ":" + path}
             expect(tests, "gnuplot %s, to a file" % name, tests.run("-c", plot + " to " + png, env=env), 1, "", err)
             expect(tests, "gnuplot " + name, tests.run("-c", plot, env=env), 1, "", err)
-    for name, script, status, out, err in (
-            ("one page of two", "printf 'a\\n\\f'", 1, "", "gnuplot drew 1 pages of 2"),
-            ("pages of several heights", r"printf '\fa\nb\n\fc\n'", 0, r"^a *c\nb *\n", ""),
-            ("a colour of many numbers", r"printf '\fa\n\f\033[38;5;1;2;3;4;5;6;7;8;9;10;11;12;13;14;15mb\n'", 0, "^a *b\n", ""),
-            ("other sequences than colours", r"printf '\fa\033[1Ab\n\f\033cd\n'", 0, "^a\x1b\\[1Ab *\x1bcd *\n", "")):
-        with fake_gnuplot(tests, script) as fake:
-            done = tests.run("-c", SCENE + "step Fx=20 N\nset plot 120x18; plot loop | pressure", env={"PATH": fake + ":" + path})
-            tests.check("gnuplot draws " + name, done.returncode == status and re.search(out, done.stdout) and err in done.stderr, tests.report(done))
+    with fake_gnuplot(tests, r"printf '\fa\nb\n'") as fake:
+        done = tests.run("-c", SCENE + "step Fx=20 N\nset plot 60x18; plot loop | pressure", env={"PATH": fake + ":" + path})
+        tests.check("gnuplot draws one page of two", done.returncode == 1 and done.stdout == "a\nb\n" and "gnuplot drew nothing" in done.stderr,
+                    tests.report(done))
     html = os.path.join(tests.dir, "x.html")
     with fake_gnuplot(tests, "echo hello") as fake:
         done = tests.run("-c", plot + " to " + html, env={"PATH": fake + ":" + path})
