@@ -76,7 +76,7 @@ static char *caption_of(shell *sh, int columns) {
 }
 
 /* The figure, of a movie the last frame, on the page that is recorded. */
-static bool draw_on_page(shell *sh, const plot_figure *f, calc_error *error) {
+static bool draw_on_page(shell *sh, plot_figure *f, calc_error *error) {
     file_text svg;
     if (!file_text_open(&svg))
         return calc_no_memory(error);
@@ -91,8 +91,7 @@ static bool draw_on_page(shell *sh, const plot_figure *f, calc_error *error) {
 }
 
 /* To a file, or to the terminal. */
-static bool draw_off_page(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *movie,
-                          const char *file) {
+static bool draw_off_page(shell *sh, lexer *lx, plot_figure *f, const plot_movie *movie, const char *file) {
     file_report written;
     text_out text;
     if (!text_begin(&text, sh, movie ? TEXT_MOTION : TEXT_PICTURE, lx->error))
@@ -132,7 +131,7 @@ static bool draw_off_page(shell *sh, lexer *lx, const plot_figure *f, const plot
 }
 
 /* movie: of which the figure is the last frame, or NULL. */
-static bool draw(shell *sh, lexer *lx, const plot_figure *f, const plot_movie *movie, const char *file) {
+static bool draw(shell *sh, lexer *lx, plot_figure *f, const plot_movie *movie, const char *file) {
     const bool on_page = !file && record_on_page(sh);
     if (on_page && !draw_on_page(sh, f, lx->error)) {
         lx->error->refused |= record_alone(sh); /* no page without its figures */
@@ -237,7 +236,7 @@ static bool share_map(shell *sh, lexer *lx, panels *p) {
 }
 
 /* A replay compares no drawings. */
-static bool draw_plot(shell *sh, lexer *lx, const plot_figure *f, const char *file) {
+static bool draw_plot(shell *sh, lexer *lx, plot_figure *f, const char *file) {
     if (!sh->replaying || file)
         return draw(sh, lx, f, NULL, file);
     fprintf(sh->out, "%c\n", MARK_DRAWING);

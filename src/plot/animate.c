@@ -5,9 +5,6 @@
 
 #include "plot/script.h"
 
-/* Points of a series in a frame: less than in a still picture, there are many. */
-enum { FRAME_POINTS = 1000 };
-
 static bool fill_frame(const plot_movie *m, size_t i, plot_figure *f, plot_extents *extent, size_t panels,
                        calc_error *error) {
     if (!m->fill(m->context, i, m->frames, f, error))
@@ -16,10 +13,8 @@ static bool fill_frame(const plot_movie *m, size_t i, plot_figure *f, plot_exten
         return calc_fail(error, 0, 0,
                          f->count ? "the frames differ in their figures" : "there is nothing to plot");
     for (size_t p = 0; p < f->count; p++) {
-        plot_extents e = plot_extent_of(f->panel[p]);
+        const plot_extents e = plot_settle(f->panel[p]);
         extent[p] = i ? plot_extent_join(extent[p], e) : e;
-        for (size_t s = 0; s < f->panel[p]->count; s++)
-            plot_thin(f->panel[p]->series[s], FRAME_POINTS);
     }
     return true;
 }

@@ -30,7 +30,7 @@ static bool inside(double v, double lo, double hi) {
     return lo > hi ? inside(v, hi, lo) : !(v < lo) && !(v > hi);
 }
 
-plot_extents plot_extent_of(const plot_panel *p) {
+static plot_extents extent_of(const plot_panel *p) {
     plot_extents e = {{INFINITY, -INFINITY, !p->airy}, {INFINITY, -INFINITY, true}};
     for (size_t j = 0; j < p->count; j++) {
         const plot_series *s = p->series[j];
@@ -51,6 +51,13 @@ plot_extents plot_extent_of(const plot_panel *p) {
     for (size_t i = 0; i < p->map.ny; i++)
         span(&e.y, p->map.y[i], p->logy);
     e.y.graph = p->map.nx > 0; /* a map fills its frame */
+    return e;
+}
+
+plot_extents plot_settle(plot_panel *p) {
+    const plot_extents e = extent_of(p);
+    for (size_t i = 0; i < p->count; i++)
+        plot_thin(p->series[i], PLOT_WRITTEN);
     return e;
 }
 

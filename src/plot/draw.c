@@ -43,10 +43,9 @@ static const char foot_html[] = "</body></html>\n";
 
 /* What is no file. */
 static const plot_kind sixel = {
-    "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3, PLOT_STRAIGHT};
+    "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3};
 static const plot_kind in_page = {
-    "", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Helvetica,%.3g' enhanced background rgb 'white'", 1, 19,
-    3,  PLOT_SEEN};
+    "", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Helvetica,%.3g' enhanced background rgb 'white'", 1, 19, 3};
 
 /* Copies what gnuplot drew; every error of reading or writing is one. */
 static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error *error) {
@@ -231,9 +230,9 @@ bool plot_draw_reel(const plot_reel *reel, const plot_target *t, file_report *re
     return s.kind && to_file(&s, report, error);
 }
 
-bool plot_draw(const plot_figure *f, const plot_target *t, file_report *report, calc_error *error) {
+bool plot_draw(plot_figure *f, const plot_target *t, file_report *report, calc_error *error) {
     plot_extents extent[PLOT_PANELS];
     for (size_t i = 0; i < f->count; i++)
-        extent[i] = plot_extent_of(f->panel[i]);
+        extent[i] = plot_settle(f->panel[i]);
     return plot_draw_reel(&(plot_reel){f, f->count > 0, extent, 0}, t, report, error);
 }

@@ -21,7 +21,7 @@ enum {
     PLOT_PANELS = 6,     /* side by side */
     PLOT_CURVES = 64,    /* series of a panel */
     PLOT_KEPT = 294912,  /* points a series holds; beyond, it thins itself and keeps the extremes */
-    PLOT_WRITTEN = 2500, /* points of a series that go into a picture, about */
+    PLOT_WRITTEN = 1000, /* points of a series that go into a picture, about */
     PLOT_GRID = 500,     /* points of a map along an axis */
     PLOT_WORDS = 4,      /* within the frame of a panel */
     PLOT_FRAMES = 1000,  /* of an animation */
@@ -143,8 +143,9 @@ typedef struct plot_target {
 /* Can a picture go to the file? To be asked before long work; the error names what stands against it. */
 bool plot_check(const char *file, file_stop stop, calc_error *error);
 
-/* Draws. On failure the error, and no file left behind. The report may be NULL; it is of files only. */
-bool plot_draw(const plot_figure *f, const plot_target *target, file_report *report, calc_error *error);
+/* Draws, and thins the series to what is drawn of them. On failure the error, and no file left behind. The
+ * report may be NULL; it is of files only. */
+bool plot_draw(plot_figure *f, const plot_target *target, file_report *report, calc_error *error);
 
 /* Fills in an empty figure for frame `i` of `frames`; all frames have the same panels and series. */
 typedef bool plot_fill(void *context, size_t i, size_t frames, plot_figure *f, calc_error *error);
@@ -169,20 +170,7 @@ bool plot_animate(const plot_movie *m, const plot_target *target, file_report *r
  * gap. */
 void plot_thin(plot_series *s, size_t goal);
 
-/* What a picture shows of its axes: what they span (decades of a logarithmic one), and the part of it that
- * can be seen. */
-typedef struct plot_paper {
-    double width, height, least;
-    bool logx, logy;
-} plot_paper;
-
-/* Leaves out points of a curve or band that nobody would miss on the line between those that stay. */
-bool plot_straighten(plot_series *s, const plot_paper *paper);
-
-/* Up to `most` points that lie evenly along the way of a curve. */
-size_t plot_marks(const plot_series *s, const plot_paper *paper, size_t *at, size_t most);
-
 /* The script for gnuplot, data included, for an ending such as ".png". */
-bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to);
+bool plot_script(plot_figure *f, const char *ending, int width, int height, FILE *to);
 
 #endif

@@ -15,18 +15,16 @@ enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, HIGHER = 840, LEVELS = 9 };
 
 /* Lengths: 900 pixels are 12 cm of a page. */
 static const plot_kind kinds[] = {
-    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3, PLOT_SEEN},
-    {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3,
-     PLOT_SEEN},
+    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3},
+    {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3},
     {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / (double)WIDTH,
-     9.5, 2.2, PLOT_SEEN},
-    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2, PLOT_SEEN},
+     9.5, 2.2},
+    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2},
     {".html", PLOT_ENHANCED,
-     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3,
-     PLOT_SEEN},
+     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3},
     {".gif", PLOT_ENHANCED, "gif size %.0f,%.0f font 'Sans,%.3g' enhanced animate delay %.0f loop 0", 1, 15,
-     3, PLOT_STRAIGHT},
-    {".gp", PLOT_ENHANCED, NULL, 1, 16, 3, 0}};
+     3},
+    {".gp", PLOT_ENHANCED, NULL, 1, 16, 3}};
 
 const plot_kind *plot_kind_of(const char *file, calc_error *error) {
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
@@ -119,53 +117,6 @@ static bool is_marked(const plot_panel *p, size_t at) {
     return s->role == PLOT_CURVE && !s->thin && !p->points && plot_style_of(p, at) >= LOOKS;
 }
 
-static void write_marks(FILE *to, const plot_series *s, const plot_paper *paper) {
-    enum { ON_LINE = 8 };
-    size_t at[ON_LINE];
-    const size_t n = plot_marks(s, paper, at, ON_LINE);
-    for (size_t i = 0; i < n; i++)
-        fprintf(to, "%.9g %.9g\n", s->x[at[i]], s->y[at[i]]);
-}
-
-/* The paper of a panel; none for the script itself, which may be looked at more closely. */
-static plot_paper paper_of(const plot_panel *p, const plot_extents *e, const plot_kind *kind) {
-    const double xlo = isfinite(p->xlo) ? p->xlo : e->x.lo, xhi = isfinite(p->xhi) ? p->xhi : e->x.hi,
-                 ylo = isfinite(p->ylo) ? p->ylo : e->y.lo, yhi = isfinite(p->yhi) ? p->yhi : e->y.hi;
-    return (plot_paper){.width = fabs(p->logx ? log10(xhi / xlo) : xhi - xlo),
-                        .height = fabs(p->logy ? log10(yhi / ylo) : yhi - ylo),
-                        .least = kind->seen,
-                        .logx = p->logx,
-                        .logy = p->logy};
-}
-
-/* A copy with fewer points, so that the figure stays whole. */
-static bool write_fewer(FILE *to, const plot_panel *p, size_t at, const plot_paper *paper, bool as_marks) {
-    const plot_series *s = p->series[at];
-    const size_t bytes = s->count * sizeof *s->x;
-    plot_series copy = {.role = s->role, .count = s->count};
-    copy.x = malloc(bytes);
-    copy.y = malloc(bytes);
-    copy.y2 = s->y2 ? malloc(bytes) : NULL;
-    bool ok = copy.x && copy.y && (!s->y2 || copy.y2);
-    if (ok) {
-        memcpy(copy.x, s->x, bytes);
-        memcpy(copy.y, s->y, bytes);
-        if (s->y2)
-            memcpy(copy.y2, s->y2, bytes);
-        plot_thin(&copy, PLOT_WRITTEN);
-        if (!as_marks && (s->role == PLOT_CURVE || s->role == PLOT_BAND) && paper->least > 0 && !p->points)
-            ok = plot_straighten(&copy, paper);
-        if (as_marks)
-            write_marks(to, &copy, paper);
-        else
-            write_series(to, &copy);
-    }
-    free(copy.x);
-    free(copy.y);
-    free(copy.y2);
-    return ok;
-}
-
 static void write_map(FILE *to, const plot_map *m, const plot_target *t) {
     for (size_t j = 0; j < m->ny && !plot_stopped(t); j++) {
         for (size_t i = 0; i < m->nx; i++) {
@@ -177,20 +128,13 @@ static void write_map(FILE *to, const plot_map *m, const plot_target *t) {
 }
 
 /* Unfinished where it is stopped. */
-static bool write_data(FILE *to, const plot_reel *reel, const plot_kind *kind, const plot_target *t) {
-    bool ok = true;
+static void write_data(FILE *to, const plot_reel *reel, const plot_target *t) {
     for (size_t n = 0; n < reel->count && !plot_stopped(t); n++)
         for (size_t i = 0; i < reel->frame[n].count; i++) {
             const plot_panel *p = reel->frame[n].panel[i];
-            const plot_paper paper = paper_of(p, &reel->extent[i], kind);
             for (size_t j = 0; j < p->count; j++) {
                 fprintf(to, "$data%zu_%zu_%zu << END\n", n, i, j);
-                ok &= !p->series[j]->count || write_fewer(to, p, j, &paper, false);
-                fputs("END\n", to);
-                if (!is_marked(p, j))
-                    continue;
-                fprintf(to, "$marks%zu_%zu_%zu << END\n", n, i, j);
-                ok &= !p->series[j]->count || write_fewer(to, p, j, &paper, true);
+                write_series(to, p->series[j]);
                 fputs("END\n", to);
             }
             if (p->map.nx) {
@@ -199,7 +143,6 @@ static bool write_data(FILE *to, const plot_reel *reel, const plot_kind *kind, c
                 fputs("END\n", to);
             }
         }
-    return ok;
 }
 
 /* ---- a panel ------------------------------------------------------------------------------------ */
@@ -358,16 +301,8 @@ static void with_curve(scribe *s, const plot_panel *p, size_t at, const char *ho
     fprintf(s->to, "%s lw %.3g lc rgb '%s' dt %s", how, line, looks[style % LOOKS].color,
             looks[style % LOOKS].dash);
     if (strcmp(how, "lines") != 0)
-        fprintf(s->to, " pt %d ps %.3g", marks[(p->points ? style : mark - 1) % MARKS], 1.3 * s->scale);
-}
-
-/* A line, and marks here and there; both in the key. */
-static void draw_marked(scribe *s, const plot_panel *p, size_t at) {
-    with_curve(s, p, at, "lines");
-    fprintf(s->to, " notitle, \\\n  $marks%zu_%zu_%zu using 1:2 with ", s->frame, s->panel, at);
-    with_curve(s, p, at, "points");
-    fputs(" notitle, \\\n  NaN with ", s->to);
-    with_curve(s, p, at, "linespoints");
+        fprintf(s->to, " pt %d ps %.3g%s", marks[(p->points ? style : mark - 1) % MARKS], 1.3 * s->scale,
+                p->points ? "" : " pn 8");
 }
 
 /* One element of the plot command. */
@@ -383,10 +318,7 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
         fputs("NaN with ", s->to);
     switch (c->role) {
     case PLOT_CURVE:
-        if (is_marked(p, at) && !deep)
-            draw_marked(s, p, at);
-        else
-            with_curve(s, p, at, p->points && !c->thin ? "linespoints" : "lines");
+        with_curve(s, p, at, (p->points && !c->thin) || is_marked(p, at) ? "linespoints" : "lines");
         break;
     case PLOT_MEASURED:
         fprintf(s->to, "points pt %d ps %.3g lw %.3g lc rgb '%s'",
@@ -605,8 +537,7 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
     h += foot;
     double points = kind->font * scale * (panels > 1 ? 0.9 : 1);
     fputs("# made by fret; to see it: gnuplot -p FILE\n", to);
-    if (!write_data(to, reel, kind, t))
-        return calc_no_memory(error);
+    write_data(to, reel, t);
     if (kind->terminal) {
         fputs("set terminal ", to);
         fprintf(to, kind->terminal, w * kind->per_pixel, h * kind->per_pixel, points,
@@ -643,10 +574,10 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
     return true;
 }
 
-bool plot_script(const plot_figure *f, const char *ending, int width, int height, FILE *to) {
+bool plot_script(plot_figure *f, const char *ending, int width, int height, FILE *to) {
     plot_extents extent[PLOT_PANELS];
     for (size_t i = 0; i < f->count; i++)
-        extent[i] = plot_extent_of(f->panel[i]);
+        extent[i] = plot_settle(f->panel[i]);
     const plot_kind *kind = plot_kind_of(ending, error_quiet());
     return kind && f->count &&
            plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind,

@@ -25,7 +25,8 @@ typedef struct plot_extents {
     plot_extent x, y;
 } plot_extents;
 
-plot_extents plot_extent_of(const plot_panel *p);
+/* Thins its series to what is drawn of them. */
+plot_extents plot_settle(plot_panel *p);
 /* Of both together, as for the frames of an animation. */
 plot_extents plot_extent_join(plot_extents a, plot_extents b);
 
@@ -48,12 +49,6 @@ size_t plot_columns(const plot_figure *f);
 
 /* ---- script.c: pictures ------------------------------------------------------------------------- */
 
-/* Points are left out only where a line is straight: on terminals whose lines end on whole pixels, a curve of
- * long ones has kinks. */
-#define PLOT_STRAIGHT 1e-6
-/* Else: a tenth of a pixel at the usual size. */
-#define PLOT_SEEN (1.0 / 6000)
-
 /* A kind of picture. */
 typedef struct plot_kind {
     const char *ending;
@@ -62,7 +57,6 @@ typedef struct plot_kind {
     double per_pixel;     /* of the terminal's unit of length */
     double font;          /* at the usual size, in its own unit */
     double line;          /* width of a curve */
-    double seen;          /* how far off a line a point must lie to be drawn, of the picture; 0: all are */
 } plot_kind;
 
 /* The kind by a file's ending; NULL with the error. */
