@@ -74,7 +74,7 @@ void plot_cells_text(const plot_cells *c, int column, int row, const char *text,
 }
 
 plot_pen plot_pen_of(const plot_cells *on, const char *dash, unsigned char ink) {
-    return (plot_pen){on, dash, ink, 0, INT_MIN, INT_MIN};
+    return (plot_pen){.on = on, .dash = dash, .ink = ink, .x = INT_MIN, .y = INT_MIN};
 }
 
 static void put_dot(plot_pen *p, int x, int y) {
@@ -83,7 +83,11 @@ static void put_dot(plot_pen *p, int x, int y) {
         return;
     p->x = x;
     p->y = y;
-    if (p->dash[p->walked++ % strlen(p->dash)] == '1')
+    if (p->dash[p->walked++ % strlen(p->dash)] != '1')
+        return;
+    if (p->sign)
+        plot_cells_sign(c, x / c->across, y / c->up, p->sign, p->ink);
+    else
         plot_cells_dot(c, x, y, p->ink);
 }
 

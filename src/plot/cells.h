@@ -38,6 +38,7 @@ void plot_cells_text(const plot_cells *c, int column, int row, const char *text,
 typedef struct plot_pen {
     const plot_cells *on;
     const char *dash; /* which ones, as "1110" */
+    const char *sign; /* in place of dots; NULL: dots */
     unsigned char ink;
     size_t walked; /* dots so far */
     int x, y;      /* the last one */

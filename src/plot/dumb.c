@@ -6,8 +6,8 @@
 #include "plot/page.h"
 
 /* Of inks. As the colours of pictures, on grounds both dark and light. */
-static const char *const colors[] = {"",        "#0087ff", "#ff5f00", "#00af5f", "#d75faf",
-                                     "#d7af00", "#5fd7ff", "#878787", "#a8a8a8"};
+static const int colors[] = {0,        0x0087ff, 0xff5f00, 0x00af5f, 0xd75faf,
+                             0xd7af00, 0x5fd7ff, 0x878787, 0xa8a8a8};
 
 static void set_tics(FILE *to, char name, const page_ruler *r) {
     fprintf(to, "set %crange [%.12g:%.12g]\n", name, r->axis.flip ? r->axis.hi : r->axis.lo,
@@ -41,7 +41,7 @@ static void set_texts(const sheet *s, const plot_page *g) {
     for (size_t i = 0; i < g->entries && g->entry[i].row >= 0; i++) {
         const page_entry *e = &g->entry[i];
         set_label(s, e->sign, e->column, e->row);
-        fprintf(to, " tc rgb '%s'\n", colors[e->ink]);
+        fprintf(to, " tc rgb %d\n", colors[e->ink]);
         set_label(s, e->text, e->text_column, e->row);
         putc('\n', to);
     }
@@ -53,32 +53,24 @@ static void set_texts(const sheet *s, const plot_page *g) {
     }
 }
 
-/* The cells of a layer that nothing covers. */
-static void write_layer(FILE *to, const plot_page *g, const plot_cells *frame, size_t layer) {
-    fprintf(to, "$layer%zu << END\n", layer);
-    for (int r = 0; r < frame->rows; r++)
-        for (int c = 0; c < frame->cols; c++)
-            if (frame->cell[r * frame->stride + c].ink == layer + 1)
-                fprintf(to, "%.12g %.12g\n", page_value(&g->x, c), page_value(&g->y, g->y.cells - r));
-    fputs("END\n", to);
-}
-
+/* False: out of memory. */
 static bool draw(FILE *to, const plot_page *g) {
     plot_cells frame;
     if (!plot_cells_make(&frame, g->x.cells + 1, g->y.cells + 1, 1, 1))
         return false;
-    const bool ok = page_trace(g, &frame, true);
-    for (size_t i = 0; ok && i < page_layers(g); i++)
-        write_layer(to, g, &frame, i);
+    const bool ok = page_trace(g, &frame);
+    fputs("$cells << END\n", to);
+    for (int r = 0; r < frame.rows; r++)
+        for (int c = 0; c < frame.cols; c++) {
+            const plot_cell *cell = &frame.cell[r * frame.stride + c];
+            if (*cell->sign)
+                fprintf(to, "%.12g %.12g %d %d\n", page_value(&g->x, c), page_value(&g->y, g->y.cells - r),
+                        *cell->sign, colors[cell->ink]);
+        }
+    fputs(
+        "END\nplot NaN notitle, $cells using 1:2:(sprintf('%c', $3)):4 with labels tc rgb variable notitle\n",
+        to);
     free(frame.cell);
-    fputs("plot NaN notitle", to);
-    for (size_t i = 0; i < page_layers(g); i++) {
-        char sign[PAGE_SIGN];
-        unsigned char ink;
-        page_layer(g, i, sign, &ink);
-        fprintf(to, ", \\\n  $layer%zu with points pt '%s' lc rgb '%s'", i, sign, colors[ink]);
-    }
-    putc('\n', to);
     return ok;
 }
 

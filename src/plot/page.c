@@ -152,30 +152,10 @@ static void sign_of_level(size_t k, char sign[PAGE_SIGN], unsigned char *ink) {
     *ink = (unsigned char)(1 + k % PAGE_COLORS);
 }
 
-size_t page_layers(const plot_page *g) {
-    return g->levels + g->panel->count;
-}
-
-void page_layer(const plot_page *g, size_t layer, char sign[PAGE_SIGN], unsigned char *ink) {
-    if (layer < g->levels)
-        sign_of_level(layer, sign, ink);
-    else
-        sign_of(g, g->order[layer - g->levels], sign, ink);
-}
-
 void page_word(const plot_page *g, size_t i, int *column, int *row) {
     const double *at = g->panel->word[i].at;
     *column = g->left + (int)lround(at[0] * g->x.cells) - (int)strlen(g->panel->word[i].text) / 2;
     *row = g->top + g->y.cells - (int)lround(at[1] * g->y.cells);
-}
-
-static void put_in_order(plot_page *g) {
-    const plot_panel *p = g->panel;
-    size_t n = 0;
-    for (int l = 0; l < PLOT_LAYERS; l++)
-        for (size_t i = 0; i < p->count; i++)
-            if (plot_layer(p->series[i]) == l)
-                g->order[n++] = i;
 }
 
 /* In cells of the frame, row 0 at the top; not finite where there is no point. */
@@ -191,9 +171,10 @@ static void locate(const plot_page *g, double x, double y, double at[2]) {
 }
 
 static void trace_line(const plot_page *g, size_t at, const double *y, const plot_cells *frame,
-                       unsigned char ink) {
+                       const char *sign, unsigned char ink) {
     const plot_series *s = g->panel->series[at];
     plot_pen pen = plot_pen_of(frame, dash_of(g, at), ink);
+    pen.sign = g->braille ? NULL : sign;
     double from[2] = {NAN, NAN}, to[2];
     for (size_t i = 0; i < s->count; i++) {
         locate(g, s->x[i], y[i], to);
@@ -246,7 +227,7 @@ static int band_at(const plot_page *g, int c, int r) {
 }
 
 /* The contour of level k lies between cells with k levels below and more. */
-static bool trace_map(const plot_page *g, const plot_cells *frame, bool by_layer) {
+static bool trace_map(const plot_page *g, const plot_cells *frame) {
     char sign[PAGE_SIGN];
     unsigned char ink;
     const int w = g->x.cells + 1, h = g->y.cells + 1;
@@ -265,32 +246,34 @@ static bool trace_map(const plot_page *g, const plot_cells *frame, bool by_layer
                 if (here < 0 || east < 0 || north < 0)
                     continue;
                 if ((here <= k) != (east <= k) || (here <= k) != (north <= k))
-                    plot_cells_sign(frame, c, h - 1 - r, sign, by_layer ? (unsigned char)(k + 1) : ink);
+                    plot_cells_sign(frame, c, h - 1 - r, sign, ink);
             }
     }
     free(band);
     return true;
 }
 
-bool page_trace(const plot_page *g, const plot_cells *frame, bool by_layer) {
-    if (g->levels && !trace_map(g, frame, by_layer))
-        return false;
-    for (size_t i = g->levels; i < page_layers(g); i++) {
-        const size_t at = g->order[i - g->levels];
-        const plot_series *s = g->panel->series[at];
-        char sign[PAGE_SIGN];
-        unsigned char ink;
-        page_layer(g, i, sign, &ink);
-        ink = by_layer ? (unsigned char)(i + 1) : ink;
-        if (s->role == PLOT_BAND && !s->y2)
-            continue;
-        if (!is_line(s))
-            trace_points(g, s, frame, sign, ink);
-        else
-            trace_line(g, at, s->y, frame, ink);
+static void trace_series(const plot_page *g, size_t at, const plot_cells *frame) {
+    const plot_series *s = g->panel->series[at];
+    char sign[PAGE_SIGN];
+    unsigned char ink;
+    sign_of(g, at, sign, &ink);
+    if (!is_line(s)) {
+        trace_points(g, s, frame, sign, ink);
+    } else if (s->role != PLOT_BAND || s->y2) {
+        trace_line(g, at, s->y, frame, sign, ink);
         if (s->y2)
-            trace_line(g, at, s->y2, frame, ink);
+            trace_line(g, at, s->y2, frame, sign, ink);
     }
+}
+
+bool page_trace(const plot_page *g, const plot_cells *frame) {
+    if (g->levels && !trace_map(g, frame))
+        return false;
+    for (int layer = 0; layer < PLOT_LAYERS; layer++)
+        for (size_t i = 0; i < g->panel->count; i++)
+            if (plot_layer(g->panel->series[i]) == layer)
+                trace_series(g, i, frame);
     return true;
 }
 
@@ -438,7 +421,6 @@ bool page_make(plot_page *g, const plot_panel *panel, const plot_extents *extent
                      .rows = panel->below ? (pages->rows + LEAST_ROWS) / 2 : pages->rows};
     if (!plot_axes(panel, extent, false, &x, &y, error))
         return false;
-    put_in_order(g);
     g->levels = panel->map.nx ? plot_levels(&panel->map, g->level, PAGE_LEVELS) : 0;
     bool ok = take_key(g);
     if (ok) {

@@ -54,7 +54,6 @@ typedef struct plot_page {
     int key_rows;
     double level[PAGE_LEVELS];
     size_t levels;
-    size_t order[PLOT_CURVES]; /* of the series, from below */
 } plot_page;
 
 /* False with the error, and nothing is to be freed. */
@@ -64,11 +63,8 @@ void page_free(plot_page *g);
 
 /* Where a word within the frame begins. */
 void page_word(const plot_page *g, size_t i, int *column, int *row);
-/* What is drawn in the frame, from below: the levels of a map, then the series. */
-size_t page_layers(const plot_page *g);
-void page_layer(const plot_page *g, size_t layer, char sign[PAGE_SIGN], unsigned char *ink);
-/* All of them on the cells of the frame. by_layer: the ink is the number of the layer, from 1. False: out of
+/* What is drawn in the frame, on its cells, from below: the levels of a map, then the series. False: out of
  * memory. */
-bool page_trace(const plot_page *g, const plot_cells *frame, bool by_layer);
+bool page_trace(const plot_page *g, const plot_cells *frame);
 
 #endif

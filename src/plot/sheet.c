@@ -58,7 +58,7 @@ static bool draw_page(const plot_page *g, const plot_cells *page) {
     draw_x_tics(g, page);
     draw_border(g, page);
     draw_texts(g, page);
-    const bool ok = page_trace(g, &frame, false);
+    const bool ok = page_trace(g, &frame);
     for (size_t i = 0; i < g->panel->words; i++) {
         int column, row;
         page_word(g, i, &column, &row);
