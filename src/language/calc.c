@@ -142,12 +142,19 @@ static bool read_parameters(lexer *lx, char (*parameter)[LEX_NAME], unsigned *co
     return true;
 }
 
+/* That of an input; NULL: there is none. */
+static const assignment *of_input(const assignment *all, size_t count, input in) {
+    for (; count > 0; all++, count--)
+        if (all->q && quantity_input(all->q) == in)
+            return all;
+    return NULL;
+}
+
 /* The dimension that an input must have: that of A depends on n, which may be given beside it. */
 static dim wanted_dim(const calc *c, const quantity *q, const assignment *all, size_t count) {
     dim d = quantity_dim(q, &c->scene);
-    for (size_t i = 0; i < count && quantity_input(q) == IN_A; i++)
-        if (all[i].q && quantity_input(all[i].q) == IN_N)
-            d.m = 1 - (double)all[i].v.v;
+    const assignment *n = quantity_input(q) == IN_A ? of_input(all, count, IN_N) : NULL;
+    d.m = n ? 1 - (double)n->v.v : d.m;
     return d;
 }
 
@@ -235,13 +242,9 @@ typedef struct assigned {
 
 /* n alone would make another gap of A, and A belongs to no h and r0. */
 static bool power_holds(const calc *c, lexer *lx, const assignment *all, size_t count) {
-    const assignment *n = NULL, *A = NULL, *h = NULL;
-    for (size_t i = 0; i < count; i++) {
-        const input in = all[i].q ? quantity_input(all[i].q) : INPUTS;
-        n = in == IN_N ? &all[i] : n;
-        A = in == IN_A ? &all[i] : A;
-        h = in == IN_H || in == IN_R0 ? &all[i] : h;
-    }
+    const assignment *n = of_input(all, count, IN_N), *A = of_input(all, count, IN_A),
+                     *h = of_input(all, count, IN_H);
+    h = h ? h : of_input(all, count, IN_R0);
     if (n && !A && c->scene.in.set[IN_A])
         return calc_fail(lx->error, n->at, n->len,
                          "A belongs to the n it was given with: set both (n = 3, A = 50 m^-2)");
@@ -260,15 +263,6 @@ static void put_assigned(inputs *in, void *context) {
         else
             inputs_put(in, which, (double)a->v.v);
     }
-}
-
-/* That of an input; NULL: there is none. */
-static const assignment *of_input(const assignment *all, size_t count, input in) {
-    const assignment *of = NULL;
-    for (size_t i = 0; i < count; i++)
-        if (all[i].q && quantity_input(all[i].q) == in)
-            of = &all[i];
-    return of;
 }
 
 /* Where nothing is pressed yet F_N presses, and what else is given goes before. A definition of F_N has its
@@ -290,11 +284,8 @@ static bool press_with(scene *s, assigned job, const assignment *FN, calc_error 
 
 /* Would the cycle slip because its amplitude stays while others change? */
 static bool amplitude_is_left(const calc_error *error, const assignment *all, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (all[i].q && quantity_input(all[i].q) == IN_FA)
-            return false;
-    return error->kind == ERROR_STATUS && error->status.code == FRET_GROSS_SLIP &&
-           !strcmp(error->status.quantity, "FA");
+    return !of_input(all, count, IN_FA) && error->kind == ERROR_STATUS &&
+           error->status.code == FRET_GROSS_SLIP && !strcmp(error->status.quantity, "FA");
 }
 
 /* A live definition may wait for what it needs, but not for itself; nor can its dimensions be mended later.
@@ -395,10 +386,6 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
     if (!undo_name(c, i))
         return calc_no_memory(lx->error);
     names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);
-    calc_error deep;
-    error_clear(&deep);
-    if (a->d && !expr_levels_hold(c, &deep))
-        return calc_fail(lx->error, a->value_at, a->value_len, "%s", deep.text);
     return !a->d || name_holds(c, lx, a);
 }
 

@@ -184,7 +184,8 @@ static bool enter(calc *c, const definition *d, calc_error *error) {
     for (size_t i = 0; i < c->chain_length; i++)
         if (c->chain[i] == d)
             return circle(c, d->label, error);
-    if (c->chain_length == CHAIN)
+    error->strange = c->chain_length == CHAIN; /* no other value would help */
+    if (error->strange)
         return calc_fail(error, 0, 0, "live definitions are nested more than %d deep", CHAIN);
     c->chain[c->chain_length++] = d;
     return true;

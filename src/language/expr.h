@@ -71,8 +71,6 @@ const expr *expr_meant(const struct calc *c, const expr *e);
  */
 definition *definition_parse(struct calc *c, lexer *lx, const char *label, size_t len,
                              char (*parameter)[LEX_NAME], unsigned parameters);
-/* Are the definitions of all names no more levels deep than can be evaluated? */
-bool expr_levels_hold(const struct calc *c, calc_error *error);
 /* The value of a definition without parameters in the scene c->now; a circle is an error that names it. */
 bool definition_value(struct calc *c, definition *d, value *out, calc_error *error);
 

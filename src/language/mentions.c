@@ -16,26 +16,19 @@ size_t way_step(char *way, size_t size, const char *name, const char *text) {
     return size;
 }
 
-enum { UNSEEN = -1 };
-
-/* No definition has been looked into yet: each is, once, however often it is mentioned. */
-static void look_anew(const calc *c) {
-    for (size_t i = 0; i < c->names.count; i++)
-        c->names.row[i].levels = UNSEEN;
-}
-
-/* way: where there is one, "b -> c -> " of the definitions that lead to the name. */
+/* way: where there is one, "b -> c -> " of the definitions that lead to the name. Each definition is looked
+ * into once, however often it is mentioned, and none that is deeper than can be evaluated. */
 static bool mentions(const calc *c, const expr *e, const quantity *q, const char *name, char *way,
-                     size_t size) {
+                     size_t size, int deep) {
     for (size_t i = 0; i < e->count; i++) {
         const expr_node *n = &e->nodes[i];
         if (q && (n->kind == N_QUANTITY || n->kind == N_CALL) && n->q == q)
             return true;
         const bool holds = n->kind == N_AT || n->kind == N_OVER;
-        if (holds && mentions(c, &n->changed->body, q, name, way, size))
+        if (holds && mentions(c, &n->changed->body, q, name, way, size, deep))
             return true;
         for (size_t j = 0; holds && j < n->changed->count; j++)
-            if (mentions(c, &n->changed->change[j].value, q, name, way, size))
+            if (mentions(c, &n->changed->change[j].value, q, name, way, size, deep))
                 return true;
         if (n->kind != N_NAME && n->kind != N_APPLY)
             continue;
@@ -43,11 +36,11 @@ static bool mentions(const calc *c, const expr *e, const quantity *q, const char
         const definition *d = (const definition *)row->definition;
         if (name && !strcmp(row->text, name))
             return true;
-        if (row->levels != UNSEEN)
+        if (row->seen || !d || deep > CHAIN)
             continue;
-        row->levels = 0;
-        const size_t step = d ? way_step(way, size, row->text, NULL) : 0;
-        if (d && mentions(c, &d->body, q, name, way ? way + step : NULL, size - step))
+        row->seen = true;
+        const size_t step = way_step(way, size, row->text, NULL);
+        if (mentions(c, &d->body, q, name, way ? way + step : NULL, size - step, deep + 1))
             return true;
         if (step)
             way[0] = 0;
@@ -55,52 +48,19 @@ static bool mentions(const calc *c, const expr *e, const quantity *q, const char
     return false;
 }
 
-bool expr_mentions(const calc *c, const expr *e, const quantity *q, const char *name) {
-    look_anew(c);
-    return mentions(c, e, q, name, NULL, 0);
+static bool look(const calc *c, const expr *e, const quantity *q, const char *name, char *way, size_t size) {
+    for (size_t i = 0; i < c->names.count; i++)
+        c->names.row[i].seen = false;
+    return mentions(c, e, q, name, way, size, 0);
 }
 
 bool expr_way(const calc *c, const expr *e, const char *name, char *way, size_t size) {
     way[0] = 0;
-    look_anew(c);
-    return mentions(c, e, NULL, name, way, size);
+    return look(c, e, NULL, name, way, size);
 }
 
-/* How many definitions lead into each other below the expression. */
-static int levels_below(const calc *c, const expr *e) {
-    int most = 0;
-    for (size_t i = 0; i < e->count; i++) {
-        const expr_node *n = &e->nodes[i];
-        int here = 0;
-        if (n->kind == N_AT || n->kind == N_OVER) {
-            here = levels_below(c, &n->changed->body);
-            for (size_t j = 0; j < n->changed->count; j++) {
-                const int more = levels_below(c, &n->changed->change[j].value);
-                here = more > here ? more : here;
-            }
-        } else if (n->kind == N_NAME || n->kind == N_APPLY) {
-            own_name *row = &c->names.row[n->index];
-            const definition *d = (const definition *)row->definition;
-            if (row->levels == UNSEEN) {
-                row->levels =
-                    0; /* of a circle through what inputs are bound to, which is refused elsewhere */
-                row->levels = d ? 1 + levels_below(c, &d->body) : 0;
-            }
-            here = row->levels;
-        }
-        most = here > most ? here : most;
-    }
-    return most;
-}
-
-bool expr_levels_hold(const calc *c, calc_error *error) {
-    look_anew(c);
-    for (size_t i = 0; i < c->names.count; i++) {
-        const definition *d = (const definition *)c->names.row[i].definition;
-        if (d && levels_below(c, &d->body) >= CHAIN)
-            return calc_fail(error, 0, 0, "live definitions are nested more than %d deep", CHAIN);
-    }
-    return true;
+bool expr_mentions(const calc *c, const expr *e, const quantity *q, const char *name) {
+    return look(c, e, q, name, NULL, 0);
 }
 
 const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at) {

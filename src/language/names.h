@@ -12,13 +12,12 @@ typedef struct own_name {
     counted *definition; /* NULL: a value */
     bool known;          /* it has been given, and not taken back */
     bool woken;          /* it had been taken back: a range knows it for a while */
-    int levels;          /* of definitions that lead into each other, while they are looked through */
+    bool seen;           /* while definitions that lead into each other are looked through */
 } own_name;
 
 typedef struct own_names {
     own_name *row;
     size_t count, room;
-    size_t *slots; /* hashed by text: 1 + index, or 0 */
 } own_names;
 
 void names_free(own_names *n);
