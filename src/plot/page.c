@@ -344,6 +344,25 @@ static int sign_columns(const plot_page *g) {
     return most;
 }
 
+/* From that row on; the rows that the entries take. Those below the page are not shown. */
+static int place_entries(plot_page *g, int row) {
+    const int sign = sign_columns(g), first = row;
+    int column = g->key_right ? g->left + g->x.cells + 3 : 2;
+    for (size_t i = 0; i < g->entries; i++) {
+        page_entry *e = &g->entry[i];
+        const int w = columns_of(e->text) + sign + 4;
+        if (i > 0 && (g->key_right || column + w - 2 > g->columns)) {
+            row++;
+            column = g->key_right ? column : 2;
+        }
+        e->column = column;
+        e->text_column = column + sign + 1;
+        e->row = row < g->rows ? row : -1;
+        column += g->key_right ? 0 : w;
+    }
+    return g->entries ? row - first + 1 : 0;
+}
+
 /* The room that the key takes. */
 static void place_key(plot_page *g) {
     int longest = 0;
@@ -351,43 +370,11 @@ static void place_key(plot_page *g) {
         const int c = columns_of(g->entry[i].text);
         longest = c > longest ? c : longest;
     }
-    const int sign = sign_columns(g);
+    const int sign = sign_columns(g), most = (g->rows - 4) / 2; /* more would leave no picture */
     g->key_right = g->entries && longest + sign + 3 <= g->columns / 4 && (int)g->entries <= g->rows - 4;
-    g->key_rows = 0;
+    g->key_rows = g->key_right ? 0 : place_entries(g, 0);
+    g->key_rows = g->key_rows < most ? g->key_rows : most;
     g->right = g->key_right ? longest + sign + 5 : 3;
-    int at = 0;
-    for (size_t i = 0; i < g->entries && !g->key_right; i++) { /* rows of entries below */
-        const int w = columns_of(g->entry[i].text) + sign + 4;
-        if (!g->key_rows || at + w > g->columns) {
-            g->key_rows++;
-            at = 0;
-        }
-        at += w;
-    }
-    /* a key of half the page would leave no picture */
-    if (g->key_rows > (g->rows - 4) / 2)
-        g->key_rows = (g->rows - 4) / 2;
-}
-
-static void place_entries(plot_page *g) {
-    const int sign = sign_columns(g), last = g->rows - 1;
-    int column = g->key_right ? g->left + g->x.cells + 3 : 2,
-        row = g->key_right ? g->top : g->rows - g->key_rows;
-    for (size_t i = 0; i < g->entries; i++) {
-        page_entry *e = &g->entry[i];
-        const int w = columns_of(e->text) + sign + 4;
-        if (!g->key_right && column > 2 && column + w - 2 > g->columns) {
-            column = 2;
-            row++;
-        }
-        e->column = column;
-        e->text_column = column + sign + 1;
-        e->row = row <= last ? row : -1;
-        if (g->key_right)
-            row++;
-        else
-            column += w;
-    }
 }
 
 /* ---- the page ----------------------------------------------------------------------------------- */
@@ -408,7 +395,7 @@ static void place_frame(plot_page *g, const plot_axis *x, const plot_axis *y) {
     }
     /* what is over goes below and to the right */
     g->rows -= height - g->y.cells;
-    place_entries(g);
+    place_entries(g, g->key_right ? g->top : g->rows - g->key_rows);
 }
 
 bool page_make(plot_page *g, const plot_panel *panel, const plot_extents *extent, const plot_target *target,

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "text/characters.h"
+#include "text/lines.h"
 
 enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, HIGHER = 840, LEVELS = 9 };
 
@@ -31,13 +32,8 @@ const plot_kind *plot_kind_of(const char *file, calc_error *error) {
         if (file_ends(file, kinds[i].ending))
             return &kinds[i];
     char endings[80] = "";
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        size_t n = strlen(endings), left = sizeof kinds / sizeof *kinds - i;
-        snprintf(endings + n, sizeof endings - n, "%s%s", kinds[i].ending,
-                 left > 2    ? ", "
-                 : left == 2 ? " or "
-                             : "");
-    }
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        list_word(endings, sizeof endings, kinds[i].ending, i + 1 == sizeof kinds / sizeof *kinds);
     calc_fail(error, 0, 0, "cannot tell the kind of picture from '%s': use %s", file, endings);
     return NULL;
 }

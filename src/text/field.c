@@ -4,6 +4,7 @@
 #include "text/field.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "text/lex.h"
@@ -69,16 +70,12 @@ bool field_is_missing(field f) {
                                         "-1.#ind", "na",      "n/a",     "no data",  "null",      "#div/0!",
                                         "#n/a",    "#nv",     "#value!", "#wert!",   "#num!",     "#zahl!",
                                         "#ref!",   "#bezug!", "#name?",  "#null!"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == f.len) {
-            size_t n = 0;
-            while (n < f.len &&
-                   (f.text[n] | (f.text[n] >= 'A' && f.text[n] <= 'Z' ? 0x20 : 0)) == words[i][n])
-                n++;
-            if (n == f.len)
-                return true;
-        }
-    return f.len == 0;
+    char word[16];
+    bool found = f.len == 0;
+    snprintf(word, sizeof word, "%.*s", f.len < sizeof word ? (int)f.len : 0, f.text);
+    for (size_t i = 0; i < sizeof words / sizeof *words && *word; i++)
+        found = found || same_but_case(word, words[i]);
+    return found;
 }
 
 bool cell_next(char separator, const char *line, size_t len, size_t *at, const unit *u, cell *out) {

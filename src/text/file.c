@@ -19,6 +19,15 @@ static bool cannot_write(const file_out *out, int code, calc_error *error) {
     return calc_errno(error, code, "cannot write %s", out->name);
 }
 
+static char *joined(const char *path, size_t n, const char *name) {
+    char *text = malloc(n + strlen(name) + 1);
+    if (text) {
+        memcpy(text, path, n);
+        strcpy(text + n, name);
+    }
+    return text;
+}
+
 char *file_expand(const char *name) {
     const char *home = NULL;
     if (name[0] == '~' && (name[1] == '/' || !name[1])) {
@@ -27,15 +36,7 @@ char *file_expand(const char *name) {
         if (user)
             home = user->pw_dir;
     }
-    if (!home || !*home)
-        return strdup(name);
-    size_t n = strlen(home), rest = strlen(name + 1) + 1;
-    char *path = malloc(n + rest);
-    if (path) {
-        memcpy(path, home, n);
-        memcpy(path + n, name + 1, rest);
-    }
-    return path;
+    return home && *home ? joined(home, strlen(home), name + 1) : strdup(name);
 }
 
 size_t file_own_path(char path[FILE_PATH], const char *variable, const char *otherwise, const char *file) {
@@ -51,35 +52,12 @@ size_t file_own_path(char path[FILE_PATH], const char *variable, const char *oth
 /* The directory of a path with its slash, and `name` in it. */
 static char *beside(const char *path, const char *name) {
     const char *slash = strrchr(path, '/');
-    size_t dir = slash ? (size_t)(slash - path) + 1 : 0, n = strlen(name) + 1;
-    char *joined = malloc(dir + n);
-    if (joined) {
-        memcpy(joined, path, dir);
-        memcpy(joined + dir, name, n);
-    }
-    return joined;
+    return joined(path, slash ? (size_t)(slash - path) + 1 : 0, name);
 }
 
 bool file_ends(const char *name, const char *ending) {
     const size_t n = strlen(name), m = strlen(ending);
     return n >= m && !strcmp(name + n - m, ending);
-}
-
-/* The text of a link; NULL with errno, EINVAL where there is no link. */
-static char *link_text(const char *path) {
-    for (size_t room = 256;; room *= 2) {
-        char *text = malloc(room);
-        ssize_t n = text ? readlink(path, text, room) : -1;
-        if (n >= 0 && (size_t)n < room) {
-            text[n] = 0;
-            return text;
-        }
-        int code = errno;
-        free(text);
-        errno = text ? code : ENOMEM;
-        if (n < 0)
-            return NULL;
-    }
 }
 
 /* The descriptor that a name such as /dev/stdout or /dev/fd/3 stands for, or -1. */
@@ -109,12 +87,12 @@ static int follow_links(file_out *out) {
     for (int i = 0; i < LINKS; i++) {
         if (descriptor(out->real) >= 0)
             return 0;
-        char *text = link_text(out->real);
-        if (!text)
+        char text[FILE_PATH];
+        const ssize_t n = readlink(out->real, text, sizeof text - 1);
+        if (n < 0)
             return errno == EINVAL || errno == ENOENT ? 0 : errno;
-        char *next = *text == '/' ? text : beside(out->real, text);
-        if (next != text)
-            free(text);
+        text[n] = 0;
+        char *next = *text == '/' ? strdup(text) : beside(out->real, text);
         if (!next)
             return ENOMEM;
         free(out->real);

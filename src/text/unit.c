@@ -129,11 +129,17 @@ bool dim_equal(dim a, dim b) {
     return fabs(a.N - b.N) < 1e-9 && fabs(a.m - b.m) < 1e-9 && fabs(a.s - b.s) < 1e-9;
 }
 
-static const struct {
+/* dim_equal takes an angle for a number, as expressions do. */
+static bool dim_is_angle(dim d) {
+    return d.rad == 1 && dim_equal(d, DIM_NONE);
+}
+
+static const struct named {
     dim d;
     const char *unit, *phrase;
     bool prefixes;
 } named[] = {
+    {{0, 0, 1, 0}, "rad", "an angle", false}, /* the first */
     {{0, 0, 0, 0}, "", "a number", false},
     {{1, 0, 0, 0}, "N", "a force", true},
     {{0, 1, 0, 0}, "m", "a length", true},
@@ -154,6 +160,14 @@ static const struct {
 };
 enum { NAMED = sizeof named / sizeof *named };
 
+/* NULL: none. */
+static const struct named *find_named(dim d) {
+    for (size_t i = dim_is_angle(d) ? 0 : 1; i < NAMED; i++)
+        if (dim_equal(d, named[i].d))
+            return &named[i];
+    return NULL;
+}
+
 /* snprintf would do, in 40 ns */
 static void put_text(const char *text, char *buf, size_t size) {
     size_t n = strlen(text) < size ? strlen(text) : size - 1;
@@ -161,21 +175,12 @@ static void put_text(const char *text, char *buf, size_t size) {
     buf[n] = 0;
 }
 
-/* dim_equal takes an angle for a number, as expressions do. */
-static bool is_angle(dim d) {
-    return d.rad == 1 && dim_equal(d, DIM_NONE);
-}
-
 void dim_unit(dim d, char *buf, size_t size) {
-    if (is_angle(d)) {
-        put_text("rad", buf, size);
+    const struct named *row = find_named(d);
+    if (row) {
+        put_text(row->unit, buf, size);
         return;
     }
-    for (size_t i = 0; i < NAMED; i++)
-        if (dim_equal(d, named[i].d)) {
-            put_text(named[i].unit, buf, size);
-            return;
-        }
     const struct {
         const char *name;
         double power;
@@ -197,16 +202,12 @@ void dim_unit(dim d, char *buf, size_t size) {
 }
 
 void dim_describe(dim d, char *buf, size_t size) {
-    if (is_angle(d)) {
-        put_text("an angle", buf, size);
+    const struct named *row = find_named(d);
+    char unit_text[96];
+    if (row) {
+        put_text(row->phrase, buf, size);
         return;
     }
-    for (size_t i = 0; i < NAMED; i++)
-        if (dim_equal(d, named[i].d)) {
-            put_text(named[i].phrase, buf, size);
-            return;
-        }
-    char unit_text[96];
     dim_unit(d, unit_text, sizeof unit_text);
     snprintf(buf, size, "a quantity in %s", unit_text);
 }
@@ -217,15 +218,13 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
         long double scale;
     } steps[] = {{"G", 1e9L}, {"M", 1e6L}, {"k", 1e3L}, {"", 1}, {"m", 1e-3L}, {"u", 1e-6L}, {"n", 1e-9L}};
     enum { STEPS = sizeof steps / sizeof *steps };
-    if (is_angle(d)) {
+    if (dim_is_angle(d)) {
         put_text("deg", buf, size);
         return 3.14159265358979323846264338327950288L / 180;
     }
     dim_unit(d, buf, size);
-    size_t i = 0;
-    while (i < NAMED && !dim_equal(d, named[i].d))
-        i++;
-    if (i == NAMED || !named[i].prefixes || value == 0 || !isfinite(value))
+    const struct named *row = find_named(d);
+    if (!row || !row->prefixes || value == 0 || !isfinite(value))
         return 1;
     /* what prints as 1000 belongs to the next prefix */
     static const long double half[] = {0.5L,   5e-2L,  5e-3L,  5e-4L,  5e-5L,  5e-6L,
@@ -238,6 +237,6 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
     if (j == STEPS || fabsl(value) >= 1e12L)
         return 1;
     put_text(steps[j].name, buf, size);
-    put_text(named[i].unit, buf + strlen(buf), size - strlen(buf));
+    put_text(row->unit, buf + strlen(buf), size - strlen(buf));
     return steps[j].scale;
 }
