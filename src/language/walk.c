@@ -21,7 +21,7 @@ static bool same_bodies(const inputs *a, const inputs *b) {
            inputs_same(a, b, wears ? ~(input_set)0 : ~(INPUT_CYCLE | INPUT_PRESS));
 }
 
-static bool same_item(const load_item *a, const load_item *b) {
+bool walk_same_item(const load_item *a, const load_item *b) {
     const load_step *s = &a->step, *t = &b->step;
     return s->kind == t->kind && s->normal == t->normal && s->tangential == t->tangential &&
            s->relative == t->relative && s->normal_value == t->normal_value &&
@@ -36,7 +36,7 @@ static load_mark same_items(const walk *w, const scene *s, size_t last_cycle) {
     while (at.steps < end.steps && at.steps < s->end.steps) {
         const load_item mine = program_item(w->scene.program, at, NO_CYCLE, &w->scene.in);
         const load_item its = program_item(s->program, at, last_cycle, &s->in);
-        if (!same_item(&mine, &its))
+        if (!walk_same_item(&mine, &its))
             break;
         at.steps++;
         at.cycles += mine.step.kind == LOAD_CYCLE;

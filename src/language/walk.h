@@ -28,5 +28,7 @@ void walk_more(walk *w);
 void walk_enter(walk *w, calc *c);
 void walk_leave(walk *w, calc *c);
 void walk_end(walk *w);
+/* Do they load alike? */
+bool walk_same_item(const load_item *a, const load_item *b);
 
 #endif

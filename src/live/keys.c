@@ -337,7 +337,7 @@ static void help(live *l) {
 static void page_key(live *l, int key) {
     const bool next = key == ' ' || key == KEY_DOWN || key == KEY_NPAGE,
                before = key == KEY_UP || key == KEY_PPAGE;
-    const size_t rows = LINES > 4 ? (size_t)LINES - 3 : 1;
+    const int rows = LINES > 4 ? LINES - 3 : 1;
     l->changed = true;
     if (next && l->page_from + rows < page_rows(l->page)) {
         l->page_from += rows;

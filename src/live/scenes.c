@@ -193,15 +193,14 @@ static void start_play(live *l) {
     l->play_at = 0;
 }
 
-static void cycle_text(const live *l, double FA, double FNA, double phase, char *text, size_t size) {
+static void cycle_text(const live *l, char text[LIVE_TEXT]) {
     char force[40], swing[40];
-    live_amount(FA, DIM_FORCE, force, sizeof force);
-    live_amount(FNA, DIM_FORCE, swing, sizeof swing);
-    (void)l;
-    if (FNA > 0)
-        snprintf(text, size, "cycle FA=%s FNA=%s phase=%g deg", force, swing, phase);
+    live_amount(l->FA, DIM_FORCE, force, sizeof force);
+    live_amount(l->FNA, DIM_FORCE, swing, sizeof swing);
+    if (l->FNA > 0)
+        snprintf(text, LIVE_TEXT, "cycle FA=%s FNA=%s phase=%g deg", force, swing, l->phase);
     else
-        snprintf(text, size, "cycle FA=%s", force);
+        snprintf(text, LIVE_TEXT, "cycle FA=%s", force);
 }
 
 static bool last_cycle(const live *l, load_item *out) {
@@ -218,35 +217,29 @@ static void remember_cycle(live *l) {
 
 /* Is the cycle to play the one that was said last? Then its periods go on, without a new statement. */
 static bool goes_on(const live *l) {
-    const load_item *said = &l->said;
+    char text[LIVE_TEXT];
     load_item now;
-    return l->FA == l->said_FA && l->FNA == l->said_FNA && (l->FNA == 0 || l->phase == l->said_phase) &&
-           l->host->calc->undo.count == l->said_changes && last_cycle(l, &now) &&
-           now.extra.times == said->extra.times && now.step.tangential == said->step.tangential &&
-           now.step.tangential_value == said->step.tangential_value &&
-           now.step.normal_value == said->step.normal_value && now.extra.phase == said->extra.phase;
+    cycle_text(l, text);
+    return !strcmp(text, l->said_as) && l->host->calc->undo.count == l->said_changes && last_cycle(l, &now) &&
+           walk_same_item(&l->said, &now);
 }
 
 static void one_more(live *l) {
-    char text[LIVE_TEXT];
     for (size_t i = 0; i < live_sides(l); i++)
         if (!*l->side[i].trouble)
             way_more(&l->side[i].way);
     l->periods++;
-    cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
-    live_tell(l, false, "%s times %u", text, l->periods);
+    live_tell(l, false, "%s times %u", l->said_as, l->periods);
 }
 
 static void start_cycle(live *l) {
     char text[LIVE_TEXT];
-    cycle_text(l, l->FA, l->FNA, l->phase, text, sizeof text);
-    if (!live_say(l, "%s", text))
+    cycle_text(l, text);
+    if (!live_say_line(l, text))
         return;
     remember_cycle(l);
+    memcpy(l->said_as, text, sizeof text);
     l->follow = true;
-    l->said_FA = l->FA;
-    l->said_FNA = l->FNA;
-    l->said_phase = l->phase;
     l->periods = 1;
     start_play(l);
 }
@@ -272,12 +265,11 @@ void live_play_item(live *l) {
 
 /* One statement with all periods played, in place of the one that has been undone. */
 static void say_periods(live *l) {
-    char text[LIVE_TEXT], line[LIVE_LINE], why[LIVE_LINE];
-    cycle_text(l, l->said_FA, l->said_FNA, l->said_phase, text, sizeof text);
-    snprintf(line, sizeof line, "%s times %u", text, l->periods);
+    char line[LIVE_LINE], why[LIVE_LINE];
+    snprintf(line, sizeof line, "%s times %u", l->said_as, l->periods);
     if (!say_line(l, line)) { /* interrupted, perhaps: say the cycle as it was before */
         memcpy(why, l->status, sizeof why);
-        snprintf(line, sizeof line, "%s times %u", text, l->said.extra.times);
+        snprintf(line, sizeof line, "%s times %u", l->said_as, l->said.extra.times);
         say_line(l, line);
         live_tell(l, true, "%s", why);
     }

@@ -9,21 +9,21 @@
 
 static void drop_lines(live_script *s) {
     for (size_t i = 0; i < s->count; i++)
-        free(s->line[i]);
+        free(s->line[i].text);
     s->count = 0;
 }
 
 /* A logical line becomes one line. */
 static bool add_script_line(live *l, const char *line) {
     live_script *s = &l->script;
-    char **grown = realloc(s->line, (s->count + 1) * sizeof *grown);
-    if (!grown)
+    struct live_line *grown = realloc(s->line, (s->count + 1) * sizeof *grown);
+    char *kept = strdup(line + strspn(line, " \t"));
+    s->line = grown ? grown : s->line;
+    if (!grown || !kept) {
+        free(kept);
         return false;
-    s->line = grown;
-    char *kept = s->line[s->count] = strdup(line + strspn(line, " \t"));
-    if (!kept)
-        return false;
-    s->count++;
+    }
+    s->line[s->count++] = (struct live_line){.text = kept};
     for (char *end = kept; (end = strchr(end, '\n')) != NULL;)
         *end = ' ';
     return true;
@@ -45,19 +45,13 @@ bool script_open(live *l, const char *path, calc_error *error) {
             ok = file_in_rest(&in, error) == FILE_GOT_LINE && add_script_line(l, in.line);
     }
     file_in_close(&in);
-    s->undo = calloc(s->count + 1, sizeof *s->undo);
-    s->steps = calloc(s->count + 1, sizeof *s->steps);
-    if (!ok || !s->undo || !s->steps)
-        return calc_no_memory(error);
-    return got == FILE_GOT_END;
+    return ok ? got == FILE_GOT_END : calc_no_memory(error);
 }
 
 void script_close(live *l) {
     live_script *s = &l->script;
     drop_lines(s);
     free(s->line);
-    free(s->undo);
-    free(s->steps);
     *s = (live_script){.line = NULL};
 }
 
@@ -69,8 +63,8 @@ static bool is_comment(const char *line) {
 static void take_note(live *l) {
     live_script *s = &l->script;
     l->note[0] = 0;
-    for (; s->at < s->count && is_comment(s->line[s->at]); s->at++) {
-        const char *text = s->line[s->at] + strspn(s->line[s->at], "# ");
+    for (; s->at < s->count && is_comment(s->line[s->at].text); s->at++) {
+        const char *text = s->line[s->at].text + strspn(s->line[s->at].text, "# ");
         const size_t n = strlen(l->note);
         if (*text)
             snprintf(l->note + n, sizeof l->note - n, "%s%s", n ? " " : "", text);
@@ -88,16 +82,16 @@ void script_on(live *l) {
         live_update(l);
         return;
     }
-    if (is_comment(s->line[s->at])) {
+    if (is_comment(s->line[s->at].text)) {
         take_note(l);
         live_update(l);
         return;
     }
-    const size_t steps = s->steps[s->at] = c->scene.end.steps;
-    s->undo[s->at] = c->undo.count;
-    const char *line = s->line[s->at++];
+    struct live_line *line = &s->line[s->at++];
+    const size_t steps = line->steps = c->scene.end.steps;
+    line->undo = c->undo.count;
     take_note(l);
-    if (live_say_line(l, line) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
+    if (live_say_line(l, line->text) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
         live_play_item(l);
 }
 
@@ -109,17 +103,17 @@ void script_back(live *l) {
     live_script *s = &l->script;
     const calc *c = l->host->calc;
     size_t to = s->at;
-    while (to > 0 && is_comment(s->line[to - 1]))
+    while (to > 0 && is_comment(s->line[to - 1].text))
         to--;
     if (to == 0) {
         live_tell(l, false, "the beginning of the script");
         return;
     }
     l->note[0] = 0;
-    while (c->undo.count > s->undo[to - 1] || c->scene.end.steps > s->steps[to - 1])
+    while (c->undo.count > s->line[to - 1].undo || c->scene.end.steps > s->line[to - 1].steps)
         if (!live_say(l, "undo"))
             return;
     s->at = to - 1;
-    live_tell(l, false, "back before: %s", s->line[s->at]);
+    live_tell(l, false, "back before: %s", s->line[s->at].text);
     live_update(l);
 }

@@ -22,9 +22,11 @@ typedef struct side {
 
 /* A script that is stepped through. */
 typedef struct live_script {
-    char **line; /* without ends; NULL: there is none */
+    struct live_line {
+        char *text;         /* without its end */
+        size_t undo, steps; /* of the session before it */
+    } * line;               /* NULL: there is none */
     size_t count, at;
-    size_t *undo, *steps; /* of the session before each line */
 } live_script;
 
 typedef struct live {
@@ -37,10 +39,10 @@ typedef struct live {
     bool follow;    /* what is said now is to be played */
     bool moves;     /* what plays has begun to move */
     double play_at; /* time of the load */
-    /* the cycle that was said last, and its amplitudes as they were asked for; periods played of it, which
-     * are said when it ends */
+    /* the cycle that was said last, and the statement that did it; periods played of it, which are said when
+     * it ends */
     load_item said;
-    double said_FA, said_FNA, said_phase;
+    char said_as[LIVE_TEXT];
     size_t said_changes; /* that undo knows of, then */
     unsigned periods;
     side_by_side compared; /* what the sides show */
@@ -50,7 +52,7 @@ typedef struct live {
     bool bad;
     char note[LIVE_LINE]; /* a comment of the script */
     char *page;           /* a text over all views, or NULL */
-    size_t page_from;
+    int page_from;
     /* the line being typed */
     bool typing;
     const char *prompt;
@@ -118,7 +120,7 @@ void live_draw(live *l);
 /* Is there room for the text below the views? Else it is a page. */
 bool status_holds(const char *text);
 /* Rows of a page on this screen. */
-size_t page_rows(const char *page);
+int page_rows(const char *page);
 
 /* ---- keys.c ---- */
 void live_key(live *l, int key);

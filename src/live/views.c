@@ -4,6 +4,7 @@
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
 #include <curses.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -13,18 +14,25 @@
 
 /* ---- texts --------------------------------------------------------------------------------------- */
 
-/* Rows that a text takes, of at most so many; drawn where `at` has rows. */
-static int put_words(const char *text, ink of, rect at, int most) {
-    char shown[4 * LIVE_LINE];
+/* Rows that a text takes; those from one on are drawn where `at` has room. */
+static int put_words(const char *text, ink of, rect at, int from) {
     int row = 0;
-    characters_shown(text, shown, sizeof shown);
-    const char *p = shown;
-    for (size_t left = strlen(shown); left > 0 && row < most; row++) {
-        const char *here = p;
-        const size_t n = text_break(&p, &left, (size_t)at.cols);
-        put_text(at, row, of, "%.*s", (int)n, here);
+    for (const char *p = text; *p; p += *p == '\n') {
+        size_t left = strcspn(p, "\n");
+        do {
+            const char *here = p;
+            const size_t n = text_break(&p, &left, (size_t)at.cols);
+            if (row >= from)
+                put_text(at, row - from, of, "%.*s", (int)n, here);
+            row++;
+        } while (left > 0);
     }
     return row;
+}
+
+static int rows_of(const char *text, int most) {
+    const int rows = put_words(text, INK_NONE, (rect){0, 0, 0, COLS}, 0);
+    return rows < most ? rows : most;
 }
 
 /* ---- scales, the same for all scenes on the screen --------------------------------------------- */
@@ -353,7 +361,7 @@ static void draw_side(live *l, const side *s, const scales *sc, rect all) {
         char text[2 * LIVE_TEXT + 4];
         snprintf(text, sizeof text, "%s%s%s", s->title, *s->title ? ": " : "", s->trouble);
         put_words(text, l->host->calc->scene.end.steps ? INK_ERROR : INK_FRAME,
-                  (rect){all.top + 1, all.left, all.rows - 1, all.cols}, all.rows - 1);
+                  (rect){all.top + 1, all.left, all.rows - 1, all.cols}, 0);
         return;
     }
     rect column = {all.top, all.left, all.rows, left - 1};
@@ -403,13 +411,12 @@ enum { NOTE_ROWS = 4 };
 #define STATUS_ROWS (LINES >= 16 ? LINES / 8 : 1)
 
 static int note_rows(const live *l) {
-    return *l->note && !l->page ? put_words(l->note, INK_CURVE, (rect){0, 0, 0, COLS}, NOTE_ROWS) : 1;
+    return *l->note && !l->page ? rows_of(l->note, NOTE_ROWS) : 1;
 }
 
 /* What was said last takes the rows that it needs, but not from a page. */
 static int status_rows(const live *l) {
-    const int rows =
-        l->page || l->typing ? 1 : put_words(l->status, INK_NONE, (rect){0, 0, 0, COLS}, STATUS_ROWS);
+    const int rows = l->page || l->typing ? 1 : rows_of(l->status, STATUS_ROWS);
     return rows > 1 ? rows : 1;
 }
 
@@ -433,46 +440,29 @@ static void draw_foot(const live *l, rect at) {
     if (l->page)
         put_text(at, 0, INK_FRAME, "space: more of it  up: before  any other key: back");
     else if (*l->note)
-        put_words(l->note, INK_CURVE, at, NOTE_ROWS);
+        put_words(l->note, INK_CURVE, (rect){at.top, at.left, last, at.cols}, 0);
     else
         put_text(at, 0, INK_FRAME,
                  "arrows push and press  space plays  u undo  r reset  : statement  ? keys  q quit");
     if (l->typing)
         put_line(l, at, last);
     else
-        put_words(l->status, l->bad ? INK_ERROR : INK_NONE, (rect){at.top + last, at.left, rows, at.cols},
-                  rows);
+        put_words(l->status, l->bad ? INK_ERROR : INK_NONE, (rect){at.top + last, at.left, rows, at.cols}, 0);
     curs_set(l->typing);
 }
 
 bool status_holds(const char *text) {
-    return put_words(text, INK_NONE, (rect){0, 0, 0, COLS}, LINES) <= STATUS_ROWS;
+    return rows_of(text, LINES) <= STATUS_ROWS;
 }
 
-/* Rows of a page; those from one on are drawn where `at` has room. */
-static size_t put_page(const char *page, size_t from, rect at) {
-    size_t row = 0;
-    for (const char *p = page; *p; p += *p == '\n') {
-        size_t left = strcspn(p, "\n");
-        do {
-            const char *here = p;
-            const size_t n = text_break(&p, &left, (size_t)at.cols);
-            if (row >= from && row - from < (size_t)at.rows)
-                put_text(at, (int)(row - from), INK_NONE, "%.*s", (int)n, here);
-            row++;
-        } while (left > 0);
-    }
-    return row;
-}
-
-size_t page_rows(const char *page) {
-    return put_page(page, 0, (rect){0, 0, 0, COLS});
+int page_rows(const char *page) {
+    return rows_of(page, INT_MAX);
 }
 
 /* A text over everything, a screen of rows at a time. */
 static void draw_page(const live *l, rect all) {
-    const size_t rows = page_rows(l->page);
-    put_page(l->page, l->page_from < rows ? l->page_from : rows - 1, all);
+    const int rows = page_rows(l->page);
+    put_words(l->page, INK_NONE, all, l->page_from < rows ? l->page_from : rows - 1);
 }
 
 void live_draw(live *l) {
