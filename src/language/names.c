@@ -34,11 +34,9 @@ bool names_add(own_names *n, const char *text, size_t len, size_t *index) {
     if (!grown)
         return false;
     n->row = grown;
-    char *copy = malloc(len + 1);
+    char *copy = strndup(text, len);
     if (!copy)
         return false;
-    memcpy(copy, text, len);
-    copy[len] = 0;
     *index = n->count++;
     n->row[*index] = (own_name){.text = copy};
     return true;
@@ -50,6 +48,14 @@ void names_put(own_names *n, size_t index, value v, counted *definition) {
     row->v = v;
     row->definition = definition;
     row->known = true;
+}
+
+void names_restore(own_names *n, size_t index, const own_name *old) {
+    own_name *row = &n->row[index];
+    char *text = row->text;
+    counted_drop(row->definition);
+    *row = *old;
+    row->text = text;
 }
 
 void names_drop(own_names *n, size_t count) {

@@ -27,6 +27,8 @@ bool names_find(const own_names *n, const char *text, size_t len, size_t *index)
 bool names_add(own_names *n, const char *text, size_t len, size_t *index);
 /* Takes over the definition (NULL: v is the value). */
 void names_put(own_names *n, size_t index, value v, counted *definition);
+/* Its old value comes back; the text stays. */
+void names_restore(own_names *n, size_t index, const own_name *old);
 /* The latest names, down to `count`, go. */
 void names_drop(own_names *n, size_t count);
 

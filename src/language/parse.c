@@ -756,15 +756,6 @@ static void definition_end(counted *self) {
     free(d);
 }
 
-static char *copy_of(const char *text, size_t len) {
-    char *copy = malloc(len + 1);
-    if (copy) {
-        memcpy(copy, text, len);
-        copy[len] = 0;
-    }
-    return copy;
-}
-
 /* The body of a definition at the cursor. */
 static bool parse_body(calc *c, lexer *lx, definition *d) {
     parser p = {.c = c, .lx = lx, .within = d};
@@ -786,8 +777,8 @@ definition *definition_parse(calc *c, lexer *lx, const char *label, size_t len, 
     const size_t at = lx->at;
     bool ok = parse_body(c, lx, d);
     if (ok) {
-        d->label = copy_of(label, len);
-        d->text = copy_of(lx->text + at, lx->last - at);
+        d->label = strndup(label, len);
+        d->text = strndup(lx->text + at, lx->last - at);
         ok = (d->label && d->text) || calc_no_memory(lx->error);
     }
     if (ok) {

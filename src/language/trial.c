@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "language/beside.h"
+#include "number/array.h"
 
 trial *trial_open(calc *c, calc_error *error) {
     trial *t = calloc(1, sizeof *t);
@@ -39,33 +40,25 @@ void trial_close(trial *t) {
     scene_take_wear(t->outer, &t->scene);
     scene_free(&t->scene);
     while (t->hidden_count > 0) {
-        own_name *row = &c->names.row[t->hidden[--t->hidden_count]];
-        counted_drop(row->definition);
-        char *text = row->text;
-        *row = t->old[t->hidden_count];
-        row->text = text;
+        const struct hidden_name *h = &t->hidden[--t->hidden_count];
+        names_restore(&c->names, h->index, &h->old);
     }
     free(t->hidden);
-    free(t->old);
     free(t);
 }
 
 /* The user's value comes back when the trial closes. */
 static bool hide(trial *t, size_t name, calc_error *error) {
     for (size_t i = 0; i < t->hidden_count; i++)
-        if (t->hidden[i] == name)
+        if (t->hidden[i].index == name)
             return true;
-    size_t *hidden = realloc(t->hidden, (t->hidden_count + 1) * sizeof *hidden);
-    if (hidden)
-        t->hidden = hidden;
-    own_name *old = realloc(t->old, (t->hidden_count + 1) * sizeof *old);
-    if (old)
-        t->old = old;
-    if (!hidden || !old)
+    struct hidden_name *grown =
+        fret_array_for(t->hidden, &t->hidden_room, t->hidden_count + 1, sizeof *grown);
+    if (!grown)
         return calc_no_memory(error);
     own_name *row = &t->c->names.row[name];
-    t->hidden[t->hidden_count] = name;
-    t->old[t->hidden_count++] = *row;
+    t->hidden = grown;
+    t->hidden[t->hidden_count++] = (struct hidden_name){name, *row};
     row->definition = NULL; /* it belongs to the old one */
     return true;
 }

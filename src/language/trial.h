@@ -10,11 +10,13 @@
 typedef struct trial {
     calc *c;
     scene scene;
-    scene *outer;  /* whom it stands for */
-    bool sound;    /* whose program runs to its end */
-    own_name *old; /* values of the user's names that it hides, in the order of `hidden` */
-    size_t *hidden;
-    size_t hidden_count;
+    scene *outer; /* whom it stands for */
+    bool sound;   /* whose program runs to its end */
+    struct hidden_name {
+        size_t index;
+        own_name old;
+    } * hidden; /* names of the user that have another value */
+    size_t hidden_count, hidden_room;
 } trial;
 
 trial *trial_open(calc *c, calc_error *error);

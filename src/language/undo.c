@@ -102,11 +102,7 @@ static void take_back(calc *c, undo_entry *e) {
         free(e->before);
         return;
     }
-    own_name *row = &c->names.row[e->name];
-    char *text = row->text;
-    counted_drop(row->definition);
-    *row = e->old;
-    row->text = text;
+    names_restore(&c->names, e->name, &e->old);
     if (c->scene.in.bindings)
         scene_forget(&c->scene, false);
 }

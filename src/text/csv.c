@@ -345,11 +345,8 @@ trouble(csv_values *column, calc_error *error, const char *format, ...) {
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    column->trouble = malloc(strlen(text) + 1);
-    if (!column->trouble)
-        return calc_no_memory(error);
-    strcpy(column->trouble, text);
-    return true;
+    column->trouble = strdup(text);
+    return column->trouble || calc_no_memory(error);
 }
 
 /* Parts a title into name and unit, which stands in the last brackets, or behind one of the other marks. What
@@ -504,22 +501,15 @@ static bool read_rows(finder *t, size_t begin, size_t header) {
 /* ---- decimal marks ----------------------------------------------------------------------------- */
 
 enum { POINT, COMMA, MARKS };
-static const char marks[MARKS] = {'.', ','};
-enum { THOUSANDS = sizeof "-123.456" };
-
-typedef struct marking {
-    size_t line[MARKS]; /* the first line with such a number; 0: none */
-    /* the first number of each column whose mark may part thousands instead */
-    struct {
-        size_t line; /* 0: none */
-        char text[THOUSANDS];
-    } thousands[CSV_COLUMNS][MARKS];
-} marking;
+static const struct {
+    char is;
+    const char *name;
+} marks[MARKS] = {{'.', "point"}, {',', "comma"}};
 
 /* Does the mark stand where one of thousands would: `1.500`, `-12,345`, not `0.500`? */
 static bool like_thousands(field f, char mark) {
     const size_t sign = *f.text == '-' || *f.text == '+';
-    if (f.len < sign + 5 || f.len >= THOUSANDS || f.text[sign] == '0' || f.text[f.len - 4] != mark)
+    if (f.len < sign + 5 || f.len > sign + 7 || f.text[sign] == '0' || f.text[f.len - 4] != mark)
         return false;
     for (size_t i = sign; i < f.len; i++)
         if (i != f.len - 4 && (f.text[i] < '0' || f.text[i] > '9'))
@@ -527,65 +517,50 @@ static bool like_thousands(field f, char mark) {
     return true;
 }
 
-/* What a number says of the marks in this file. */
-static void see_marks(marking *m, size_t line, size_t column, field f) {
-    for (int i = 0; i < MARKS; i++) {
-        if (!memchr(f.text, marks[i], f.len))
-            continue;
-        m->line[i] = m->line[i] ? m->line[i] : line;
-        if (!m->thousands[column][i].line && like_thousands(f, marks[i])) {
-            m->thousands[column][i].line = line;
-            memcpy(m->thousands[column][i].text, f.text, f.len);
-        }
-    }
+/* Of a column with a mark that may be either, where that line has the other one as decimal mark. */
+static bool doubt(csv *c, const csv_row *row, csv_values *column, field f, int mark, size_t line,
+                  calc_error *error) {
+    const char *own = marks[mark].name, *other = marks[!mark].name;
+    const int behind = 3, before = (int)f.len - behind - 1;
+    char whole[CSV_NAME];
+    snprintf(whole, sizeof whole, "%.*s%.*s", before, f.text, behind, f.text + before + 1);
+    return trouble(column, error,
+                   "%.200s:%zu: %.60s = %.*s may be %.6g or %s, since line %zu has a decimal %s: write it "
+                   "without its %s, or with a %s",
+                   c->path, row->line, column->name, (int)f.len, f.text, atof(whole) / 1000, whole, line,
+                   other, own, other);
 }
 
-/* Columns with a mark that may be either, in a file that has the other one as decimal mark. */
-static bool judge_marks(csv *c, const marking *m, calc_error *error) {
-    for (size_t i = 0; i < c->columns; i++)
-        for (int k = 0; k < MARKS; k++) {
-            const char *text = m->thousands[i][k].text;
-            const size_t other = m->line[k == POINT ? COMMA : POINT];
-            char whole[THOUSANDS] = "";
-            if (!m->thousands[i][k].line || !other)
+/* What the numbers of a row say of the marks in this file; tells: which of them are in doubt. */
+static bool see_marks(csv *c, const csv_row *row, size_t line[MARKS], bool tells, calc_error *error) {
+    const char *text = c->text + row->at;
+    size_t at = 0;
+    cell f;
+    for (size_t i = 0; i < c->columns && cell_next(c->separator, text, row->len, &at, &plain_unit, &f); i++) {
+        const char *hash = memchr(f.f.text, '#', f.f.len);
+        const field number = field_trimmed(f.f.text, hash ? (size_t)(hash - f.f.text) : f.f.len);
+        for (int k = 0; k < MARKS && f.is == NUMBER; k++) {
+            if (!memchr(number.text, marks[k].is, number.len))
                 continue;
-            const size_t before = strlen(text) - 4;
-            memcpy(whole, text, before);
-            memcpy(whole + before, text + before + 1, 3);
-            if (!trouble(
-                    &c->column[i], error,
-                    "%.200s:%zu: %.60s = %s may be %.6g or %s, since line %zu has a decimal %s: write it "
-                    "without its %s, or with a %s",
-                    c->path, m->thousands[i][k].line, c->column[i].name, text, atof(whole) / 1000, whole,
-                    other, k == POINT ? "comma" : "point", k == POINT ? "point" : "comma",
-                    k == POINT ? "comma" : "point"))
+            line[k] = line[k] ? line[k] : row->line;
+            if (tells && like_thousands(number, marks[k].is) &&
+                !doubt(c, row, &c->column[i], number, k, line[!k], error))
                 return false;
         }
+    }
     return true;
 }
 
 /* Only a file with both marks can be in doubt. */
 static bool check_marks(csv *c, calc_error *error) {
-    bool doubt =
-        c->separator != ',' ? strchr(c->text, ',') && strchr(c->text, '.') : strchr(c->text, '"') != NULL;
-    marking *m = doubt ? calloc(1, sizeof *m) : NULL;
-    if (doubt && !m)
-        return calc_no_memory(error);
-    for (size_t i = 0; i < c->rows && m; i++) {
-        const csv_row *row = &c->row[i];
-        size_t at = 0;
-        cell f;
-        for (size_t k = 0;
-             k < c->columns && cell_next(c->separator, c->text + row->at, row->len, &at, &plain_unit, &f);
-             k++) {
-            const char *hash = memchr(f.f.text, '#', f.f.len);
-            if (f.is == NUMBER)
-                see_marks(m, row->line, k,
-                          field_trimmed(f.f.text, hash ? (size_t)(hash - f.f.text) : f.f.len));
-        }
-    }
-    const bool ok = !m || judge_marks(c, m, error);
-    free(m);
+    size_t line[MARKS] = {0, 0};
+    bool ok = true;
+    if (c->separator != ',' ? !strchr(c->text, ',') || !strchr(c->text, '.') : !strchr(c->text, '"'))
+        return true;
+    for (size_t i = 0; i < c->rows; i++)
+        see_marks(c, &c->row[i], line, false, error);
+    for (size_t i = 0; i < c->rows && line[POINT] && line[COMMA] && ok; i++)
+        ok = see_marks(c, &c->row[i], line, true, error);
     return ok;
 }
 
@@ -612,13 +587,12 @@ static bool find_table(finder *t, size_t len) {
 
 bool csv_read(const char *path, file_stop stop, csv *c, calc_error *error) {
     size_t len;
-    *c = (csv){.path = malloc(strlen(path) + 1)};
-    if (!c->path)
-        return calc_no_memory(error);
-    strcpy(c->path, path);
+    *c = (csv){.path = strdup(path)};
     finder *t = calloc(1, sizeof *t);
-    if (!t)
+    if (!c->path || !t) {
+        free(t);
         return calc_no_memory(error);
+    }
     *t = (finder){.c = c, .error = error, .stop = stop};
     const bool ok = read_text(c, stop, &len, error) && find_table(t, len);
     free(t->list);
