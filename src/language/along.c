@@ -42,7 +42,7 @@ bool trial_along_next(trial_along *a, calc_error *error) {
         if (!trace_next(&a->trace, error))
             return false;
         a->now = (instant){.run = trace_now(&a->trace), .beside = &a->beside};
-    } while (a->now.run->time < a->first - a->little || a->now.run->time > a->last + a->little);
+    } while (a->now.run->time < a->first || a->now.run->time > a->last);
     s->now = &a->now;
     scene_moved(s);
     return true;

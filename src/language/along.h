@@ -11,7 +11,7 @@ typedef struct trial_along {
     scene_trace trace;
     instant now;
     beside beside;
-    double first, last, little; /* times that count, and what is no difference between them */
+    double first, last; /* times that count */
 } trial_along;
 /* At `points`+1 instants, evenly in time; turns: at the turning points too. from: the mark where a load tried
  * on it (ALONG_LOAD, scene_append) begins. False: it need not be ended. */

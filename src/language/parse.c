@@ -468,7 +468,9 @@ static bool parse_number(parser *p, size_t *out) {
         if (!read_unit(p, &u))
             return false;
         const bool zero = node.v.v == 0;
-        node.v = (value){unit_literal(lx, at, len, &u), u.d};
+        double v = 0;
+        unit_number(lx->text + at, len, '.', &u, &v);
+        node.v = (value){v, u.d};
         if (!isfinite((double)node.v.v) || (node.v.v == 0 && !zero))
             return calc_fail(lx->error, at, lx->last - at, "the number is too %s for double precision",
                              node.v.v == 0 ? "small" : "large");

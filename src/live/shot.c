@@ -41,27 +41,12 @@ static void take_rings(const fret_contact *contact, shot *out) {
 }
 
 /* What friction allows depends on F_N alone: taken over from a shot of the same press. */
-static void take_bounds(const fret_contact *contact, const shot *like, shot *out) {
-    if (like && like->bound == out->bound) {
-        memcpy(out->B, like->B, sizeof out->B);
-        return;
-    }
-    for (int i = 0; i <= SHOT_SAMPLES; i++)
-        out->B[i] = (double)fret_contact_bound(contact, out->a * (fret_real)i / (fret_real)SHOT_SAMPLES);
-}
-
-/* u is straight in the depth, and so in the bound B = mu eta (dz - y), on each slice:
- * fret_contact_displacement at the places of the bounds, which are known. */
-static void take_displacements(const fret_contact *contact, double dz, shot *out) {
-    const double rise = dz > 0 ? out->bound / dz : 0; /* mu eta */
-    fret_segment part;
-    size_t slice = 0;
+static void take_springs(const fret_contact *contact, const shot *like, shot *out) {
+    const bool known = like && like->bound == out->bound;
     for (int i = 0; i <= SHOT_SAMPLES; i++) {
-        const double y = rise > 0 ? dz - out->B[i] / rise : 0;
-        bool within;
-        while ((within = fret_contact_segment(contact, slice, &part)) && y > (double)part.outer)
-            slice++;
-        out->u[i] = within ? (double)part.u - rise * (double)part.sigma * (y - (double)part.inner) : 0;
+        const fret_real x = out->a * (fret_real)i / (fret_real)SHOT_SAMPLES;
+        out->u[i] = (double)fret_contact_displacement(contact, x);
+        out->B[i] = known ? like->B[i] : (double)fret_contact_bound(contact, x);
     }
 }
 
@@ -78,8 +63,7 @@ bool shot_take(calc *c, const shot *like, shot *out, calc_error *error) {
     out->Fx = (double)state.Fx;
     out->slip = fret_contact_friction(contact) * (double)state.FN;
     out->bound = (double)fret_contact_bound(contact, 0);
-    take_bounds(contact, like, out);
-    take_displacements(contact, (double)state.dz, out);
+    take_springs(contact, like, out);
     take_rings(contact, out);
     take_values(c, out);
     out->digits = 0;

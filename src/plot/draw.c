@@ -9,68 +9,37 @@
 
 /* ---- files -------------------------------------------------------------------------------------- */
 
-/* The macros that gnuplot's pictures for TikZ call, so that one file and \usepackage{tikz} are enough. A
- * group keeps them from the rest of a document. */
-static const char head_tex[] =
-    "% a figure for \\input; it needs \\usepackage{tikz} and \\usetikzlibrary{plotmarks}\n"
-    "\\begingroup\n"
-    "\\def\\gpdashlength{0.5pt}\n"
-    "\\def\\gpcolor#1{\\tikzset{fret #1}}\n"
-    "\\def\\gpsetlinetype#1{}\n"
-    "\\def\\gpsetdashtype#1{\\tikzset{gp path/.style={#1}}}\n"
-    "\\def\\gpsetlinewidth#1{\\pgfsetlinewidth{#1*0.4pt}}\n"
-    "\\def\\gpsetpointsize#1{\\tikzset{gp point/.style={mark size=#1*0.4pt}}}\n"
-    "\\def\\gppoint#1#2{\\path[solid] plot[only marks,gp point,#1] coordinates {#2};}\n"
-    "\\def\\gp3point#1#2#3{\\path[solid] plot[only marks,gp point,#1] coordinates {#3};}\n"
-    "\\def\\gpfill#1{\\path[line width=0.05pt,draw,fill,#1]}\n"
-    "\\def\\gpdefrectangularnode#1#2#3{}\n"
-    "\\tikzset{gnuplot/.style={line cap=round,line join=round},\n"
-    "  rgb color/.code={\\definecolor{fretcolor}{rgb}{#1}\\tikzset{color=fretcolor}},\n"
-    "  fret rgb color/.code={\\definecolor{fretcolor}{rgb}{#1}\\color{fretcolor}\\pgfsetcolor{fretcolor}},\n"
-    "  fret color/.code={\\color{black}\\pgfsetcolor{black}},\n"
-    "  gp node left/.style={anchor=mid west},gp node center/.style={anchor=mid},\n"
-    "  gp node right/.style={anchor=mid east},gp path/.style={},gp point/.style={mark size=1.6pt},\n"
-    "  gp dt solid/.style={solid},gp dt axes/.style={dotted},gp dt 1/.style={solid},\n"
-    "  gp mark 4/.style={mark=square},gp mark 5/.style={mark=square*},gp mark 6/.style={mark=o},\n"
-    "  gp mark 7/.style={mark=*},gp mark 8/.style={mark=triangle},gp mark 9/.style={mark=triangle*},\n"
-    "  gp mark 11/.style={mark=triangle*,mark options={rotate=180}},gp mark 12/.style={mark=diamond},\n"
-    "  gp mark 13/.style={mark=diamond*}}\n";
-static const char foot_tex[] = "\\endgroup\n";
-static const char head_html[] =
-    "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>fret</title></head><body>\n";
-
-static const char foot_html[] = "</body></html>\n";
-
 /* What is no file. */
-static const plot_kind sixel = {
-    "", PLOT_ENHANCED, "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor", 1, 14, 3};
+static const plot_kind sixel = {.form = PLOT_ENHANCED,
+                                .terminal = "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor",
+                                .per_pixel = 1,
+                                .font = 14,
+                                .line = 3,
+                                .begin = "\033P"};
 static const plot_kind in_page = {
-    "", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Helvetica,%.3g' enhanced background rgb 'white'", 1, 19, 3};
+    .form = PLOT_ENHANCED,
+    .terminal = "svg size %.0f,%.0f font 'Helvetica,%.3g' enhanced background rgb 'white'",
+    .per_pixel = 1,
+    .font = 19,
+    .line = 3,
+    .begin = "<svg"};
 
 /* Copies what gnuplot drew; every error of reading or writing is one. */
 static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error *error) {
     char block[1 << 14];
     FILE *const from = r->out;
-    bool html = !strcmp(kind->ending, ".html"), tex = !strcmp(kind->ending, ".tex"), any = false;
-    /* the prologue of a file, or what sends the cursor home */
-    const char *begin = html || kind == &in_page ? "<svg" : kind == &sixel ? "\033P" : NULL;
-    if (tex)
-        fputs(head_tex, to);
-    if (html)
-        fputs(head_html, to);
+    bool any = false;
+    fputs(kind->head ? kind->head : "", to);
     for (size_t n; (n = fread(block, 1, sizeof block - 1, from)) > 0 && !ferror(to);) {
         block[n] = 0;
-        const char *here = begin && !any ? strstr(block, begin) : NULL;
+        const char *here = kind->begin && !any ? strstr(block, kind->begin) : NULL;
         here = here ? here : block;
         fwrite(here, 1, n - (size_t)(here - block), to);
         any = true;
     }
     int code = errno;
     bool bad = ferror(from) != 0;
-    if (tex)
-        fputs(foot_tex, to);
-    if (html)
-        fputs(foot_html, to);
+    fputs(kind->foot ? kind->foot : "", to);
     if (bad)
         return calc_errno(error, code, "cannot read what gnuplot drew");
     return any || calc_fail(error, 0, 0, "gnuplot drew nothing");

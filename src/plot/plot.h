@@ -170,7 +170,4 @@ bool plot_animate(const plot_movie *m, const plot_target *target, file_report *r
  * gap. */
 void plot_thin(plot_series *s, size_t goal);
 
-/* The script for gnuplot, data included, for an ending such as ".png". */
-bool plot_script(plot_figure *f, const char *ending, int width, int height, FILE *to);
-
 #endif

@@ -14,18 +14,53 @@ enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, HIGHER = 840, LEVELS = 9 };
 
 /* ---- kinds -------------------------------------------------------------------------------------- */
 
+/* The macros that gnuplot's pictures for TikZ call, so that one file and \usepackage{tikz} are enough. A
+ * group keeps them from the rest of a document. */
+static const char head_tex[] =
+    "% a figure for \\input; it needs \\usepackage{tikz} and \\usetikzlibrary{plotmarks}\n"
+    "\\begingroup\n"
+    "\\def\\gpdashlength{0.5pt}\n"
+    "\\def\\gpcolor#1{\\tikzset{fret #1}}\n"
+    "\\def\\gpsetlinetype#1{}\n"
+    "\\def\\gpsetdashtype#1{\\tikzset{gp path/.style={#1}}}\n"
+    "\\def\\gpsetlinewidth#1{\\pgfsetlinewidth{#1*0.4pt}}\n"
+    "\\def\\gpsetpointsize#1{\\tikzset{gp point/.style={mark size=#1*0.4pt}}}\n"
+    "\\def\\gppoint#1#2{\\path[solid] plot[only marks,gp point,#1] coordinates {#2};}\n"
+    "\\def\\gp3point#1#2#3{\\path[solid] plot[only marks,gp point,#1] coordinates {#3};}\n"
+    "\\def\\gpfill#1{\\path[line width=0.05pt,draw,fill,#1]}\n"
+    "\\def\\gpdefrectangularnode#1#2#3{}\n"
+    "\\tikzset{gnuplot/.style={line cap=round,line join=round},\n"
+    "  rgb color/.code={\\definecolor{fretcolor}{rgb}{#1}\\tikzset{color=fretcolor}},\n"
+    "  fret rgb color/.code={\\definecolor{fretcolor}{rgb}{#1}\\color{fretcolor}\\pgfsetcolor{fretcolor}},\n"
+    "  fret color/.code={\\color{black}\\pgfsetcolor{black}},\n"
+    "  gp node left/.style={anchor=mid west},gp node center/.style={anchor=mid},\n"
+    "  gp node right/.style={anchor=mid east},gp path/.style={},gp point/.style={mark size=1.6pt},\n"
+    "  gp dt solid/.style={solid},gp dt axes/.style={dotted},gp dt 1/.style={solid},\n"
+    "  gp mark 4/.style={mark=square},gp mark 5/.style={mark=square*},gp mark 6/.style={mark=o},\n"
+    "  gp mark 7/.style={mark=*},gp mark 8/.style={mark=triangle},gp mark 9/.style={mark=triangle*},\n"
+    "  gp mark 11/.style={mark=triangle*,mark options={rotate=180}},gp mark 12/.style={mark=diamond},\n"
+    "  gp mark 13/.style={mark=diamond*}}\n";
+static const char foot_tex[] = "\\endgroup\n";
+static const char head_html[] =
+    "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>fret</title></head><body>\n";
+
+static const char foot_html[] = "</body></html>\n";
+
 /* Lengths: 900 pixels are 12 cm of a page. */
 static const plot_kind kinds[] = {
-    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, 3},
-    {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19, 3},
+    {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, .line = 3},
+    {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19,
+     .line = 3},
     {".pdf", PLOT_ENHANCED, "pdfcairo size %.4gcm,%.4gcm font 'Sans,%.3g' enhanced", 12.0 / (double)WIDTH,
-     9.5, 2.2},
-    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2},
+     9.5, .line = 2.2},
+    {".tex", PLOT_TEX, "tikz size %.4gcm,%.4gcm font ',%.3g'", 12.0 / (double)WIDTH, 10, 2, .head = head_tex,
+     .foot = foot_tex},
     {".html", PLOT_ENHANCED,
-     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3},
+     "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white' mouse standalone", 1, 19, 3,
+     .begin = "<svg", .head = head_html, .foot = foot_html},
     {".gif", PLOT_ENHANCED, "gif size %.0f,%.0f font 'Sans,%.3g' enhanced animate delay %.0f loop 0", 1, 15,
-     3},
-    {".gp", PLOT_ENHANCED, NULL, 1, 16, 3}};
+     .line = 3},
+    {".gp", PLOT_ENHANCED, NULL, 1, 16, .line = 3}};
 
 const plot_kind *plot_kind_of(const char *file, calc_error *error) {
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
@@ -568,14 +603,4 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
             fputs("unset multiplot\n", to);
     }
     return true;
-}
-
-bool plot_script(plot_figure *f, const char *ending, int width, int height, FILE *to) {
-    plot_extents extent[PLOT_PANELS];
-    for (size_t i = 0; i < f->count; i++)
-        extent[i] = plot_settle(f->panel[i]);
-    const plot_kind *kind = plot_kind_of(ending, error_quiet());
-    return kind && f->count &&
-           plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind,
-                              &(plot_target){.width = width, .height = height}, error_quiet());
 }

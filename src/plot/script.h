@@ -53,10 +53,12 @@ size_t plot_columns(const plot_figure *f);
 typedef struct plot_kind {
     const char *ending;
     plot_form form;
-    const char *terminal; /* for printf: width, height, font size; NULL: the script itself */
-    double per_pixel;     /* of the terminal's unit of length */
-    double font;          /* at the usual size, in its own unit */
-    double line;          /* width of a curve */
+    const char *terminal;    /* for printf: width, height, font size; NULL: the script itself */
+    double per_pixel;        /* of the terminal's unit of length */
+    double font;             /* at the usual size, in its own unit */
+    double line;             /* width of a curve */
+    const char *begin;       /* of what is wanted of gnuplot's output; NULL: all is */
+    const char *head, *foot; /* around it; NULL: nothing */
 } plot_kind;
 
 /* The kind by a file's ending; NULL with the error. */

@@ -278,14 +278,12 @@ static size_t exponent_length(const writer *w, const char *p, const char *end) {
     while (p + n < end && (isdigit((unsigned char)p[n]) || (p[n] == '.' && w->form != PLOT_UNICODE)))
         n++;
     bool cut = p + n < end && p[n] == '.';
-    return n > sign && !cut && w->form != PLOT_ASCII ? n : 0;
+    return n > sign && !cut ? n : 0;
 }
 
 /* The name of a unit: µ for its u, signs for words. */
 static void put_unit_name(writer *w, const char *p, size_t n) {
-    if (w->form == PLOT_ASCII) {
-        put(w, p, n);
-    } else if (n == 3 && !strncmp(p, "deg", 3)) {
+    if (n == 3 && !strncmp(p, "deg", 3)) {
         puts_text(w, "°");
     } else if (n == 4 && !strncmp(p, "inch", 4)) {
         upright(w, "in", 2);
@@ -306,7 +304,7 @@ static void put_unit(writer *w, const char *p, const char *end) {
             superscript(w, p + 1, e);
             n = 1 + e;
         } else if (*p == '*') {
-            puts_text(w, w->form == PLOT_ASCII ? "*" : "·");
+            puts_text(w, "·");
             n = 1;
         } else {
             n = character_at(p, (size_t)(end - p), NULL);
@@ -338,9 +336,9 @@ static size_t unit_length(const char *p, const char *end) {
 }
 
 static void put_operator(writer *w, char c, const char *rest, const char *end) {
-    if (c == '*' && w->form != PLOT_ASCII)
+    if (c == '*')
         puts_text(w, rest < end && isdigit((unsigned char)*rest) ? "·" : "\u2009");
-    else if (c == '-' && w->form != PLOT_ASCII)
+    else if (c == '-')
         puts_text(w, "−");
     else if (c == ' ' && w->math)
         fputs("\\ ", w->to);
@@ -361,8 +359,6 @@ static void put_expression(writer *w, const char *p, const char *end) {
             put(w, p, n = number);
         } else if (measure) {
             put_unit(w, p, p + (n = measure));
-        } else if (name && w->form == PLOT_ASCII) {
-            put(w, p, n = name);
         } else if (name) {
             put_name(w, p, n = name);
         } else if (e) {
@@ -397,12 +393,12 @@ char *plot_text(const char *text, plot_form form) {
         char mark = *text == *PLOT_EXPR || *text == *PLOT_UNIT ? *text : 0;
         size_t n = strcspn(text + (mark != 0), PLOT_EXPR PLOT_UNIT PLOT_END);
         text += mark != 0;
-        if (mark == *PLOT_EXPR)
-            put_expression(&w, text, text + n);
-        else if (mark)
-            put_unit(&w, text, text + n);
-        else
+        if (!mark || form == PLOT_ASCII) /* as typed */
             put(&w, text, n);
+        else if (mark == *PLOT_EXPR)
+            put_expression(&w, text, text + n);
+        else
+            put_unit(&w, text, text + n);
         text += n + (text[n] == *PLOT_END);
     }
     return file_text_close(&made) ? made.text : NULL;

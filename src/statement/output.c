@@ -165,7 +165,8 @@ static double read_back(const char *text) {
     lex_next(&lx);
     if (lx.kind != T_END)
         unit_parse(&lx, &u);
-    const double v = (double)unit_literal(&lx, at, len, &u);
+    double v = 0;
+    unit_number(text + at, len, '.', &u, &v);
     return minus ? -v : v;
 }
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "text/lex.h"
+#include "text/unit_text.h"
 
 bool field_is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
@@ -50,12 +50,11 @@ bool field_next(char separator, const char *line, size_t len, size_t *at, field 
 
 /* The length of the number at the beginning of a text, which is not empty; 0: there is none. */
 static size_t take_number(const char *text, size_t len, char point, const unit *u, double *out) {
-    const bool minus = *text == '-', sign = minus || *text == '+', decimal = u->factor == 1;
+    const bool minus = *text == '-', sign = minus || *text == '+';
     double v;
-    const size_t n = lex_decimal(text + sign, len - sign, point, decimal ? u->exp10 : 0, &v);
+    const size_t n = unit_number(text + sign, len - sign, point, u, &v);
     if (n == 0)
         return 0;
-    v = decimal ? v : (double)((long double)v * unit_scale(u));
     *out = minus ? -v : v;
     return isfinite(v) ? n + sign : 0;
 }

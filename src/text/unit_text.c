@@ -112,9 +112,10 @@ bool unit_of_header(lexer *lx, unit *out) {
 }
 
 /* The decimal scale of the unit goes into the exponent of the literal. */
-long double unit_literal(const lexer *lx, size_t at, size_t len, const unit *u) {
+size_t unit_number(const char *text, size_t len, char point, const unit *u, double *out) {
     const bool decimal = u->factor == 1;
-    double value = 0;
-    lex_decimal(lx->text + at, len, '.', decimal ? u->exp10 : 0, &value);
-    return decimal ? value : (double)(value * unit_scale(u));
+    const size_t n = lex_decimal(text, len, point, decimal ? u->exp10 : 0, out);
+    if (n > 0 && !decimal)
+        *out = (double)(*out * unit_scale(u));
+    return n;
 }

@@ -13,7 +13,7 @@ bool unit_parse(lexer *lx, unit *out);
 /* The unit of a column and nothing else, as its header has it: `in` is the inch, and a factor may stand
  * before it. */
 bool unit_of_header(lexer *lx, unit *out);
-/* The literal of `len` bytes at `at`, in this unit: rounded once. */
-long double unit_literal(const lexer *lx, size_t at, size_t len, const unit *u);
+/* The decimal number at the beginning of a text, in this unit: rounded once. Its length; 0: there is none. */
+size_t unit_number(const char *text, size_t len, char point, const unit *u, double *out);
 
 #endif

@@ -167,11 +167,21 @@ static char *text_of(plot_figure *f, plot_target target) {
     return text;
 }
 
+static bool write_script(plot_figure *f, const char *ending, int width, int height, FILE *to) {
+    plot_extents extent[PLOT_PANELS];
+    for (size_t i = 0; i < f->count; i++)
+        extent[i] = plot_settle(f->panel[i]);
+    const plot_kind *kind = plot_kind_of(ending, error_quiet());
+    return kind && f->count &&
+           plot_write_picture(to, &(plot_reel){f, 1, extent, 0}, kind,
+                              &(plot_target){.width = width, .height = height}, error_quiet());
+}
+
 static char *script_of(plot_figure *f, const char *ending) {
     char *text = NULL;
     size_t room;
     FILE *to = open_memstream(&text, &room);
-    CHECK(plot_script(f, ending, 0, 0, to));
+    CHECK(write_script(f, ending, 0, 0, to));
     fclose(to);
     return text;
 }
@@ -200,7 +210,7 @@ static void scripts(void) {
         CHECK(has(text, "set terminal") == (i < 6));
         free(text);
     }
-    CHECK(!plot_script(&f, ".jpg", 0, 0, stdout));
+    CHECK(!write_script(&f, ".jpg", 0, 0, stdout));
     plot_figure_free(&f);
 }
 
@@ -859,7 +869,7 @@ static void refused(const char *tmp) {
     plot_figure_init(&none);
     CHECK(!plot_draw(&none, &(plot_target){.file = "x.png"}, NULL, fresh()) &&
           has(error.text, "there is nothing to plot"));
-    CHECK(!plot_script(&none, ".png", 0, 0, stdout) && !plot_script(&f, ".jpg", 0, 0, stdout));
+    CHECK(!write_script(&none, ".png", 0, 0, stdout) && !write_script(&f, ".jpg", 0, 0, stdout));
     CHECK(!plot_check("no/such/x.png", NULL, fresh()) && plot_check("x.png", NULL, fresh()));
     CHECK(access("x.png", F_OK) != 0);
     plot_figure_free(&f);
@@ -1015,8 +1025,7 @@ static void stopped(void) {
         plot_series *s = plot_series_add(p, PLOT_CURVE, NULL, fresh());
         for (size_t j = 0; j < POINTS; j++)
             CHECK(plot_point(s, (double)j, sin(1.1 * (double)j)));
-        extent[0] =
-            i ? plot_extent_join(extent[0], plot_settle(p)) : plot_settle(p);
+        extent[0] = i ? plot_extent_join(extent[0], plot_settle(p)) : plot_settle(p);
     }
     const plot_reel reel = {frame, FRAMES, extent, 0.1};
     CHECK(written_after(&reel, NULL) < 60000);
@@ -1035,8 +1044,8 @@ static void sizes(void) {
         return;
     plot_point(f.panel[0]->series[0], 0, 0);
     plot_point(f.panel[0]->series[0], 1, 1);
-    CHECK(plot_script(&f, "a.svg", 300, 200, to) && !plot_script(&none, "a.svg", 0, 0, to) &&
-          !plot_script(&f, "a.xyz", 0, 0, to));
+    CHECK(write_script(&f, "a.svg", 300, 200, to) && !write_script(&none, "a.svg", 0, 0, to) &&
+          !write_script(&f, "a.xyz", 0, 0, to));
     rewind(to);
     text[fread(text, 1, sizeof text - 1, to)] = 0;
     CHECK(strstr(text, "size 300,200"));
