@@ -81,7 +81,7 @@ static bool draw_on_page(shell *sh, plot_figure *f, calc_error *error) {
     if (!file_text_open(&svg))
         return calc_no_memory(error);
     const plot_target to = {.out = svg.to, .terminal = PLOT_PAGE, .timeout = TIMEOUT, .stop = &shell_stop};
-    const bool ok = plot_draw(f, &to, NULL, error);
+    const bool ok = plot_draw(f, 1, &to, NULL, error);
     if (!file_text_close(&svg))
         return calc_no_memory(error);
     if (ok)
@@ -91,10 +91,10 @@ static bool draw_on_page(shell *sh, plot_figure *f, calc_error *error) {
 }
 
 /* To a file, or to the terminal. */
-static bool draw_off_page(shell *sh, lexer *lx, plot_figure *f, const plot_movie *movie, const char *file) {
+static bool draw_off_page(shell *sh, lexer *lx, plot_figure *frame, size_t frames, const char *file) {
     file_report written;
     text_out text;
-    if (!text_begin(&text, sh, movie ? TEXT_MOTION : TEXT_PICTURE, lx->error))
+    if (!text_begin(&text, sh, frames > 1 ? TEXT_MOTION : TEXT_PICTURE, lx->error))
         return false;
     const bool data = answer_is_data(&sh->set), on_terminal = !data && shell_on_terminal(sh);
     plot_target to = {.file = file,
@@ -102,7 +102,7 @@ static bool draw_off_page(shell *sh, lexer *lx, plot_figure *f, const plot_movie
                       .terminal = terminal_kind(sh, on_terminal),
                       .color = sh->set.color_out && !data,
                       .unicode = typeset_unicode(),
-                      .moving = movie && on_terminal && sh->out == stdout && shell_escapes(),
+                      .moving = frames > 1 && on_terminal && sh->out == stdout && shell_escapes(),
                       .columns = sh->set.plot_width,
                       .rows = sh->set.plot_height,
                       .width = papers[sh->set.plot_paper].width,
@@ -117,8 +117,7 @@ static bool draw_off_page(shell *sh, lexer *lx, plot_figure *f, const plot_movie
     if (sh->set.plot_caption && !caption)
         return text_end(&text, false), calc_no_memory(lx->error);
     to.caption = caption;
-    const bool ok =
-        movie ? plot_animate(movie, &to, &written, lx->error) : plot_draw(f, &to, &written, lx->error);
+    const bool ok = plot_draw(frame, frames, &to, &written, lx->error);
     progress_wipe();
     if (ok && !file && caption)
         fputs(caption, text.to);
@@ -130,14 +129,14 @@ static bool draw_off_page(shell *sh, lexer *lx, plot_figure *f, const plot_movie
     return true;
 }
 
-/* movie: of which the figure is the last frame, or NULL. */
-static bool draw(shell *sh, lexer *lx, plot_figure *f, const plot_movie *movie, const char *file) {
+/* The figure, or frames of a movie. */
+static bool draw(shell *sh, lexer *lx, plot_figure *frame, size_t frames, const char *file) {
     const bool on_page = !file && record_on_page(sh);
-    if (on_page && !draw_on_page(sh, f, lx->error)) {
+    if (on_page && !draw_on_page(sh, &frame[frames - 1], lx->error)) {
         lx->error->refused |= record_alone(sh); /* no page without its figures */
         return false;
     }
-    const bool ok = (on_page && record_alone(sh)) || draw_off_page(sh, lx, f, movie, file);
+    const bool ok = (on_page && record_alone(sh)) || draw_off_page(sh, lx, frame, frames, file);
     if (on_page)
         record_together(sh);
     return ok;
@@ -238,7 +237,7 @@ static bool share_map(shell *sh, lexer *lx, panels *p) {
 /* A replay compares no drawings. */
 static bool draw_plot(shell *sh, lexer *lx, plot_figure *f, const char *file) {
     if (!sh->replaying || file)
-        return draw(sh, lx, f, NULL, file);
+        return draw(sh, lx, f, 1, file);
     fprintf(sh->out, "%c\n", MARK_DRAWING);
     return true;
 }
@@ -350,26 +349,12 @@ static bool take_frames(movie *m) {
     return ok;
 }
 
-static bool fill(void *context, size_t i, size_t frames, plot_figure *f, calc_error *error) {
-    movie *m = context;
-    (void)frames, (void)error;
-    *f = m->frame[i];
-    m->frame[i].count = 0;
-    return true;
-}
-
-static void drawing(void *context, size_t done, size_t frames) {
-    char words[80];
-    (void)context;
-    snprintf(words, sizeof words, "animate: gnuplot draws %zu frames (Ctrl-C stops it)", frames);
-    if (done == frames)
-        progress_words(words);
-}
-
 /* Draws the figures once as they stand, then at every instant, then all of it. */
 static bool run_movie(movie *m, lexer *lx, const char *file) {
     plot_figure whole;
     const size_t frames = m->frames;
+    if (file && !file_ends(file, ".gif"))
+        return calc_fail(lx->error, 0, 0, "an animation goes to a .gif file or to the terminal");
     plot_figure_init(&whole);
     bool ok = draw_panels(m->sh, lx, &m->figures, &whole, &m->motion);
     plot_figure_free(&whole);
@@ -381,13 +366,13 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
     if (ok && frames < 2)
         ok = calc_fail(lx->error, 0, 0, "an animation takes 2 frames or more");
     ok = ok && (m->motion.by_input ? take_values : take_frames)(m);
-    const plot_movie moving = {.frames = m->done,
-                               .fill = fill,
-                               .progress =
-                                   file ? drawing : NULL, /* in the terminal frames would go behind it */
-                               .context = m};
     progress_wipe();
-    ok = ok && draw(m->sh, lx, &m->frame[frames - 1], &moving, file);
+    if (ok && file) { /* in the terminal frames would go behind it */
+        char words[80];
+        snprintf(words, sizeof words, "animate: gnuplot draws %zu frames (Ctrl-C stops it)", m->done);
+        progress_words(words);
+    }
+    ok = ok && draw(m->sh, lx, m->frame, m->done, file);
     for (size_t i = 0; m->frame && i < frames; i++)
         plot_figure_free(&m->frame[i]);
     free(m->frame);

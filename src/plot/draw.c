@@ -187,21 +187,35 @@ bool plot_check(const char *file, file_stop stop, calc_error *error) {
     return true;
 }
 
-bool plot_draw_reel(const plot_reel *reel, const plot_target *t, file_report *report, calc_error *error) {
-    if (!reel->count)
-        return calc_fail(error, 0, 0, "there is nothing to plot");
-    if (t->width < 0 || t->height < 0 || t->width > PLOT_PIXELS || t->height > PLOT_PIXELS)
-        return calc_fail(error, 0, 0, "a picture has at most %d pixels along an axis", PLOT_PIXELS);
-    if (!t->file)
-        return to_terminal(reel, t, error);
-    scripted s = {.reel = reel, .target = t};
-    s.kind = plot_kind_of(t->file, error);
-    return s.kind && to_file(&s, report, error);
+/* What the panels of all frames span. */
+static bool settle(plot_figure *frame, size_t frames, plot_extents *extent, calc_error *error) {
+    for (size_t i = 0; i < frames; i++) {
+        if (!frame[i].count)
+            return calc_fail(error, 0, 0, "there is nothing to plot");
+        if (frame[i].count != frame[0].count)
+            return calc_fail(error, 0, 0, "the frames differ in their figures");
+        for (size_t p = 0; p < frame[i].count; p++) {
+            const plot_extents e = plot_settle(frame[i].panel[p]);
+            extent[p] = i ? plot_extent_join(extent[p], e) : e;
+        }
+    }
+    return true;
 }
 
-bool plot_draw(plot_figure *f, const plot_target *t, file_report *report, calc_error *error) {
+bool plot_draw(plot_figure *frame, size_t frames, const plot_target *t, file_report *report,
+               calc_error *error) {
+    static const double SECONDS = 0.05; /* a frame lasts */
     plot_extents extent[PLOT_PANELS];
-    for (size_t i = 0; i < f->count; i++)
-        extent[i] = plot_settle(f->panel[i]);
-    return plot_draw_reel(&(plot_reel){f, f->count > 0, extent, 0}, t, report, error);
+    if (frames < 1 || frames > PLOT_FRAMES)
+        return calc_fail(error, 0, 0, "an animation has 1 to %d frames", PLOT_FRAMES);
+    if (t->width < 0 || t->height < 0 || t->width > PLOT_PIXELS || t->height > PLOT_PIXELS)
+        return calc_fail(error, 0, 0, "a picture has at most %d pixels along an axis", PLOT_PIXELS);
+    if (!settle(frame, frames, extent, error))
+        return false;
+    const plot_reel reel = {frame, frames, extent, frames > 1 ? SECONDS : 0};
+    if (!t->file)
+        return to_terminal(&reel, t, error);
+    scripted s = {.reel = &reel, .target = t};
+    s.kind = plot_kind_of(t->file, error);
+    return s.kind && to_file(&s, report, error);
 }

@@ -9,7 +9,7 @@
  *     p->xlabel = plot_label("dx", "um"), p->ylabel = plot_label("Fx/(mu*FN)", NULL);
  *     plot_series *s = plot_series_add(p, PLOT_CURVE, PLOT_EXPR "k = 0.5" PLOT_END, error);
  *     plot_point(s, x, y);  ...
- *     plot_draw(&f, &(plot_target){.file = "loop.png", .timeout = 60}, &report, error);
+ *     plot_draw(&f, 1, &(plot_target){.file = "loop.png", .timeout = 60}, &report, error);
  *     plot_figure_free(&f);
  */
 #ifndef PLOT_PLOT_H
@@ -143,26 +143,11 @@ typedef struct plot_target {
 /* Can a picture go to the file? To be asked before long work; the error names what stands against it. */
 bool plot_check(const char *file, file_stop stop, calc_error *error);
 
-/* Draws, and thins the series to what is drawn of them. On failure the error, and no file left behind. The
- * report may be NULL; it is of files only. */
-bool plot_draw(plot_figure *f, const plot_target *target, file_report *report, calc_error *error);
-
-/* Fills in an empty figure for frame `i` of `frames`; all frames have the same panels and series. */
-typedef bool plot_fill(void *context, size_t i, size_t frames, plot_figure *f, calc_error *error);
-/* Told after each frame, and again when gnuplot begins to draw (done == frames). */
-typedef void plot_progress(void *context, size_t done, size_t frames);
-
-typedef struct plot_movie {
-    size_t frames;
-    double seconds; /* a frame lasts; 0: 0.05 */
-    plot_fill *fill;
-    plot_progress *progress; /* NULL: none */
-    void *context;           /* of both */
-} plot_movie;
-
-/* A .gif file, or frames in the terminal (the last one alone where `moving` is false). Axes hold for all
- * frames. */
-bool plot_animate(const plot_movie *m, const plot_target *target, file_report *report, calc_error *error);
+/* Draws a figure, or `frames` of them that have the same panels: to a .gif file, or in the terminal (where
+ * not `moving` the last one alone), on axes that hold for all. Series are thinned to what is drawn of them.
+ * On failure the error, and no file left behind. The report may be NULL; it is of files only. */
+bool plot_draw(plot_figure *frame, size_t frames, const plot_target *target, file_report *report,
+               calc_error *error);
 
 /* ---- numbers, for tests ------------------------------------------------------------------------- */
 

@@ -106,10 +106,6 @@ bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target
 size_t plot_print_frame(const plot_reel *reel, size_t n, const plot_target *target, const plot_pages *pages,
                         const char *end, calc_error *error);
 
-/* ---- draw.c: to the target ---------------------------------------------------------------------- */
-
-bool plot_draw_reel(const plot_reel *reel, const plot_target *target, file_report *report, calc_error *error);
-
 /* ---- gnuplot.c: running it ---------------------------------------------------------------------- */
 
 /* Files of our own for a run: gnuplot reads `script`, and leaves its output and its words in the others. */

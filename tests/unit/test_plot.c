@@ -160,7 +160,7 @@ static char *text_of(plot_figure *f, plot_target target) {
     target.out = open_memstream(&text, &room);
     if (!target.terminal)
         target.terminal = PLOT_DUMB;
-    bool ok = plot_draw(f, &target, NULL, fresh());
+    bool ok = plot_draw(f, 1, &target, NULL, fresh());
     fclose(target.out);
     if (!CHECK(ok))
         printf("%s\n", error.text);
@@ -855,19 +855,19 @@ static void refused(const char *tmp) {
     plot_point(f.panel[0]->series[0], 0, 0);
     plot_point(f.panel[0]->series[0], 1, 1);
     static volatile sig_atomic_t stop = 1;
-    CHECK(!plot_draw(&f, &(plot_target){.file = "x.png", .stop = &stop}, NULL, fresh()));
+    CHECK(!plot_draw(&f, 1, &(plot_target){.file = "x.png", .stop = &stop}, NULL, fresh()));
     CHECK(!strcmp(error.text, "interrupted") && access("x.png", F_OK) != 0 && !any_left(tmp));
-    CHECK(!plot_draw(&f, &(plot_target){.file = "x.jpg"}, NULL, fresh()));
+    CHECK(!plot_draw(&f, 1, &(plot_target){.file = "x.jpg"}, NULL, fresh()));
     CHECK(has(error.text, "use .png, .svg, .pdf, .tex, .html, .gif or .gp"));
     static const plot_target sizes[] = {{.file = "x.png", .width = 9000},
                                         {.file = "x.png", .width = -1},
                                         {.file = "x.png", .height = 9000},
                                         {.file = "x.png", .height = -1}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-        CHECK(!plot_draw(&f, &sizes[i], NULL, fresh()) && has(error.text, "at most 8000 pixels"));
+        CHECK(!plot_draw(&f, 1, &sizes[i], NULL, fresh()) && has(error.text, "at most 8000 pixels"));
     plot_figure none;
     plot_figure_init(&none);
-    CHECK(!plot_draw(&none, &(plot_target){.file = "x.png"}, NULL, fresh()) &&
+    CHECK(!plot_draw(&none, 1, &(plot_target){.file = "x.png"}, NULL, fresh()) &&
           has(error.text, "there is nothing to plot"));
     CHECK(!write_script(&none, ".png", 0, 0, stdout) && !write_script(&f, ".jpg", 0, 0, stdout));
     CHECK(!plot_check("no/such/x.png", NULL, fresh()) && plot_check("x.png", NULL, fresh()));
@@ -891,7 +891,7 @@ static void hostile_names(const char *tmp) {
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         file_report report;
         struct stat info;
-        bool ok = plot_draw(&f, &(plot_target){.file = files[i]}, &report, fresh());
+        bool ok = plot_draw(&f, 1, &(plot_target){.file = files[i]}, &report, fresh());
         if (!CHECK(ok))
             printf("%s: %s\n", files[i], error.text);
         CHECK(stat(files[i], &info) == 0 && (unsigned long long)info.st_size == report.size &&
@@ -905,30 +905,15 @@ static void hostile_names(const char *tmp) {
 
 /* ---- animations --------------------------------------------------------------------------------- */
 
-static size_t told;
+enum { SEVEN = 7 };
 
-static void progress(void *context, size_t done, size_t frames) {
-    (void)context;
-    CHECK(done == told && done <= frames);
-    told++;
-}
-
-static bool fill(void *context, size_t i, size_t frames, plot_figure *f, calc_error *raised) {
-    const size_t *bad = context;
-    plot_panel *p = plot_panel_add(f, raised);
-    plot_series *s = p ? plot_series_add(p, PLOT_CURVE, NULL, raised) : NULL;
-    if (bad && *bad == i)
-        return calc_fail(raised, 0, 0, "frame %zu of %zu", i, frames);
-    return s && plot_point(s, 0, 0) && plot_point(s, 1, (double)i);
-}
-
-/* As many figures as the frame has a number. */
-static bool fill_more(void *context, size_t i, size_t frames, plot_figure *f, calc_error *raised) {
-    (void)frames;
-    for (size_t n = *(const size_t *)context; n < i + 1; n++)
-        if (!plot_panel_add(f, raised))
-            return false;
-    return true;
+/* A line that rises from frame to frame. */
+static void fill(plot_figure frame[SEVEN]) {
+    for (int i = 0; i < SEVEN; i++) {
+        frame[i] = figure(PLOT_CURVE, NULL);
+        CHECK(plot_point(frame[i].panel[0]->series[0], 0, 0) &&
+              plot_point(frame[i].panel[0]->series[0], 1, i));
+    }
 }
 
 /* Images in a GIF: each has one graphic control extension. */
@@ -944,16 +929,16 @@ static size_t images(const char *file) {
 }
 
 static void animates(const char *tmp) {
-    plot_movie m = {.frames = 7, .fill = fill, .progress = progress, .seconds = 0.01};
-    CHECK(plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()));
-    CHECK(told == 8 && images("a.gif") == 7);
+    plot_figure frame[SEVEN];
+    fill(frame);
+    CHECK(plot_draw(frame, SEVEN, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
+          images("a.gif") == SEVEN);
     unlink("a.gif");
     char *text = NULL;
     size_t room;
     FILE *out = open_memstream(&text, &room);
-    m.progress = NULL;
-    CHECK(plot_animate(&m, &(plot_target){.out = out, .columns = 50, .rows = 12, .moving = true}, NULL,
-                       fresh()));
+    CHECK(plot_draw(frame, SEVEN, &(plot_target){.out = out, .columns = 50, .rows = 12, .moving = true}, NULL,
+                    fresh()));
     fclose(out);
     size_t ups = 0; /* the only letters A are of the cursor's way back up */
     for (const char *p = text; (p = strchr(p, 'A')); p++)
@@ -962,27 +947,17 @@ static void animates(const char *tmp) {
     /* axes hold for all frames */
     CHECK(has(text, "\n 6 ") || has(text, "\n 6.0 ") || !strncmp(text, " 6", 2));
     free(text);
-    size_t bad = 3;
-    m.context = &bad;
-    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
-          has(error.text, "frame 3 of 7"));
-    CHECK(!plot_animate(&m, &(plot_target){.file = "a.png"}, NULL, fresh()) && has(error.text, ".gif"));
-    CHECK(!plot_animate(&m, &(plot_target){.file = "gif"}, NULL, fresh()) && has(error.text, ".gif"));
-    m.fill = fill_more;
-    bad = 0;
-    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
-          has(error.text, "the frames differ"));
-    bad = 1;
-    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
-          has(error.text, "nothing to plot"));
-    for (m.frames = 0; m.frames <= PLOT_FRAMES + 1; m.frames += PLOT_FRAMES + 1)
-        CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif"}, NULL, fresh()) &&
-              has(error.text, "1 to 1000 frames"));
-    m.frames = 7;
-    m.fill = fill;
+    const plot_target gif = {.file = "a.gif"};
     static volatile sig_atomic_t stop = 1;
-    m.context = NULL;
-    CHECK(!plot_animate(&m, &(plot_target){.file = "a.gif", .stop = &stop}, NULL, fresh()));
+    CHECK(!plot_draw(frame, SEVEN, &(plot_target){.file = "a.gif", .stop = &stop}, NULL, fresh()));
+    CHECK(plot_panel_add(&frame[3], fresh()) && !plot_draw(frame, SEVEN, &gif, NULL, fresh()) &&
+          has(error.text, "the frames differ"));
+    plot_figure_free(&frame[3]);
+    CHECK(!plot_draw(frame, SEVEN, &gif, NULL, fresh()) && has(error.text, "nothing to plot"));
+    for (size_t n = 0; n <= PLOT_FRAMES + 1; n += PLOT_FRAMES + 1)
+        CHECK(!plot_draw(frame, n, &gif, NULL, fresh()) && has(error.text, "1 to 1000 frames"));
+    for (int i = 0; i < SEVEN; i++)
+        plot_figure_free(&frame[i]);
     CHECK(!any_left(tmp) && !any_left("."));
 }
 
@@ -1066,7 +1041,7 @@ static void late(void) {
     CHECK(!fclose(fake) && !chmod("gnuplot", 0700) && !setenv("PATH", ".", 1));
     plot_point(f.panel[0]->series[0], 0, 0);
     plot_point(f.panel[0]->series[0], 1, 1);
-    CHECK(!plot_draw(&f, &(plot_target){.file = "late.png", .timeout = 0.2}, &report, fresh()));
+    CHECK(!plot_draw(&f, 1, &(plot_target){.file = "late.png", .timeout = 0.2}, &report, fresh()));
     CHECK(strstr(error.text, "gnuplot gave no picture within 0.2 s and was stopped"));
     CHECK(!setenv("PATH", before, 1) && !unlink("gnuplot") && access("late.png", F_OK));
     free(before);
