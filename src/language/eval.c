@@ -248,22 +248,28 @@ static bool dim_fits(machine *m, const expr *e, const knob *p, value v, dim want
     return false;
 }
 
+/* The value that a name is to have, as things stand outside; want: the dimension of an input, or none. */
+static bool value_outside(const machine *m, const expr *e, const knob *p, dim *want, value *v) {
+    machine outside = *m;
+    *want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : DIM_NONE;
+    outside.e = e;
+    outside.want = p->is_input ? want : NULL;
+    return run_nodes(&outside, v);
+}
+
 /* All values are those outside, then all are set. NULL: an error. */
 static trial *open_changed(machine *m, const expr_at *at) {
     knob_value by[CHANGES];
     size_t count = 0, wrong;
     for (size_t i = 0; i < at->count; i++) {
-        machine outside = *m;
         const knob *p = &at->change[i].p;
-        dim want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : DIM_NONE;
-        outside.e = &at->change[i].value;
-        outside.want = p->is_input ? &want : NULL;
+        const expr *e = &at->change[i].value;
+        dim want;
         value v;
-        if (!run_nodes(&outside, &v))
+        if (!value_outside(m, e, p, &want, &v))
             return NULL;
-        if (!p->is_input)
-            want = v.d;
-        if (!dim_fits(m, outside.e, p, v, want))
+        want = p->is_input ? want : v.d;
+        if (!dim_fits(m, e, p, v, want))
             return NULL;
         if (m->dry && p->is_input)
             continue;
@@ -311,14 +317,10 @@ static bool body_value(void *context, value *out) {
 /* Both of one dimension, that of the name where it is an input. */
 static bool range_ends(machine *m, const expr_at *at, knob *name, over *o) {
     value end[2];
-    dim want = name->is_input ? quantity_dim(quantity_of_input(name->in), m->c->now) : DIM_NONE;
-    for (int i = 0; i < 2; i++) {
-        machine outside = *m;
-        outside.e = &at->change[i].value;
-        outside.want = name->is_input ? &want : NULL;
-        if (!run_nodes(&outside, &end[i]))
+    dim want;
+    for (int i = 0; i < 2; i++)
+        if (!value_outside(m, &at->change[i].value, name, &want, &end[i]))
             return false;
-    }
     const int tells = end[0].v == 0 && dim_equal(end[0].d, DIM_NONE); /* of a bare 0 the other one */
     name->d = name->is_input ? want : end[tells].d;
     o->lo = end[0].v;
@@ -526,11 +528,9 @@ static bool choose_reading(machine *m) {
     while (n < end && !(n->kind == N_BINARY && n->op == '?'))
         n++;
     for (int i = 0; i < 2 && n < end; i++) {
-        calc_error unused;
         machine probe = *m;
         value v;
-        error_clear(&unused);
-        probe.error = &unused;
+        probe.error = error_quiet();
         probe.dry = true;
         probe.over = i;
         holds[i] =

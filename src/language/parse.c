@@ -424,9 +424,7 @@ static bool unit_behind(parser *p, size_t at, size_t *out) {
 /* `0.5 in`, and no unit behind it. */
 static bool means_inch(const parser *p) {
     lexer next = *p->lx;
-    calc_error unused;
-    error_clear(&unused);
-    next.error = &unused;
+    next.error = error_quiet();
     lex_next(&next);
     return (next.kind != T_NAME && !unit_at(&next)) || lex_is(&next, "in") || lex_is(&next, "at") ||
            lex_peek(&next) == T_ASSIGN || (p->c->keyword && p->c->keyword(&next));

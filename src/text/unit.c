@@ -11,35 +11,30 @@
 /* The one table of units. */
 static const struct {
     const char *name;
-    unsigned char len;
     bool prefixes;
     unit u;
     const char *meaning;
 } units[] = {
-    {"N", 1, true, {{1, 0, 0, 0}, 0, 1}, "newton, force"},
-    {"lbf", 3, false, {{1, 0, 0, 0}, 0, 4.4482216152605L}, "pound-force"},
-    {"kip", 3, false, {{1, 0, 0, 0}, 3, 4.4482216152605L}, "1000 lbf"},
-    {"kgf", 3, false, {{1, 0, 0, 0}, 0, 9.80665L}, "kilogram-force"},
-    {"gf", 2, false, {{1, 0, 0, 0}, -3, 9.80665L}, "gram-force"},
-    {"dyn", 3, false, {{1, 0, 0, 0}, -5, 1}, "dyne, force"},
-    {"Pa", 2, true, {{1, -2, 0, 0}, 0, 1}, "pascal, pressure"},
-    {"bar", 3, false, {{1, -2, 0, 0}, 5, 1}, "bar, pressure"},
-    {"psi",
-     3,
-     false,
-     {{1, -2, 0, 0}, 0, 4.4482216152605L / (0.0254L * 0.0254L)},
-     "pound-force per square inch"},
-    {"ksi", 3, false, {{1, -2, 0, 0}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
-    {"m", 1, true, {{0, 1, 0, 0}, 0, 1}, "metre, length"},
-    {"inch", 4, false, {{0, 1, 0, 0}, -4, 254}, "inch, length"},
-    {"\xc3\x85", 2, false, {{0, 1, 0, 0}, -10, 1}, "angstrom, length"},
-    {"J", 1, true, {{1, 1, 0, 0}, 0, 1}, "joule, energy"},
-    {"kg", 2, false, {{1, -1, 0, 2}, 0, 1}, "kilogram, mass"},
-    {"s", 1, true, {{0, 0, 0, 1}, 0, 1}, "second, time; elsewhere the name is free"},
-    {"Hz", 2, true, {{0, 0, 0, -1}, 0, 1}, "hertz, frequency"},
-    {"rad", 3, false, {{0, 0, 1, 0}, 0, 1}, "radian, angle"},
-    {"deg", 3, false, {{0, 0, 1, 0}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
-    {"%", 1, false, {{0, 0, 0, 0}, -2, 1}, "per cent"},
+    {"N", true, {{1, 0, 0, 0}, 0, 1}, "newton, force"},
+    {"lbf", false, {{1, 0, 0, 0}, 0, 4.4482216152605L}, "pound-force"},
+    {"kip", false, {{1, 0, 0, 0}, 3, 4.4482216152605L}, "1000 lbf"},
+    {"kgf", false, {{1, 0, 0, 0}, 0, 9.80665L}, "kilogram-force"},
+    {"gf", false, {{1, 0, 0, 0}, -3, 9.80665L}, "gram-force"},
+    {"dyn", false, {{1, 0, 0, 0}, -5, 1}, "dyne, force"},
+    {"Pa", true, {{1, -2, 0, 0}, 0, 1}, "pascal, pressure"},
+    {"bar", false, {{1, -2, 0, 0}, 5, 1}, "bar, pressure"},
+    {"psi", false, {{1, -2, 0, 0}, 0, 4.4482216152605L / (0.0254L * 0.0254L)}, "pound-force per square inch"},
+    {"ksi", false, {{1, -2, 0, 0}, 3, 4.4482216152605L / (0.0254L * 0.0254L)}, "1000 psi"},
+    {"m", true, {{0, 1, 0, 0}, 0, 1}, "metre, length"},
+    {"inch", false, {{0, 1, 0, 0}, -4, 254}, "inch, length"},
+    {"\xc3\x85", false, {{0, 1, 0, 0}, -10, 1}, "angstrom, length"},
+    {"J", true, {{1, 1, 0, 0}, 0, 1}, "joule, energy"},
+    {"kg", false, {{1, -1, 0, 2}, 0, 1}, "kilogram, mass"},
+    {"s", true, {{0, 0, 0, 1}, 0, 1}, "second, time; elsewhere the name is free"},
+    {"Hz", true, {{0, 0, 0, -1}, 0, 1}, "hertz, frequency"},
+    {"rad", false, {{0, 0, 1, 0}, 0, 1}, "radian, angle"},
+    {"deg", false, {{0, 0, 1, 0}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
+    {"%", false, {{0, 0, 0, 0}, -2, 1}, "per cent"},
 };
 enum { UNITS = sizeof units / sizeof *units };
 
@@ -71,7 +66,7 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
     if (len == sizeof sign - 1 && !memcmp(word, sign, len))
         return unit_lookup("\xc3\x85", 2, out);
     for (size_t i = 0; i < UNITS; i++) {
-        size_t n = units[i].len;
+        const size_t n = strlen(units[i].name);
         if (n > len || units[i].name[n - 1] != word[len - 1])
             continue;
         if (n == len && !memcmp(units[i].name, word, n)) {
