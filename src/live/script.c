@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "live/state.h"
+#include "text/characters.h"
 #include "text/file.h"
 #include "text/lines.h"
 
@@ -65,9 +66,11 @@ static void take_note(live *l) {
     l->note[0] = 0;
     for (; s->at < s->count && is_comment(s->line[s->at].text); s->at++) {
         const char *text = s->line[s->at].text + strspn(s->line[s->at].text, "# ");
+        char shown[LIVE_LINE];
         const size_t n = strlen(l->note);
+        characters_shown(text, shown, sizeof shown);
         if (*text)
-            snprintf(l->note + n, sizeof l->note - n, "%s%s", n ? " " : "", text);
+            snprintf(l->note + n, sizeof l->note - n, "%s%s", n ? " " : "", shown);
     }
     if (s->at == s->count && !*l->note)
         snprintf(l->note, sizeof l->note, "the end of the script");

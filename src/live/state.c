@@ -6,11 +6,15 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "text/characters.h"
+
 void live_tell(live *l, bool bad, const char *format, ...) {
+    char text[LIVE_LINE];
     va_list args;
     va_start(args, format);
-    vsnprintf(l->status, sizeof l->status, format, args);
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    characters_shown(text, l->status, sizeof l->status);
     l->bad = bad;
     l->changed = true;
 }

@@ -48,7 +48,7 @@ typedef struct live {
     side_by_side compared; /* what the sides show */
     side side[COMPARED];
     /* what is told */
-    char status[LIVE_LINE];
+    char status[LIVE_LINE]; /* nothing in it that does not show; nor in the note */
     bool bad;
     char note[LIVE_LINE]; /* a comment of the script */
     char *page;           /* a text over all views, or NULL */

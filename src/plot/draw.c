@@ -107,6 +107,13 @@ static size_t print_page(FILE *from, FILE *out, const char *end) {
     return lines;
 }
 
+static size_t lost_read(const plot_run *r, calc_error *error) {
+    if (ferror(r->out))
+        calc_raise_errno(error, EIO, "cannot read what gnuplot drew");
+    calc_raise(error, 0, 0, "gnuplot drew nothing"); /* the first error stays */
+    return 0;
+}
+
 /* A frame of pages that gnuplot drew; NULL: as it is drawn here. The number of lines; 0 with the error. */
 static size_t print_frame(const plot_run *r, const scripted *w, size_t n, const char *end,
                           calc_error *error) {
@@ -116,10 +123,8 @@ static size_t print_frame(const plot_run *r, const scripted *w, size_t n, const 
     for (size_t i = 0; i < (w->pages->beside ? 1 : w->reel->frame[n].count); i++) {
         const size_t more = print_page(r->out, w->target->out, end);
         lines += more;
-        if (!more) {
-            calc_fail(error, 0, 0, "gnuplot drew nothing");
-            return 0;
-        }
+        if (!more)
+            return lost_read(r, error);
     }
     return lines;
 }
