@@ -73,7 +73,7 @@ def captions(tests):
     tests.check("a caption in the terminal", done.returncode == 0 and line.search(done.stdout), tests.report(done))
     for name in ("a", "m"):
         lines = texts(read(os.path.join(where, name + ".svg")))
-        tests.check("a caption in " + name, all(word in lines for word in ("geometry sphere R=10 mm", "cycle FA=38 N", "fret 0.")), lines[-400:])
+        tests.check("a caption in " + name, all(word in lines for word in ("geometry sphere R=10 mm", "cycle FA=38 N", "fret 1.")), lines[-400:])
         head = read(os.path.join(where, name + ".png"))[16:24]
         tests.check("room for it in " + name, struct.unpack(">II", head)[1] > 675, str(head))
     done = tests.run("--format=json", "-c", SCENE + "set plot caption on; plot loop", cwd=where)
