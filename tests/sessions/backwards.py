@@ -351,12 +351,12 @@ def linear(tests):
 def stays(tests):
     """Nothing changes in the scene, nor among the names."""
     setup = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N; v = 3 N; FNA = 0 N; "
-    asked = ("solve mu for dW = 1 uJ; solve v for dW(v) = 1 uJ; solve q for dW(q) = 1 uJ from 1 N to 30 N; "
-             "maximize dW(q) over q = 1 N .. 30 N; maximize dW(v) over v = 1 N .. 30 N; uncertainty dW, v with mu +- 0.01, v +- 1 N; "
+    asked = ("solve mu for dW = 1 uJ; solve v for dW(v) = 1 uJ; solve Q for dW(Q) = 1 uJ from 1 N to 30 N; "
+             "maximize dW(Q) over Q = 1 N .. 30 N; maximize dW(v) over v = 1 N .. 30 N; uncertainty dW, v with mu +- 0.01, v +- 1 N; "
              "solve mu for dW = 1 J; maximize dW over mu = 0.01 .. 0.02; ")
-    plain = tests.run("--keep-going", "-c", setup + "show; v; q")
-    after = tests.run("--keep-going", "-c", setup + asked + "show; v; q")
-    tests.check("questions leave the scene as it is", after.stdout.endswith(plain.stdout) and "unknown name 'q'" in after.stderr,
+    plain = tests.run("--keep-going", "-c", setup + "show; v; Q")
+    after = tests.run("--keep-going", "-c", setup + asked + "show; v; Q")
+    tests.check("questions leave the scene as it is", after.stdout.endswith(plain.stdout) and "unknown name 'Q'" in after.stderr,
                 plain.stdout + tests.report(after))
 
 

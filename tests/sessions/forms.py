@@ -83,7 +83,7 @@ READ = (
     (SCENE + "fit mu along force-turned.csv", None, "note: force-turned.csv: 11 rows from line 2, Fx falls where dx grows: its sign is turned\n"),
     ("q = 1 um; fit q for d = q*F/(1 N) to plain.csv using d=dx, F=2", None, 'note: plain.csv: 11 rows from line 2, d from "dx [um]", F from "Fx [N]"\n'),
     (SCENE + "step Fx=1 N; plot loop over two-forces.csv using Fx=Querkraft over plain.csv to x.gp", None,
-     'note: two-forces.csv: 11 rows from line 2, Fx from "Querkraft [N]"\n'),
+     'note: two-forces.csv: 11 rows from line 2, dx from "Weg [um]", Fx from "Querkraft [N]"\n'),
     ("geometry file profile.csv; f(0.5 mm)", "f(0.5 mm) = 12.5 um\n", ""),
     ("geometry file profile-height.csv height; f(0.5 mm); show", "f(0.5 mm) = 12.5 um\ngeometry file profile-height.csv height\n",
      'note: profile-height.csv: 21 rows from line 2, r from "x [mm]", f from "z [um]", f = -z\n'),

@@ -459,14 +459,15 @@ def in_use(tests):
     data = "FN [N],Fx [N]\n100,0\n100,10\n"
     with open(os.path.join(where, "h.csv"), "w", encoding="ascii") as f:
         f.write(data)
-    for kept in ("rs.txt", "rs.csv", "rs.svg", "rs.gif"):
-        os.symlink(kept, os.path.join(where, "link" + kept[2:]))
+    kept = "rs.txt"
+    for ending in ("txt", "csv", "svg", "gif"):
+        os.symlink(kept, os.path.join(where, "link." + ending))
     scene = SCENE + "cycle FA=20 N\n"
-    for kept, statement in (
-            ("rs.txt", "save %s"), ("rs.txt", "table x for x = 1 .. 2 to %s"), ("rs.csv", "history to %s"), ("rs.csv", "table Fx along cycle to %s"),
-            ("rs.svg", "plot loop to %s"), ("rs.gif", "animate loop frames 2 to %s"), ("rs.csv", "export jenkins 3 to %s"),
-            ("rs.txt", "record %s")):
-        for name in (kept, "link" + kept[2:], "../in-use/" + kept):
+    for ending, statement in (
+            ("txt", "save %s"), ("txt", "table x for x = 1 .. 2 to %s"), ("csv", "history to %s"), ("csv", "table Fx along cycle to %s"),
+            ("svg", "plot loop to %s"), ("gif", "animate loop frames 2 to %s"), ("csv", "export jenkins 3 to %s"),
+            ("txt", "record %s")):
+        for name in ("link." + ending, "../in-use/link." + ending, *([kept, "../in-use/" + kept] if ending == "txt" else ())):
             said = statement % name
             done = tests.run("--keep-going", "-c", "record %s\n1+1\n%s%s\n77+1\nrecord off" % (kept, scene, said), cwd=where)
             with open(os.path.join(where, kept), encoding="utf-8") as f:
@@ -493,11 +494,11 @@ def in_use(tests):
         with open(os.path.join(where, "again.txt"), encoding="utf-8") as f:
             tests.check("a transcript that is replayed is no target: %s %s" % way, f.read() == text, text)
         tests.check("and comes out again: %s %s" % way, done.stdout.endswith(": 3 passed, 0 failed\n"), tests.report(done))
-    for statement in ("save out.csv", "table x for x = 1 .. 2 to out.csv", "record out.csv", "record /dev/stdout"):
-        with open(os.path.join(where, "out.csv"), "wb") as out:
+    for statement in ("save out.txt", "table x for x = 1 .. 2 to out.txt", "record out.txt", "record /dev/stdout"):
+        with open(os.path.join(where, "out.txt"), "wb") as out:
             done = subprocess.run([tests.fret, "--keep-going", "-c", "mu = 0.3; 1+1\n%s\n77+1" % statement], stdout=out, stderr=subprocess.PIPE, env=tests.env, cwd=where,
                                   timeout=60, check=False)
-        with open(os.path.join(where, "out.csv"), encoding="utf-8") as f:
+        with open(os.path.join(where, "out.txt"), encoding="utf-8") as f:
             text = f.read()
         tests.check("standard output, no target: " + statement, done.returncode == 1 and b": this session is using it\n" in done.stderr and
                     text == "1+1 = 2\n77+1 = 78\n", "%s%s" % (done.stderr, text))

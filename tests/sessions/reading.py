@@ -59,7 +59,7 @@ WRONG = {
     b"r [mm];f [um]\n0;0\n-1.500;1,5\n": ":3: r = -1.500 may be -1.5 or -1500, since line 3 has a decimal comma",
     b"r [mm];f [um]\n0;0\n950.5;5\n1,500;12\n": ":4: r = 1,500 may be 1.5 or 1500, since line 3 has a decimal point: write it without its comma, or with a point",
     b"r [mm],f [um]\n0,0\n0.5,1\n\"1,500\",12\n": ":4: r = 1,500 may be 1.5 or 1500, since line 3 has a decimal point",
-    b"r [mm];f [um]\n0;0\n12,500;5\n123.500;12 # far\n": ":4: r = 123.500 may be 123.5 or 123500, since line 3 has a decimal comma",
+    b"r [mm];f [um]\n0;0\n12,500;5\n123.500;12 # far\n": ":3: r = 12,500 may be 12.5 or 12500, since line 4 has a decimal point",
     b"r [mm];f [um]\n0;0\n0,5;5\n1;12.000 # far\n": ":4: f = 12.000 may be 12 or 12000, since line 3 has a decimal comma",
     b"r [mm],f [um]\n0,0\n0.5,12x\n": ":3: expected a number as f, not '12x'",
     b"r [mm],f [um]\n0,0\n0.5#,12\n": ":3: expected a number as r, not '0.5#'",
