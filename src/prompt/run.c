@@ -132,7 +132,8 @@ static bool is_lead(lexer *lx, const char *before) {
     if (!lead)
         return false;
     error_clear(lx->error);
-    return !calc_fail(lx->error, lx->at, n, "unexpected '%.*s': %s", LEX_SHOWN(n), lx->text + lx->at, lead);
+    return !calc_fail(lx->error, lx->at, n, "%s '%.*s': %s", *before ? "unknown name" : "unexpected",
+                      LEX_SHOWN(n), lx->text + lx->at, lead);
 }
 
 /* A misspelt command followed by its arguments. */

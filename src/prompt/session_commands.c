@@ -38,21 +38,20 @@ bool do_quit(shell *sh, lexer *lx, said *all) {
 
 /* ---- save, record, replay ---------------------------------------------------------------------- */
 
-/* The name of a file of statements: not one that says of itself that it is a picture, or a table. */
-static bool statements_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
+/* The name of a file of statements: not one that says of itself that it is a picture. */
+static bool is_statements(const lexer *lx, const span *part) {
+    char name[FILE_NAME];
     hole_file(lx, part, name);
-    const bool picture = plot_kind_of(name, error_quiet());
-    if (!picture && !file_ends(name, ".csv") && !file_ends(name, ".json"))
-        return true;
-    return calc_fail(lx->error, part->at, part->len,
-                     "'%s' is the name of a %s to FILE writes: statements go to one such as scene.fret", name,
-                     picture ? "picture, which plot ..." : "table, which history");
+    return !plot_kind_of(name, error_quiet()) ||
+           calc_fail(lx->error, part->at, part->len,
+                     "'%s' is the name of a picture, which plot ... to FILE writes: statements go to one "
+                     "such as scene.fret",
+                     name);
 }
 
 /* ---- save -------------------------------------------------------------------------------------- */
 
 bool do_save(shell *sh, lexer *lx, said *all) {
-    char file[FILE_NAME];
     target t;
     const bool history = *all->list[0].of->name;
     const span *name = &all->list[0].hole[0];
@@ -61,7 +60,7 @@ bool do_save(shell *sh, lexer *lx, said *all) {
     if (history && !sh->typed.to)
         return calc_fail(lx->error, name->at, name->len,
                          "nothing has been typed here: a script is its own history");
-    if (!statements_file(lx, name, file) || !target_file(lx, name, &t))
+    if (!is_statements(lx, name) || !target_file(lx, name, &t))
         return false;
     if (!history)
         fputs("# fret " FRET_VERSION "\n", t.to);
@@ -93,8 +92,6 @@ bool do_record(shell *sh, lexer *lx, said *all) {
     if (said_of(all, "off", 0))
         return record_end(sh, true) || lex_fail(lx, "nothing is being recorded");
     hole_file(lx, &all->list[0].hole[0], name);
-    if (!file_ends(name, ".html") && !statements_file(lx, &all->list[0].hole[0], name))
-        return false;
     char *text = beginning(sh);
     if (!text)
         return calc_no_memory(lx->error);
