@@ -126,10 +126,9 @@ static fret_estimate to_end(over *o, long double far, long double end) {
 
 /* *size: of its magnitude. What has worn is straight between rows by the hundred: it is not worth its last
  * digits. */
-static fret_estimate of_part(over *o, long double lo, long double hi, long double *size) {
-    const bool worn = scene_is_worn(&o->t->scene);
+static fret_estimate of_part(over *o, bool worn, long double lo, long double hi, long double *size) {
     const long double good = worn ? 1e-4L : 1e-14L;
-    fret_estimate all = between(o, lo, hi, worn ? 1e-7L : 1e-16L, false);
+    fret_estimate all = between(o, lo, hi, worn ? 1e-5L : 1e-16L, false);
     *size = fabsl(all.value);
     if (isfinite(all.error) && all.error > good * *size)
         *size = between(o, lo, hi, 1e-3L, true).value;
@@ -153,11 +152,16 @@ static fret_estimate of_part(over *o, long double lo, long double hi, long doubl
  * end has another law nearer to it than that. The first lets no rule lie evenly about a pole, whose sides
  * would take each other away. */
 enum { EDGES = 200 };
-static size_t edges(over *o, long double at[EDGES]) {
+static size_t edges(over *o, bool *worn, long double at[EDGES]) {
     static const char *const names[] = {"b", "a"};
     long double v[3];
     size_t count = 0, found = 0;
+    calc_error *error = o->error;
     at[count++] = o->lo + 0.381966L * (o->hi - o->lo);
+    o->error = error_quiet();
+    look_at(o, at[0], v);
+    o->error = error;
+    *worn = scene_is_worn(&o->t->scene);
     for (size_t i = 0; i < 2 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++) {
         found += quantity_get(quantity_find(names[i], 1), &o->t->scene, &v[found], error_quiet());
         if (i == 1 && found == 2 && v[1] > v[0] && v[1] < 1.1L * v[0])
@@ -167,23 +171,18 @@ static size_t edges(over *o, long double at[EDGES]) {
         at[count++] = v[i];
         at[count++] = -v[i];
     }
-    if (count > 1) {
-        calc_error *error = o->error;
-        long double unused;
-        o->error = error_quiet();
-        look_at(o, at[0], &unused);
-        o->error = error;
+    if (count > 1)
         count += scene_work_edges(&o->t->scene, at + count, EDGES - count);
-    }
     return count;
 }
 
 bool over_integral(over *o, long double *out, long double *error) {
     static const long double alike = 1e-15L;
     long double edge[EDGES], size = 0, off = 0, sum = 0;
-    const size_t count = edges(o, edge);
+    bool worn;
+    const size_t count = edges(o, &worn, edge);
     const int way = o->lo < o->hi ? 1 : -1;
-    const long double poor = scene_is_worn(&o->t->scene) ? 1e-4L : 1e-6L;
+    const long double poor = worn ? 1e-4L : 1e-6L;
     if (scene_work_chords(&o->t->scene))
         return calc_fail(
             o->error, 0, 0,
@@ -195,7 +194,7 @@ bool over_integral(over *o, long double *out, long double *error) {
         for (size_t i = 0; i < count; i++)
             if (way * (edge[i] - lo) > alike * fabsl(o->hi - o->lo) && way * edge[i] < way * hi)
                 hi = edge[i];
-        const fret_estimate here = of_part(o, lo, hi, &own);
+        const fret_estimate here = of_part(o, worn, lo, hi, &own);
         sum += here.value;
         off += here.error;
         size += fabsl(own);

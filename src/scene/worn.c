@@ -6,22 +6,15 @@
 #include "number/real.h"
 #include "scene/scene.h"
 
-/* One law, what is held, and how it wears: a run rests at cycles that these alone tell, `first` 4^i, and goes
- * to the cycles asked for from the last of them. So what comes does not depend on what was asked before. */
-enum { RESTS = 40 };
+/* One law, what is held, and the run of how it wears. */
 struct wear_path {
     counted base;
     fret_normal *normal; /* unworn */
     shared_table *table; /* of its gap, or NULL */
     fret_wear_held held;
-    double first;
-    size_t count;
-    fret_wear *at[RESTS];
+    fret_wear_run *run;
     worn_gap *last; /* that was asked for */
 };
-
-/* Parts of the volume between the bodies that the first of them stands for. */
-static const double LITTLE = 1.0 / 64;
 
 static void worn_end(counted *self) {
     worn_gap *w = (worn_gap *)self;
@@ -33,8 +26,7 @@ static void worn_end(counted *self) {
 static void path_end(counted *self) {
     wear_path *p = (wear_path *)self;
     counted_drop(p->last ? &p->last->base : NULL);
-    while (p->count)
-        fret_wear_free(p->at[--p->count]);
+    fret_wear_run_free(p->run);
     fret_normal_free(p->normal);
     counted_drop(p->table ? &p->table->base : NULL);
     free(p);
@@ -91,18 +83,12 @@ static bool same_held(const fret_wear_held *a, const fret_wear_held *b) {
            a->amplitude == b->amplitude && a->mu == b->mu && a->alpha == b->alpha;
 }
 
-/* By the work of the first cycle and the volume that the depth spans. */
-static fret_status first_rest(const fret_normal *normal, const fret_wear_held *held, double *out) {
-    fret_pressed contact = {.normal = normal, .mu = held->mu};
-    fret_real loss = 0;
-    fret_status st =
-        (held->by_depth ? fret_press_by_depth : fret_press_by_force)(normal, held->press, &contact.press);
-    if (!st.code)
-        st = (held->by_displacement ? fret_cycle_loss_by_displacement
-                                    : fret_cycle_loss_by_force)(&contact, held->amplitude, &loss);
-    *out = (double)(LITTLE * FRET_PI * contact.press.a * contact.press.a * contact.press.dz /
-                    (held->alpha * loss));
-    return st;
+/* The status of wear, or what it means. */
+static bool wear_status(const fret_status *st, calc_error *error) {
+    return st->code == FRET_SINGULAR
+               ? calc_fail(error, 0, 0,
+                           "where it slips at r = %.6g m pressure is infinite: that wears at once", st->value)
+               : calc_status(error, st);
 }
 
 /* The path of the scene, which clones share; a new one where it wears otherwise. */
@@ -118,15 +104,12 @@ static bool find_path(scene *s, const fret_normal *normal, const fret_wear_held 
     p->held = *held;
     p->normal = fret_normal_hold(s->answers.normal);
     p->table = counted_hold(s->in.table ? &s->in.table->base : NULL);
-    fret_status st = first_rest(normal, held, &p->first);
-    if (!st.code)
-        st = fret_wear_make(p->normal, &p->at[0]);
-    p->count = !st.code;
+    const fret_status st = fret_wear_run_make(p->normal, held, WEAR_TOLERANCE, &p->run);
     if (st.code) {
         counted_drop(&p->base);
         s->wears = NULL;
     }
-    return calc_status(error, &st);
+    return wear_status(&st, error);
 }
 
 /* ---- running ----------------------------------------------------------------------------------- */
@@ -138,35 +121,6 @@ static void pulse(double cycles, void *user) {
         s->pulse();
 }
 
-static fret_status run_from(scene *s, const fret_wear *from, double to, fret_wear **out) {
-    fret_status st = fret_wear_copy(from, out);
-    if (!st.code)
-        st = fret_wear_run(*out, &s->wears->held, to - fret_wear_cycles(from), WEAR_TOLERANCE, pulse, s);
-    if (st.code) {
-        fret_wear_free(*out);
-        *out = NULL;
-    }
-    return st;
-}
-
-/* The cycles at which the path rests for the i-th time; 0 at first. */
-static double rest(const wear_path *p, size_t i) {
-    return i ? ldexp(p->first, 2 * ((int)i - 1)) : 0;
-}
-
-static fret_status run_path(scene *s, double Nw, fret_wear **out) {
-    wear_path *p = s->wears;
-    fret_status st = {.code = FRET_OK};
-    while (p->count < RESTS && rest(p, p->count) < Nw && !st.code) {
-        st = run_from(s, p->at[p->count - 1], rest(p, p->count), &p->at[p->count]);
-        p->count += !st.code;
-    }
-    size_t i = p->count - 1;
-    while (i > 0 && rest(p, i) >= Nw)
-        i--;
-    return st.code ? st : run_from(s, p->at[i], Nw, out);
-}
-
 static bool make_worn(scene *s, double Nw, calc_error *error) {
     wear_path *p = s->wears;
     worn_gap *w = calloc(1, sizeof *w);
@@ -176,14 +130,10 @@ static bool make_worn(scene *s, double Nw, calc_error *error) {
     w->normal = fret_normal_hold(p->normal);
     w->held = p->held;
     w->Nw = Nw;
-    const fret_status st = run_path(s, Nw, &w->wear);
+    const fret_status st = fret_wear_after(p->run, Nw, pulse, s, &w->wear);
     if (st.code) {
         counted_drop(&w->base);
-        return st.code == FRET_SINGULAR
-                   ? calc_fail(error, 0, 0,
-                               "where it slips at r = %.6g m pressure is infinite: that wears at once",
-                               st.value)
-                   : calc_status(error, &st);
+        return calc_status(error, &st);
     }
     counted_drop(p->last ? &p->last->base : NULL);
     p->last = w;

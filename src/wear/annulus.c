@@ -22,11 +22,12 @@ static double dot(const double *a, const double *b, size_t n) {
     return s[0] + s[1] + (s[2] + s[3]);
 }
 
-static size_t row_g(size_t i) {
-    return i * (i - 1) / 2;
+static double *row_g(const fret_annulus *a, size_t i) {
+    const size_t n = a->count, within = i < n ? i : n;
+    return a->to_g + within * (within - 1) / 2 + (i - within) * (n - 1);
 }
-static size_t row_p(const fret_annulus *a, size_t i) {
-    return i * (a->count - 1) - i * (i + 1) / 2 + i;
+static double *row_p(const fret_annulus *a, size_t i) {
+    return a->to_p + i * (a->count - 1) - i * (i + 1) / 2 + i;
 }
 
 /* (b^m - a^m)/m of distances. */
@@ -35,6 +36,20 @@ static fret_real between(fret_real m, fret_real a, fret_real b) {
 }
 
 /* ---- making ------------------------------------------------------------------------------------ */
+
+/* Nodes ever closer to the inner end, where the worn profile is steep; beyond the ring the closer the nearer
+ * to it. */
+static void make_places(fret_annulus *a, fret_real inner, fret_real outer, fret_real second, fret_real end) {
+    const size_t n = a->count;
+    for (size_t i = 0; i < a->rows; i++) {
+        const fret_real u = i < n ? (fret_real)i / (fret_real)(n - 1)
+                                  : (fret_real)(i + 1 - n) / (fret_real)(a->rows - n),
+                        part = u * u * (2 - u);
+        a->x[i] = i < n ? sqrtl(inner * inner + part * (outer - inner) * (outer + inner))
+                        : outer + (end - outer) * u * u;
+    }
+    a->x[1] = fminl(a->x[1], second);
+}
 
 static void make_weights(fret_annulus *a, fret_real m, fret_real stiff) {
     const fret_real *x = a->x;
@@ -45,54 +60,48 @@ static void make_weights(fret_annulus *a, fret_real m, fret_real stiff) {
         a->weight[j + 1] += (double)(stiff * outer);
         for (size_t i = 0; i <= j; i++) {
             const fret_real near = (x[j] - x[i]) * (x[j] + x[i]);
-            a->to_p[row_p(a, i) + j - i] = (double)(between(m, near, near + d) / d);
+            row_p(a, i)[j - i] = (double)(between(m, near, near + d) / d);
         }
-        for (size_t i = j + 1; i < a->count; i++) {
+        for (size_t i = j + 1; i < a->rows; i++) {
             const fret_real near = (x[i] - x[j + 1]) * (x[i] + x[j + 1]);
-            a->to_g[row_g(i) + j] = (double)(between(m, near, near + d) / d);
+            row_g(a, i)[j] = (double)(between(m, near, near + d) / d);
         }
     }
 }
 
-fret_real fret_annulus_profile(fret_real k, const fret_real *x, const double *h, size_t count, fret_real at) {
-    const fret_real m = (k + 1) / 2;
-    fret_real sum = 0;
-    for (size_t j = 0; j + 1 < count && x[j] < at; j++) {
-        const fret_real end = fminl(x[j + 1], at), near = (at - end) * (at + end);
-        sum += between(m, near, (at - x[j]) * (at + x[j])) * (h[j + 1] - h[j]) /
-               ((x[j + 1] - x[j]) * (x[j + 1] + x[j]));
-    }
-    return h[0] + fret_pow(at, 1 - k) * sum;
-}
-
-fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *held, fret_real depth,
-                              const fret_real *x, size_t count, fret_annulus *out) {
+fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *held, fret_real inner,
+                              fret_real outer, fret_real second, size_t count, fret_annulus *out) {
+    enum { BEYOND = 64 };
     const fret_foundation *f = fret_normal_foundation(normal);
-    const fret_point inner = fret_law_at_radius(normal, x[0]);
-    const fret_real m = (f->k + 1) / 2, stiff = f->cN0 * fret_pow(f->c0, -f->k);
-    const size_t half = count * (count - 1) / 2;
+    const fret_point start = fret_law_at_radius(normal, inner);
+    const fret_real m = (f->k + 1) / 2, stiff = f->cN0 * fret_pow(f->c0, -f->k),
+                    end = fminl(fret_normal_end(normal), 4 * outer);
+    const size_t rows = count + (end > outer ? BEYOND : 0), half = count * (count - 1) / 2;
     double **const part[] = {&out->t, &out->g0,   &out->x1k, &out->weight, &out->g,
                              &out->w, &out->slip, &out->p,   &out->change};
     enum { PARTS = sizeof part / sizeof *part };
-    *out = (fret_annulus){.count = count, .x = x, .m = (double)m, .of_slope = (double)(stiff / FRET_PI)};
-    double *data = calloc(PARTS * count + 2 * half, sizeof *data);
-    if (!data)
+    *out = (fret_annulus){.count = count, .rows = rows, .of_slope = (double)(stiff / FRET_PI)};
+    out->x = calloc(rows, sizeof *out->x);
+    out->t = calloc(PARTS * rows + 2 * half + (rows - count) * (count - 1), sizeof *out->t);
+    if (!out->x || !out->t)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    for (size_t i = 0; i < PARTS; i++)
-        *part[i] = data + i * count;
-    out->to_g = data + PARTS * count;
-    out->to_p = out->to_g + half;
-    for (size_t i = 0; i < count; i++) {
-        out->t[i] = (double)(x[i] * x[i]);
-        out->g0[i] = (double)(fret_normal_profile(normal, x[i]) - inner.y);
-        out->x1k[i] = (double)fret_pow(x[i], 1 - f->k);
+    for (size_t i = 1; i < PARTS; i++)
+        *part[i] = out->t + i * rows;
+    out->to_p = out->t + PARTS * rows;
+    out->to_g = out->to_p + half;
+    make_places(out, inner, outer, second, end);
+    for (size_t i = 0; i < rows; i++) {
+        const fret_real x = out->x[i];
+        out->t[i] = (double)((x - inner) * (x + inner));
+        out->g0[i] = (double)(fret_normal_profile(normal, x) - start.y);
+        out->x1k[i] = (double)fret_pow(x, 1 - f->k);
     }
     make_weights(out, m, stiff);
-    out->inner = (double)fret_normal_stiffness(normal, x[0]);
-    out->within = (double)inner.F;
+    out->inner = (double)fret_normal_stiffness(normal, inner);
+    out->within = (double)start.F;
     out->by_depth = held->by_depth;
     out->by_displacement = held->by_displacement;
-    out->press = (double)(held->by_depth ? depth - inner.y : held->press - inner.F);
+    out->press = (double)(held->press - (held->by_depth ? start.y : start.F));
     out->mu = held->mu;
     out->eta = (double)f->eta;
     out->amplitude = held->amplitude / (held->mu * (held->by_displacement ? out->eta : 1));
@@ -102,23 +111,31 @@ fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *h
 
 void fret_annulus_free(fret_annulus *a) {
     free(a->t); /* the first part of all */
+    free(a->x);
 }
 
 /* ---- the rate ---------------------------------------------------------------------------------- */
 
 /* g of depths, from that of the unworn gap. A place that is worn as deep everywhere within has that depth
  * more. */
-static void worn_profile(fret_annulus *a, const double *h, double *g) {
+static void worn_profile(fret_annulus *a, const double *h, size_t rows) {
     for (size_t j = 0; j + 1 < a->count; j++)
         a->change[j] = h[j + 1] - h[j];
-    g[0] = h[0];
-    for (size_t i = 1; i < a->count; i++)
-        g[i] = h[0] + a->x1k[i] * dot(a->to_g + row_g(i), a->change, i);
+    a->g[0] = h[0];
+    for (size_t i = 1; i < rows; i++)
+        a->g[i] = h[0] + a->x1k[i] * dot(row_g(a, i), a->change, i < a->count ? i : a->count - 1);
+}
+
+const double *fret_annulus_profile(fret_annulus *a, const double *h) {
+    worn_profile(a, h, a->rows);
+    for (size_t i = 0; i < a->rows; i++)
+        a->g[i] += a->g0[i];
+    return a->g;
 }
 
 static void pressures(const fret_annulus *a, const double *change, size_t last, double *p) {
     for (size_t i = 0; i < a->count; i++)
-        p[i] = i < last ? a->of_slope * dot(a->to_p + row_p(a, i), change + i, last - i) : 0;
+        p[i] = i < last ? a->of_slope * dot(row_p(a, i), change + i, last - i) : 0;
 }
 
 /* Springs that have been touched press, or pull until they do not; others press where they are reached. */
@@ -126,10 +143,11 @@ static double pressed(const fret_annulus *a, size_t i, double depth) {
     return i <= a->touched || a->g[i] < depth ? depth - a->g[i] : 0;
 }
 
-/* The depth of the load: convex, Newton's steps end after finitely many. */
+/* The depth of the load: convex, Newton's steps end after finitely many; or that which is held, from the tip
+ * as it is. */
 static void find_depth(fret_annulus *a) {
     if (a->by_depth)
-        a->depth = a->press;
+        a->depth = a->press + a->g[0];
     for (int i = 0; i < 100; i++) {
         double load = a->inner * a->depth, K = a->inner;
         for (size_t j = 0; j < a->count; j++)
@@ -172,7 +190,7 @@ static fret_status find_slipped(const fret_annulus *a, double *slipped) {
 static void gap_of(fret_annulus *a, const double *g, double *f) {
     f[0] = g[0];
     for (size_t i = 1; i < a->count; i++) {
-        const double *row = a->to_g + row_g(i);
+        const double *row = row_g(a, i);
         a->change[i - 1] = ((g[i] - g[0]) / a->x1k[i] - dot(row, a->change, i - 1)) / row[i - 1];
         f[i] = f[i - 1] + a->change[i - 1];
     }
@@ -181,7 +199,7 @@ static void gap_of(fret_annulus *a, const double *g, double *f) {
 fret_status fret_annulus_rate(fret_annulus *a, const double *h, double *rate) {
     double slipped, work = 0;
     size_t last = a->touched;
-    worn_profile(a, h, a->g);
+    worn_profile(a, h, a->count);
     for (size_t i = 0; i < a->count; i++)
         a->g[i] += a->g0[i];
     find_depth(a);
@@ -219,13 +237,20 @@ double fret_annulus_norm(const fret_annulus *a, const double *h) {
     return sqrt(sum);
 }
 
+fret_real fret_annulus_volume(const fret_annulus *a, const double *h) {
+    fret_real sum = 0;
+    for (size_t i = 0; i + 1 < a->count; i++)
+        sum += FRET_PI / 2 * ((fret_real)h[i] + h[i + 1]) * (a->x[i + 1] - a->x[i]) * (a->x[i + 1] + a->x[i]);
+    return sum;
+}
+
 double fret_annulus_stiffness(fret_annulus *a, double *v) {
     double found = 0;
     for (int n = 0; n < 60; n++) {
         const double size = sqrt(dot(v, v, a->count)), before = found;
         for (size_t i = 0; i < a->count; i++)
             v[i] = size > 0 ? v[i] / size : i % 2 ? -1 : 1;
-        worn_profile(a, v, a->g);
+        worn_profile(a, v, a->count);
         for (size_t j = 0; j + 1 < a->count; j++)
             a->change[j] = a->g[j + 1] - a->g[j];
         pressures(a, a->change, a->count - 1, a->p);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks of cycles: what wears fast where it is pressed decays far faster than the whole, which Runge-Kutta-
- * Chebyshev's explicit steps of second order bear, in as many stages as the root of that ratio. Allocates,
- * and frees what it allocated. */
+ * Chebyshev's explicit steps of second order bear, in as many stages as the root of that ratio. Their ends
+ * are kept: they follow from each other alone, so that what is told between them does not depend on what has
+ * been asked before. Allocates. */
 #include "wear/blocks.h"
 
 #include <math.h>
@@ -9,8 +10,11 @@
 #include <string.h>
 
 #include "law/check.h"
+#include "law/normal.h"
+#include "number/array.h"
+#include "number/real.h"
 
-enum { STAGES = 250, RATES = 200000 };
+enum { STAGES = 250, RATES = 1000000 };
 static const double LATE = 1e-3;
 
 /* y after a block of `cycles` from y0, whose rate is rate0, in `stages` (Sommeijer, Shampine, Verwer 1997).
@@ -63,50 +67,150 @@ static double error_of(const fret_annulus *a, const double *y0, const double *ra
     return off > 0 ? off / fmax(fret_annulus_norm(a, room), little * fret_annulus_norm(a, y)) : off;
 }
 
-fret_status fret_blocks_run(fret_annulus *a, double *h, double cycles, double tolerance, fret_stop stop,
-                            fret_wear_told told, void *user, bool *full) {
-    const size_t n = a->count + 1;
-    double *room = calloc(6 * n, sizeof *room), *rate = room, *next = room + n, *next_rate = room + 2 * n,
-           *before = room + 3 * n, *v = room + 4 * n, *spare = room + 5 * n;
-    double done = 0, fastest = 0;
-    long rates = 0;
-    *full = false;
-    if (!room)
+/* ---- rows -------------------------------------------------------------------------------------- */
+
+static double *depths(const fret_blocks *b, size_t i) {
+    return b->row + i * (1 + 2 * (b->ring.count + 1)) + 1;
+}
+static double *rates(const fret_blocks *b, size_t i) {
+    return depths(b, i) + b->ring.count + 1;
+}
+static double *cycles(const fret_blocks *b, size_t i) {
+    return depths(b, i) - 1;
+}
+
+static const fret_blocks *last_of(const fret_wear_run *run) {
+    return &run->blocks[run->count - 1];
+}
+
+static fret_status make_room(fret_blocks *b) {
+    double *grown =
+        fret_array_for(b->row, &b->room, b->count + 1, (1 + 2 * (b->ring.count + 1)) * sizeof *grown);
+    if (!grown)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    fret_status st = fret_annulus_rate(a, h, rate);
-    const double size = st.code ? 0 : fret_annulus_norm(a, rate);
-    double step = size > 0 ? 0.01 * fret_annulus_norm(a, a->w) / size : cycles;
-    fret_annulus_touch(a);
-    for (int blocks = 0; !st.code && done < cycles; blocks++) {
-        *full = a->touched + 1 >= a->count;
-        /* a thousand times as many would wear next to nothing: it has arrived */
-        if (*full || (done > LATE * cycles &&
-                      done * fret_annulus_norm(a, rate) < LATE * tolerance * fret_annulus_norm(a, h)))
-            break;
-        if (blocks % 8 == 0)
-            fastest = fret_annulus_stiffness(a, v);
-        step = fmin(fmin(step, 0.65 * (STAGES * STAGES - 1) / fastest), cycles - done);
-        const int stages = (int)fmax(2, ceil(sqrt(1 + step * fastest / 0.65)));
-        const fret_status tried = block(a, n, h, rate, step, stages, next, before, next_rate);
-        const double off =
-            tried.code ? INFINITY : error_of(a, h, rate, next, next_rate, step, spare) / tolerance;
-        rates += stages;
-        if (off <= 1) {
-            done = step < cycles - done ? done + step : cycles;
-            memcpy(h, next, n * sizeof *h);
-            memcpy(rate, next_rate, n * sizeof *rate);
-            fret_annulus_touch(a);
-            if (told)
-                told(done, user);
-        } else if (tried.code && !(step > 1e-6 * done)) {
-            st = tried;
-        }
-        if (stop && *stop)
-            st = fret_fail(FRET_INTERRUPTED, NULL, 0, 0);
-        else if (!st.code && (rates > RATES || !(off >= 0)))
-            st = fret_fail(FRET_OUTSIDE, "cycles", cycles, done);
-        step *= fmin(3, fmax(0.2, 0.8 / sqrt(fmax(off, 1e-9))));
+    b->row = grown;
+    return fret_ok();
+}
+
+void fret_blocks_free(fret_blocks *b) {
+    fret_annulus_free(&b->ring);
+    free(b->row);
+}
+
+double fret_blocks_reached(const fret_wear_run *run) {
+    return *cycles(last_of(run), last_of(run)->count - 1);
+}
+
+/* ---- rings ------------------------------------------------------------------------------------- */
+
+/* The same depths, straight between nodes, and springs that have been touched, on another ring. */
+static void take_over(fret_blocks *to, const fret_blocks *from) {
+    const fret_annulus *old = &from->ring;
+    const double *h = depths(from, from->count - 1);
+    size_t j = 0;
+    for (size_t i = 0; i < to->ring.count && to->ring.t[i] <= old->t[old->count - 1]; i++) {
+        const double t = to->ring.t[i];
+        while (j + 2 < old->count && old->t[j + 1] < t)
+            j++;
+        depths(to, 0)[i] = h[j] + (h[j + 1] - h[j]) * (t - old->t[j]) / (old->t[j + 1] - old->t[j]);
+        if (t <= old->t[old->touched])
+            to->ring.touched = i;
     }
-    free(room);
+    depths(to, 0)[to->ring.count] = h[old->count];
+    *cycles(to, 0) = *cycles(from, from->count - 1);
+}
+
+fret_status fret_blocks_begin(fret_wear_run *run, fret_real inner, fret_real outer) {
+    fret_blocks *all = fret_array_for(run->blocks, &run->room, run->count + 1, sizeof *all);
+    if (!all)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    run->blocks = all;
+    fret_blocks *b = &all[run->count];
+    *b = (fret_blocks){.count = 0};
+    fret_status st = fret_annulus_make(run->normal, &run->held, inner, outer, outer, run->nodes, &b->ring);
+    if (!st.code)
+        st = make_room(b);
+    if (!st.code) {
+        memset(cycles(b, 0), 0, (run->nodes + 2) * sizeof *b->row);
+        if (run->count)
+            take_over(b, b - 1);
+        st = fret_annulus_rate(&b->ring, depths(b, 0), rates(b, 0));
+    }
+    st = fret_unless_stopped(run->normal, st);
+    if (st.code) {
+        fret_blocks_free(b);
+        return st;
+    }
+    fret_annulus_touch(&b->ring);
+    b->count = 1;
+    if (!run->count++)
+        run->step = 0.01 * fret_annulus_norm(&b->ring, b->ring.w) / fret_annulus_norm(&b->ring, rates(b, 0));
+    run->tried = 0;
     return st;
+}
+
+static fret_status widen(fret_wear_run *run) {
+    const fret_annulus *a = &last_of(run)->ring;
+    const fret_real inner = a->x[0], outer = a->x[a->count - 1], end = fret_normal_end(run->normal);
+    if (!(outer < end))
+        return fret_fail(FRET_TABLE_SHORT, "r", (double)outer, (double)end);
+    return fret_blocks_begin(run, inner,
+                             fminl(sqrtl(inner * inner + 1.5L * (outer - inner) * (outer + inner)), end));
+}
+
+/* ---- running ----------------------------------------------------------------------------------- */
+
+fret_status fret_blocks_go_on(fret_wear_run *run) {
+    fret_blocks *b = &run->blocks[run->count - 1];
+    fret_annulus *a = &b->ring;
+    const fret_status room = make_room(b);
+    if (room.code)
+        return room;
+    const double *h = depths(b, b->count - 1), *rate = rates(b, b->count - 1),
+                 done = fret_blocks_reached(run), size = fret_annulus_norm(a, rate);
+    double *next = depths(b, b->count), *next_rate = rates(b, b->count);
+    /* a thousand times as many would wear next to nothing */
+    run->arrived = !(size > 0) || done * size < LATE * run->tolerance * fret_annulus_norm(a, h);
+    if (run->arrived)
+        return fret_ok();
+    if (run->tried % 8 == 0)
+        run->fastest = fret_annulus_stiffness(a, run->stiff);
+    const double step = fmin(run->step, 0.65 * (STAGES * STAGES - 1) / run->fastest);
+    const int stages = (int)fmax(2, ceil(sqrt(1 + step * run->fastest / 0.65)));
+    const fret_status tried = block(a, run->nodes + 1, h, rate, step, stages, next, run->before, next_rate);
+    const double off =
+        tried.code ? INFINITY : error_of(a, h, rate, next, next_rate, step, run->off) / run->tolerance;
+    if (tried.code && !(step > 1e-6 * done))
+        return tried;
+    if (run->rates + stages > RATES || !(off >= 0))
+        return fret_fail(FRET_OUTSIDE, "cycles", done + step, done);
+    if (off <= 1 && a->w[a->count - 1] > 0)
+        return widen(run);
+    run->rates += stages;
+    run->tried++;
+    run->step = step * fmin(3, fmax(0.2, 0.8 / sqrt(fmax(off, 1e-9))));
+    if (off <= 1) {
+        *cycles(b, b->count++) = done + step;
+        fret_annulus_touch(a);
+    }
+    return fret_ok();
+}
+
+fret_annulus *fret_blocks_at(const fret_wear_run *run, double n, double *h) {
+    fret_blocks *b = &run->blocks[run->count - 1];
+    while (b > run->blocks && *cycles(b, 0) > n)
+        b--;
+    size_t i = b->count - 1;
+    while (i > 0 && *cycles(b, i) > n)
+        i--;
+    const bool last = i + 1 == b->count;
+    const double *from = depths(b, i), *to = last ? from : depths(b, i + 1), *rate = rates(b, i),
+                 *next = last ? rate : rates(b, i + 1), step = last ? 0 : *cycles(b, i + 1) - *cycles(b, i),
+                 t = last ? 0 : (n - *cycles(b, i)) / step, rest = 1 - t;
+    for (size_t j = 0; j <= b->ring.count; j++) { /* no less worn than before, nor more than after */
+        const double at = rest * rest * ((1 + 2 * t) * from[j] + t * step * rate[j]) +
+                          t * t * ((1 + 2 * rest) * to[j] - rest * step * next[j]);
+        h[j] = fmin(fmax(at, from[j]), fmax(to[j], from[j]));
+    }
+    return &b->ring;
 }

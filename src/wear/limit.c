@@ -126,9 +126,8 @@ static fret_status find_rim(fret_wear_end *e) {
     return fret_ok();
 }
 
-fret_status fret_wear_end_make(const fret_normal *normal, const fret_wear_held *held, fret_real depth,
-                               fret_wear_end *out) {
-    *out = (fret_wear_end){.normal = normal, .depth = depth};
+fret_status fret_wear_end_make(const fret_normal *normal, const fret_wear_held *held, fret_wear_end *out) {
+    *out = (fret_wear_end){.normal = normal, .depth = held->press};
     fret_status st = find_stuck(held, out);
     const fret_press press = {.dz = out->y};
     if (st.code)

@@ -13,9 +13,8 @@ typedef struct fret_wear_end {
     fret_field *field; /* of a contact that is y deep */
 } fret_wear_end;
 
-/* depth: delta_z where that is held. Errors as of fret_wear_limit; FRET_GROSS_SLIP: there is no limit. */
-fret_status fret_wear_end_make(const fret_normal *normal, const fret_wear_held *held, fret_real depth,
-                               fret_wear_end *out);
+/* Errors as of fret_wear_limit; FRET_GROSS_SLIP: there is no limit. */
+fret_status fret_wear_end_make(const fret_normal *normal, const fret_wear_held *held, fret_wear_end *out);
 void fret_wear_end_free(fret_wear_end *end);
 
 /* The depth worn at r [m], and the volume. */

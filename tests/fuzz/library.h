@@ -26,6 +26,7 @@ typedef struct world {
     fret_field *field;
     fret_slips *slips;
     fret_work *work;
+    fret_wear_run *run;
     fret_wear *wear;
     fret_sine sine;
     fret_state state;
@@ -56,7 +57,9 @@ static void drop_contacts(world *w) {
     fret_contact_free(w->other_contact);
     fret_slips_free(w->slips);
     fret_work_free(w->work);
+    fret_wear_run_free(w->run);
     fret_wear_free(w->wear);
+    w->run = NULL;
     w->wear = NULL;
     w->slips = NULL;
     w->work = NULL;
@@ -273,28 +276,28 @@ CALL(fret_work_free) {
     fret_work_free(w->work);
     w->work = NULL;
 }
-static bool have_wear(world *w) {
-    return have_normal(w) && (w->wear || known_code(fret_wear_make(w->normal, &w->wear)));
-}
 static fret_wear_held held_of(const double *x) {
     return (fret_wear_held){x[0] > 0, x[1] > 0, x[2], x[3], x[4], x[5]};
 }
-CALL(fret_wear_make) {
-    (void)x;
-    (void)have_wear(w);
-}
-CALL(fret_wear_copy) {
-    fret_wear *copy;
-    (void)x;
-    if (have_wear(w) && known_code(fret_wear_copy(w->wear, &copy))) {
-        fret_wear_free(w->wear);
-        w->wear = copy;
+CALL(fret_wear_run_make) {
+    const fret_wear_held held = held_of(x);
+    fret_wear_run *run;
+    if (have_normal(w) && known_code(fret_wear_run_make(w->normal, &held, 0.1, &run))) {
+        fret_wear_run_free(w->run);
+        w->run = run;
     }
 }
-CALL(fret_wear_run) {
-    const fret_wear_held held = held_of(x);
-    if (have_wear(w))
-        (void)known_code(fret_wear_run(w->wear, &held, x[6], 0.1, NULL, NULL));
+CALL(fret_wear_after) {
+    fret_wear *wear;
+    if (w->run && known_code(fret_wear_after(w->run, x[0], NULL, NULL, &wear))) {
+        fret_wear_free(w->wear);
+        w->wear = wear;
+    }
+}
+CALL(fret_wear_run_free) {
+    (void)x;
+    fret_wear_run_free(w->run);
+    w->run = NULL;
 }
 CALL(fret_wear_limit) {
     const fret_wear_held held = held_of(x);
@@ -305,32 +308,32 @@ CALL(fret_wear_limit) {
     }
 }
 CALL(fret_wear_law) {
-    if (have_wear(w))
+    if (w->wear)
         (void)known_code(fret_press_by_force(fret_wear_law(w->wear), x[0], &w->press));
     w->pressed.normal = NULL;
 }
 CALL(fret_wear_depth) {
-    if (have_wear(w))
+    if (w->wear)
         (void)known_code(fret_wear_depth(w->wear, x[0], w->sink));
 }
 CALL(fret_wear_ring) {
     (void)x;
-    if (have_wear(w))
+    if (w->wear)
         fret_wear_ring(w->wear, w->sink, w->sink + 1);
 }
 CALL(fret_wear_volume) {
     (void)x;
-    if (have_wear(w))
+    if (w->wear)
         w->sink[0] = fret_wear_volume(w->wear);
 }
 CALL(fret_wear_cycles) {
     (void)x;
-    if (have_wear(w))
+    if (w->wear)
         w->sink[0] = fret_wear_cycles(w->wear);
 }
 CALL(fret_wear_work) {
     (void)x;
-    if (have_wear(w))
+    if (w->wear)
         w->sink[0] = fret_wear_work(w->wear);
 }
 CALL(fret_wear_free) {
@@ -759,9 +762,9 @@ static const struct row {
     ROW(fret_work_at),
     ROW(fret_work_edges),
     ROW(fret_work_free),
-    ROW(fret_wear_make),
-    ROW(fret_wear_copy),
-    ROW(fret_wear_run),
+    ROW(fret_wear_run_make),
+    ROW(fret_wear_after),
+    ROW(fret_wear_run_free),
     ROW(fret_wear_limit),
     ROW(fret_wear_law),
     ROW(fret_wear_depth),
