@@ -8,6 +8,7 @@
 
 #include "language/along.h"
 #include "number/integral.h"
+#include "number/real.h"
 
 /* ---- one value --------------------------------------------------------------------------------- */
 
@@ -45,12 +46,14 @@ static bool look_at(over *o, long double x, long double *v) {
 
 /* ---- the integral ------------------------------------------------------------------------------ */
 
-/* A part of it, between places where it may be singular. */
+/* A part of it, between places where it may be singular: next to one, `end`, it goes as a power of the
+ * distance, of which x keeps too few digits. A value at x is then one at the distance that x has. */
 typedef struct part {
     over *o;
     long double lo, hi;
     bool magnitude;
-    bool lost; /* a value at an end */
+    long double end, power; /* power 0: not next to one */
+    bool lost;              /* a value at an end */
     size_t seen;
 } part;
 
@@ -59,7 +62,9 @@ static fret_real integrand(fret_real t, fret_real rest, void *context) {
     enum { ENOUGH = 2000 };
     part *p = context;
     over *o = p->o;
-    const long double width = p->hi - p->lo, x = t < 0.5L ? p->lo + width * t : p->hi - width * rest;
+    const long double width = p->hi - p->lo,
+                      away = t < 0.5L ? (p->lo - p->end) + width * t : (p->hi - p->end) - width * rest,
+                      x = p->end + away;
     long double v = 0;
     calc_error mine, *error = o->error;
     if (error->raised || (p->lost && p->seen++ > ENOUGH))
@@ -74,37 +79,48 @@ static fret_real integrand(fret_real t, fret_real rest, void *context) {
         *error = mine;
     }
     o->error = error;
+    if (p->power != 0)
+        v *= fret_pow(away / (x - p->end), p->power);
     return p->magnitude ? fabsl(v) : v;
 }
 
 /* A lost value leaves the error unknown. */
-static fret_estimate between(over *o, long double lo, long double hi, long double tolerance, bool magnitude) {
-    part p = {.o = o, .lo = lo, .hi = hi, .magnitude = magnitude};
-    const fret_estimate whole = fret_integral(integrand, &p, tolerance);
-    const long double error = p.lost ? INFINITY : whole.error * fabsl(hi - lo);
-    return (fret_estimate){whole.value * (hi - lo), error};
+static fret_estimate sum_of(part *p, long double tolerance) {
+    const fret_estimate whole = fret_integral(integrand, p, tolerance);
+    const long double error = p->lost ? INFINITY : whole.error * fabsl(p->hi - p->lo);
+    return (fret_estimate){whole.value * (p->hi - p->lo), error};
 }
 
-/* From `far` to a singular end: between halves of the distance, whose sums go on as their limit does (Wynn's
- * epsilon, exact for sums of powers of the distance). There x keeps its digits, which next to the end it
- * loses. Where the last of them do not shrink there is no limit; what they tell of the rest holds a limit
- * that belongs to another law, farther from the end, off. */
+static fret_estimate between(over *o, long double lo, long double hi, long double tolerance, bool magnitude) {
+    return sum_of(&(part){.o = o, .lo = lo, .hi = hi, .magnitude = magnitude}, tolerance);
+}
+
+/* From `far` to a singular end: between halves of the distance, powers of two that x can be told at, whose
+ * sums go on as their limit does (Wynn's epsilon, exact for sums of powers of the distance). Where the last
+ * of them do not shrink there is no limit; what they tell of the rest holds a limit that belongs to another
+ * law, farther from the end, off. */
 static fret_estimate to_end(over *o, long double far, long double end) {
-    enum { HALVES = 40 };
-    long double row[HALVES + 1], sum = 0, from = far, rounding = 0, last = NAN, before = 0, shrinks = 0,
-                                 off = INFINITY;
+    enum { HALVES = 64 };
+    int exponent;
+    (void)frexpl(end - far, &exponent);
+    long double row[HALVES + 1], away = copysignl(ldexpl(0.5L, exponent), far - end), last = NAN, before = 0,
+                                 shrinks = 0, off = INFINITY;
+    const fret_estimate first = between(o, far, end + away, 1e-15L, false);
+    long double sum = first.value, rounding = first.error;
     fret_estimate best = {0, INFINITY};
-    for (int n = 0; n <= HALVES && !o->error->raised; n++) {
-        const long double to = end - (end - from) / 2, digits = LDBL_EPSILON * fabsl(end / (end - to));
-        if (digits > 1e-4L)
+    for (int n = 0; n <= HALVES && !o->error->raised; n++, away /= 2) {
+        const long double digits = LDBL_EPSILON * fabsl(2 * end / away);
+        part p = {.o = o, .lo = end + away, .hi = end + away / 2, .end = end};
+        if (digits > 1e-2L)
             break;
-        const fret_estimate piece = between(o, from, to, 1e-15L + 4 * digits, false);
+        if (n > 1 && shrinks > 0)
+            p.power = -log2l(shrinks) - 1;
+        const fret_estimate piece = sum_of(&p, 1e-15L + 4 * digits);
         long double above = 0;
         row[n] = sum += piece.value;
         rounding += piece.error;
         shrinks = fabsl(piece.value / before);
         before = piece.value;
-        from = to;
         for (int j = n; j > 0; j--) {
             const long double old = row[j - 1];
             row[j - 1] = above + 1 / (row[j] - old);
