@@ -22,8 +22,7 @@ fret_real fret_kappa(double n, double k) {
     return dd_value(dd_mul(q.factor, fret_dd_exp(q.log)));
 }
 
-/* In units of the contact radius, with s = r/a, flat = b/a, K = (1-s^2)^((k-1)/2):
- *   g = a int f' K ds, I = a^(k+2)/(k+1) int s^2 f' K ds. */
+/* In units of the contact radius, with s = r/a, flat = b/a: g = a int f' (1-s^2)^((k-1)/2) ds. */
 
 static fret_real powers_f(const fret_gap *gap, fret_real r) {
     fret_real f = 0;
@@ -32,14 +31,12 @@ static fret_real powers_f(const fret_gap *gap, fret_real r) {
     return f;
 }
 static fret_profile powers_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
-    fret_real k = rule->k, a = e, ak = fret_pow(a, k + 1);
-    fret_profile out = {0, 0, 0};
+    fret_profile out = {0, 0};
     for (int i = 0; i < gap->terms; i++) {
         const fret_power *p = &gap->power[i];
-        fret_real n = p->n, g = rule->kappa[i] * p->h * fret_ratio_pow(a, p->r0, n);
+        fret_real g = rule->kappa[i] * p->h * fret_ratio_pow(e, p->r0, p->n);
         out.g += g;
-        out.slope += n * g / a;
-        out.I += n * g * ak / ((k + 1) * (n + (k + 1)));
+        out.slope += p->n * g / e;
     }
     return out;
 }
@@ -73,31 +70,29 @@ static fret_real cone_f(const fret_gap *gap, fret_real r) {
     return gap->slope * (r - gap->b);
 }
 static fret_profile cone_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
-    fret_real k = rule->k, a = gap->b + e, v = e / a, flat = gap->b / a;
+    fret_real a = gap->b + e, v = e / a, flat = gap->b / a;
     fret_edge m = fret_edge_moments(rule, v);
-    fret_real g = gap->slope * m.moment[0], rim = gap->slope * flat * m.rim;
-    return fret_profile_of(k, a, g, g + rim / (v * (2 - v)), (g + rim) / (k + 2));
+    fret_real g = gap->slope * m.moment[0];
+    return (fret_profile){a * g, g + gap->slope * flat * m.rim / (v * (2 - v))};
 }
 
 static fret_real paraboloid_f(const fret_gap *gap, fret_real r) {
     return (r - gap->b) * (r + gap->b) / (2 * (fret_real)gap->R);
 }
 static fret_profile paraboloid_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
-    fret_real k = rule->k, a = gap->b + e, m = (k + 1) / 2, v = e / a, flat = gap->b / a, z = v * (2 - v);
+    fret_real a = gap->b + e, m = (rule->k + 1) / 2, v = e / a, flat = gap->b / a, z = v * (2 - v);
     fret_real rim = a / gap->R * fret_pow(z, m), g = rim / (2 * m);
-    return fret_profile_of(k, a, g, 2 * g + rim * flat * flat / z,
-                           rim * (1 + m * (1 - z)) / (2 * m * (m + 1)));
+    return (fret_profile){a * g, 2 * g + rim * flat * flat / z};
 }
 
 static fret_real rounded_f(const fret_gap *gap, fret_real r) {
     return (r - gap->b) * (r - gap->b) / (2 * (fret_real)gap->R);
 }
 static fret_profile rounded_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
-    fret_real k = rule->k, a = gap->b + e, v = e / a, flat = gap->b / a, z = v * (2 - v), steep = a / gap->R;
+    fret_real a = gap->b + e, v = e / a, flat = gap->b / a, steep = a / gap->R;
     fret_edge m = fret_edge_moments(rule, v);
     fret_real g = steep * (v * m.moment[0] - m.moment[1]);
-    return fret_profile_of(k, a, g, 2 * g + steep * flat * m.moment[0],
-                           (g + steep * m.rim * z / (k + 3)) / (k + 2));
+    return (fret_profile){a * g, 2 * g + steep * flat * m.moment[0]};
 }
 
 static fret_real sphere_f(const fret_gap *gap, fret_real r) {
@@ -108,17 +103,16 @@ static fret_real sphere_f(const fret_gap *gap, fret_real r) {
 static fret_profile sphere_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
     fret_real a = e, k = rule->k, m1 = (k + 3) / 2, q = a / gap->R * (a / gap->R),
               term = a / (gap->R * (k + 1));
-    fret_real g = 0, slope = 0, I = 0, rise;
+    fret_real g = 0, slope = 0, rise;
     int n = 0;
     do { /* q is at most 0.9 */
         rise = (2 * n + 2) * term;
         g += term;
         slope += rise;
-        I += rise / (2 * n + 3 + k);
         term *= q * (n + 0.5L) / (m1 + n);
         n++;
     } while (rise > 1e-21L * slope);
-    return fret_profile_of(k, a, g, slope, I);
+    return (fret_profile){a * g, slope};
 }
 
 static int sphere_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term *term) {
@@ -191,7 +185,6 @@ static fret_real worn_end(const fret_gap *gap) {
 static fret_real worn_tip(const fret_gap *gap) {
     return gap->worn->inner > 0 ? fret_gap_tip(&gap->worn->of) : 2;
 }
-/* Without the moment I, which nothing asks of it. */
 static fret_profile worn_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
     const struct fret_worn *w = gap->worn;
     const fret_real a = worn_start(gap) + e, v = worn_place(gap, a);
@@ -202,7 +195,7 @@ static fret_profile worn_profile(const fret_gap *gap, const fret_rule *rule, fre
     const fret_real x = v - fret_table_distance(w->g, row);
     fret_table_slope(w->g, row, c);
     return (fret_profile){w->at_inner + fret_table_f(w->g, v) + w->lift * v,
-                          2 * a * (c[0] + x * (c[1] + x * c[2]) + w->lift), (fret_real)NAN};
+                          2 * a * (c[0] + x * (c[1] + x * c[2]) + w->lift)};
 }
 static int worn_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term *term) {
     const struct fret_worn *w = gap->worn;
@@ -507,7 +500,7 @@ fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g,
         return fret_fail(FRET_NOT_FINITE, "x", (double)x, 0);
     if (x > fret_gap_end(gap))
         return fret_fail(FRET_OUTSIDE, "x", (double)x, (double)fret_gap_end(gap));
-    fret_profile out = {0, 0, 0};
+    fret_profile out = {0, 0};
     if (x > fret_gap_start(gap)) {
         fret_rule rule;
         fret_gap_rule(gap, k, &rule);

@@ -33,7 +33,3 @@ void fret_rule_series(fret_rule *rule, fret_real k) {
         c *= (beta + n) / (2 * (fret_real)(n + 1));
     }
 }
-
-fret_profile fret_profile_of(fret_real k, fret_real a, fret_real g, fret_real slope, fret_real I) {
-    return (fret_profile){a * g, slope, fret_pow(a, k + 2) / (k + 1) * I};
-}

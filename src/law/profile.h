@@ -15,13 +15,10 @@ typedef struct fret_rule {
 /* The series of an exponent k; kappa is left alone. */
 void fret_rule_series(fret_rule *rule, fret_real k);
 
-/* Profile and its moments at contact radius a: g, g', and I = int_0^a x^k (g(a)-g(x)) dx. */
+/* g and g'. */
 typedef struct fret_profile {
-    fret_real g, slope, I;
+    fret_real g, slope;
 } fret_profile;
-
-/* From g and I in units of the contact radius a: g = a int f' K ds, I = a^(k+2)/(k+1) int s^2 f' K ds. */
-fret_profile fret_profile_of(fret_real k, fret_real a, fret_real g, fret_real slope, fret_real I);
 
 /* int_0^v u^j (u (2-u))^alpha du, j = 0..4, and (v (2-v))^(alpha+1), 0 <= v <= 1: u = 1-r/a is the distance
  * from the edge. */

@@ -51,8 +51,12 @@ bool call_g(scene *s, value x, long double *out, calc_error *error) {
     if (!scene_normal(s, &normal, error))
         return false;
     scene_used_closed(s);
-    fret_status st =
-        fret_gap_g(fret_normal_gap(normal), (double)fret_normal_foundation(normal)->k, x.v, out, NULL);
+    *out = fret_normal_profile(normal, x.v);
+    if (!isnan(*out))
+        return true;
+    const double k = (double)fret_normal_foundation(normal)->k;
+    const fret_status st =
+        fret_gap_g(fret_normal_gap(normal), k, x.v, out, NULL); /* beyond what it carries */
     return calc_status(error, &st);
 }
 

@@ -27,7 +27,7 @@ static void tables_and_contacts(void) {
     fret_springs *springs = NULL;
     fret_swing *swing = NULL;
     const unit_scene s = unit_make_scene(2, 0.3);
-    EACH(3, fret_table_make(r, f, ROWS, NULL, &table), table == NULL);
+    EACH(2, fret_table_make(r, f, ROWS, NULL, &table), table == NULL);
     EACH(1, fret_normal_make(&s.material, &s.gap, NULL, NULL, &normal), normal == NULL);
     EACH(2, fret_memory_make(contact.normal, 0.4, &memory), memory == NULL);
     EACH(3, fret_springs_make(contact.normal, 0.4, 100, 1e-3, FRET_WEIGHT_CELL, &springs), springs == NULL);

@@ -4,6 +4,7 @@
 
 #include "law/cells.h"
 #include "law/normal.h"
+#include "law/table.h"
 #include "number/integral.h"
 #include "number/real.h"
 #include "unit.h"
@@ -37,6 +38,64 @@ static struct fret_table *table_of(rough how, int rows) {
     return t;
 }
 
+/* The load of a unit stiffness, (k+1) int x^k (g(a)-g(x)) dx, at the distance e from the start. */
+typedef struct load {
+    const fret_gap *gap;
+    const fret_rule *rule;
+    fret_real start, e, g;
+} load;
+
+static fret_real load_rate(fret_real t, fret_real rest, void *context) {
+    const load *l = context;
+    const fret_real k1 = l->rule->k + 1, ln = rest < 0.5L ? log1pl(-rest) : logl(t),
+                    e = l->start > 0 ? l->e * t : l->e * expl(ln / k1); /* linear in x^(k+1) from a centre */
+    const fret_real g = e > 0 ? fret_gap_profile(l->gap, l->rule, e).g : 0;
+    return (l->g - g) * (l->start > 0 ? k1 * l->e * fret_pow(l->start + e, k1 - 1) : fret_pow(l->e, k1));
+}
+
+/* The same of rows, a^(k+2) int s^2 f' (1-s^2)^((k-1)/2) ds with s = r/a: far from the edge by Gauss's rule,
+ * near it by moments of the kernel. */
+static fret_real load_of_rows(const struct fret_table *t, const fret_rule *rule, fret_real e) {
+    const fret_real start = fret_table_start(t), a = start + e;
+    fret_real sum = 0, c[3], m[FRET_EDGE];
+    for (size_t i = fret_table_row(t, 0); i + 1 < fret_table_count(t) && fret_table_distance(t, i) < e; i++) {
+        const fret_real begin = fret_table_distance(t, i), next = fret_table_distance(t, i + 1),
+                        h = next - begin, away = e - begin, v = away / a;
+        fret_table_slope(t, i, c);
+        for (int j = 0; j < 8 && away > 5 * h; j++) {
+            const fret_real x = h * fret_gauss_node[j], r = start + begin + x;
+            sum += h / a * fret_gauss_weight[j] * (r / a) * (r / a) * (c[0] + x * (c[1] + x * c[2])) *
+                   fret_pow((away - x) / a * ((a + r) / a), (rule->k - 1) / 2);
+        }
+        if (away > 5 * h)
+            continue;
+        const fret_edge lo = fret_edge_moments(rule, v), hi = fret_edge_moments(rule, (e - next) / a);
+        const fret_real d1 = c[1] * a, d2 = c[2] * a * a,
+                        p[3] = {c[0] + v * (d1 + v * d2), -(d1 + 2 * v * d2), d2};
+        for (int j = 0; j < FRET_EDGE; j++)
+            m[j] = lo.moment[j] - hi.moment[j];
+        for (int j = 0; j < 3; j++)
+            sum += p[j] * (m[j] - 2 * m[j + 1] + m[j + 2]);
+    }
+    return fret_pow(a, rule->k + 2) * sum;
+}
+
+static fret_real load_of_powers(const fret_gap *gap, const fret_rule *rule, fret_real a) {
+    fret_term term[FRET_MOST_TERMS];
+    fret_real sum = 0;
+    for (int i = fret_gap_series(gap, rule, a, term); i-- > 0;)
+        sum += term[i].G * term[i].n / (term[i].n + rule->k + 1);
+    return fret_pow(a, rule->k + 1) * sum;
+}
+
+static fret_real load_of(const fret_gap *gap, const fret_rule *rule, fret_real e, fret_real g) {
+    load l = {gap, rule, fret_gap_start(gap), e, g};
+    const fret_real within = l.start > 0 ? fret_pow(l.start, rule->k + 1) * g : 0;
+    return gap->table                  ? load_of_rows(gap->table, rule, e)
+           : gap->kind == FRET_GAP_SUM ? load_of_powers(gap, rule, e)
+                                       : within + fret_integral(load_rate, &l, 1e-18L).value;
+}
+
 /* Depth and load of a unit stiffness, as the transform tells them, and back. */
 static void places(const fret_gap *gap, double k, fret_real exact) {
     fret_cells *c = NULL;
@@ -51,10 +110,11 @@ static void places(const fret_gap *gap, double k, fret_real exact) {
         const fret_real e = whole * (i % 2 ? uniform(0, 1) : fret_pow(10, -uniform(0, start > 0 ? 3 : 10)));
         const fret_profile want = fret_gap_profile(gap, &rule, e);
         const fret_place at = fret_cells_at(c, start + e);
-        const fret_real F = ((fret_real)k + 1) * want.I, few = exact * (1 + start / e * 1e-2L);
+        const fret_real F = fret_cells_level(c, BY_LOAD, &at), few = exact * (1 + start / e * 1e-2L);
         fret_place by;
         CHECK_REL(fret_cells_level(c, BY_DEPTH, &at), want.g, few);
-        CHECK_REL(fret_cells_level(c, BY_LOAD, &at), F, few);
+        if (gap->table || gap->kind == FRET_GAP_SUM || i % 20 == 1)
+            CHECK_REL(F, load_of(gap, &rule, e, want.g), few);
         CHECK(fret_cells_find(c, BY_DEPTH, want.g, &by));
         CHECK_REL(fret_cells_radius(c, &by), start + e, exact);
         CHECK(fret_cells_find(c, BY_LOAD, F, &by));

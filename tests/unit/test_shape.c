@@ -383,9 +383,9 @@ static void limits(void) {
 /* A contact that reaches the end of its gap answers what it can be pressed by again, rounded up too; a little
  * more is refused. */
 static void ends_of(const fret_normal *n) {
-    const fret_profile p = fret_gap_profile(&n->gap, &n->rule, n->end - fret_gap_start(&n->gap));
+    const fret_point p = fret_law_at_radius(n, n->end);
     fret_press at = {.F = 0};
-    const double F = (double)(n->stiff * (1 + n->foundation.k) * p.I), dz = (double)p.g;
+    const double F = (double)p.F, dz = (double)p.y;
     for (int i = -2; i <= 2; i++) {
         CHECK_OK(fret_press_by_force(n, F * (1 + i * DBL_EPSILON), &at));
         CHECK_REL(at.a, n->end, 1e-7L);
