@@ -23,7 +23,11 @@ typedef struct fret_material {
     double c0; /* characteristic depth [m], > 0; without effect at k = 0 */
 } fret_material;
 
-/* Coefficients of the equivalent foundations. */
+/* Coefficients of the equivalent foundations, those of each body in forms without cancellation, accurate to
+ * 2e-18 relative where long double has 64 bits:
+ *   Q = 1-(1+k)nu, beta^2 = (1+k)Q/(1-nu), S = sin(pi beta/2)/beta,
+ *   P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2) / Gamma(1+k/2)^2,
+ *   h_N = (1+k)(1-nu) cos(pi k/2)/(Q S P), h_T = 2 cos(pi k/2)/((1+nu)[1+(1-nu)SP]). */
 typedef struct fret_foundation {
     fret_real k, c0;
     fret_real cN0, cT0;     /* c_N(x) = cN0 (x/c0)^k, likewise c_T [Pa] (4),(5) */
@@ -34,17 +38,10 @@ typedef struct fret_foundation {
     bool similar;           /* uncoupled: equal bodies, or each nu = 1/(2+k), or mismatch 0 at k = 0 */
 } fret_foundation;
 
-/* h_N, h_T, beta of one half-space, (A1)-(A3), in forms without cancellation:
- *   Q = 1-(1+k)nu, beta^2 = (1+k)Q/(1-nu), S = sin(pi beta/2)/beta,
- *   P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2) / Gamma(1+k/2)^2,
- *   h_N = (1+k)(1-nu) cos(pi k/2)/(Q S P), h_T = 2 cos(pi k/2)/((1+nu)[1+(1-nu)SP]).
- * Range: -1 < k < 1, -1 < nu <= 1/2; errors FRET_BAD_K, FRET_BAD_NU, FRET_NOT_FINITE.
- * Accuracy: 2e-18 relative where long double has 64 bits. */
-fret_status fret_half_space(double k, double nu, fret_real *hN, fret_real *hT, fret_real *beta);
-
 /* Foundation moduli of two bodies in contact (4),(5):
  *   1/cN0 = sum (1-nu_i^2)/(h_N E0_i), 1/cT0 = sum 1/(h_T E0_i), eta = cN0/cT0.
- * Errors: those above, FRET_NOT_POSITIVE (E0, c0), FRET_BOTH_RIGID. */
+ * Range: -1 < k < 1, -1 < nu <= 1/2. Errors: FRET_BAD_K, FRET_BAD_NU, FRET_NOT_FINITE, FRET_NOT_POSITIVE
+ * (E0, c0), FRET_OVERFLOW, FRET_BOTH_RIGID. */
 fret_status fret_foundation_make(const fret_material *material, fret_foundation *out);
 
 FRET_END

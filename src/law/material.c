@@ -55,19 +55,6 @@ static fret_status check_nu(const char *name, double nu) {
     return fret_ok();
 }
 
-fret_status fret_half_space(double k, double nu, fret_real *hN, fret_real *hT, fret_real *beta) {
-    fret_status st = fret_check_k(k);
-    if (!st.code)
-        st = check_nu("nu", nu);
-    if (st.code)
-        return st;
-    parts r = parts_of(k, nu);
-    *hN = hN_of(&r, k);
-    *hT = hT_of(&r, nu);
-    *beta = dd_value(r.beta);
-    return fret_ok();
-}
-
 static const char *const E_name[2] = {"E0", "E0_2"}, *const nu_name[2] = {"nu", "nu_2"};
 
 fret_status fret_foundation_make(const fret_material *material, fret_foundation *out) {

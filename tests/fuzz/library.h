@@ -419,9 +419,6 @@ CALL(fret_table_free) {
     (void)w, (void)x;
     fret_table_free(NULL);
 }
-CALL(fret_half_space) {
-    (void)known_code(fret_half_space(x[0], x[1], w->sink, w->sink + 1, w->sink + 2));
-}
 CALL(fret_foundation_make) {
     fret_foundation made;
     const fret_material material = {{{x[2], x[3], false}, {x[4], x[5], x[6] > 1}}, x[0], x[1]};
@@ -783,7 +780,6 @@ static const struct row {
     ROW(fret_table_count),
     ROW(fret_table_within),
     ROW(fret_table_free),
-    ROW(fret_half_space),
     ROW(fret_foundation_make),
     ROW(fret_normal_make),
     ROW(fret_normal_same),

@@ -271,15 +271,13 @@ static void ask(const hard_scene *s, fret_real got[ORACLE_COUNT]) {
     for (int i = 0; i < ORACLE_COUNT; i++)
         got[i] = NAN;
     hard_contact(&s->contact, &material, &gap);
-    for (int i = 0; i < 2; i++) {
-        fret_real h[3] = {0, 0, 0};
-        if (!s->contact.rigid[i] && fret_half_space(s->contact.k, s->contact.nu[i], &h[0], &h[1], &h[2]).code)
-            return;
-        memcpy(got + (i ? ORACLE_HN_2 : ORACLE_HN_1), h, sizeof h);
-    }
     if (fret_normal_make(&material, &gap, NULL, NULL, &normal).code)
         return;
     const fret_foundation *foundation = fret_normal_foundation(normal);
+    for (int i = 0; i < 2; i++) {
+        const fret_real h[] = {foundation->hN[i], foundation->hT[i], foundation->beta[i]};
+        memcpy(got + (i ? ORACLE_HN_2 : ORACLE_HN_1), h, sizeof h);
+    }
     got[ORACLE_CN0] = foundation->cN0;
     got[ORACLE_CT0] = foundation->cT0;
     got[ORACLE_ETA] = foundation->eta;
