@@ -190,9 +190,12 @@ fret_status fret_wear_run_make(const fret_normal *n, const fret_wear_held *held,
     *run =
         (fret_wear_run){.normal = n, .held = *held, .tolerance = tolerance, .nodes = nodes_of(n, tolerance)};
     run->before = calloc(3 * (run->nodes + 1), sizeof *run->before);
-    run->stiff = run->before + run->nodes + 1;
-    run->off = run->stiff + run->nodes + 1;
-    st = run->before ? fret_blocks_begin(run, inner, outer) : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    if (run->before) {
+        run->stiff = run->before + run->nodes + 1;
+        run->off = run->stiff + run->nodes + 1;
+        st = fret_blocks_begin(run, inner, outer);
+    } else
+        st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     if (st.code)
         fret_wear_run_free(run);
     else

@@ -333,7 +333,7 @@ static void check_saved(shell *sh) {
         shell again;
         shell_init(&again, nowhere, nowhere);
         patience(5000000);
-        const int status = shell_text(&again, saved, "saved");
+        const int status = shell_run(&again, "saved", saved);
         patience(0);
         if (!shell_stop) {
             char *text = scene_text(&again);
@@ -369,7 +369,7 @@ static void json(const char *text, size_t size) {
     sh.set.format = FORMAT_JSON;
     sh.keep_going = true;
     patience(300000);
-    shell_text(&sh, copy, "given");
+    shell_run(&sh, "given", copy);
     patience(0);
     shell_stop = 0;
     shell_free(&sh);
@@ -419,7 +419,6 @@ static void columns(const char *text, size_t size) {
 }
 
 static void replay(const char *text, size_t size) {
-    settings set = settings_initial;
     calc_error error;
     write_file("given-replay.txt", (const uint8_t *)text, size);
     for (int format = 0; format < 2; format++) {
@@ -428,11 +427,14 @@ static void replay(const char *text, size_t size) {
         FILE *to = open_memstream(&out, &n);
         if (!to)
             abort();
+        shell sh;
         error_clear(&error);
-        set.format = format ? FORMAT_JSON : FORMAT_TEXT;
+        shell_init(&sh, to, nowhere);
+        sh.set.format = format ? FORMAT_JSON : FORMAT_TEXT;
         patience(500000);
-        const int status = shell_replay("given-replay.txt", 1e-12, &set, to, &error);
+        const int status = shell_replay(&sh, "given-replay.txt", 1e-12, &error);
         patience(0);
+        shell_free(&sh);
         fclose(to);
         if (!shell_stop && status != EXIT_OK && status != EXIT_ERROR)
             fail("a replay ends with another status", out, "");
