@@ -346,13 +346,14 @@ static bool compare_rows(shell *sh, const rows *w, differences *out, calc_error 
     sight now;
     if (!trace_begin(&t, s, watch_points(1), true, error))
         return false;
-    for (size_t i = 0; trace_next(&t, error); i++) {
+    while (trace_next(&t, error)) {
+        const size_t at = trace_now(&t)->at.steps;
         run_sight(trace_now(&t), &now);
         const long double ours[] = {now.state.Fx, now.state.dx};
-        for (int k = 0; k < COMPARED_COLUMNS && i >= before; k++) {
-            const long double off = ours[k] - theirs[k][i - before];
+        for (int k = 0; k < COMPARED_COLUMNS && at >= before; k++) {
+            const long double off = ours[k] - theirs[k][at - before];
             squares[k] += off * off;
-            out->largest[k] = fmax(out->largest[k], fabs(theirs[k][i - before]));
+            out->largest[k] = fmax(out->largest[k], fabs(theirs[k][at - before]));
         }
     }
     trace_end(&t);

@@ -108,8 +108,8 @@ static size_t print_page(FILE *from, FILE *out, const char *end) {
 }
 
 static size_t lost_read(const plot_run *r, calc_error *error) {
-    if (ferror(r->out))
-        calc_raise_errno(error, EIO, "cannot read what gnuplot drew");
+    if (!feof(r->out)) /* an error, or no memory for a page */
+        calc_raise_errno(error, ferror(r->out) ? EIO : ENOMEM, "cannot read what gnuplot drew");
     calc_raise(error, 0, 0, "gnuplot drew nothing"); /* the first error stays */
     return 0;
 }
