@@ -30,7 +30,7 @@ def counted(tests, name, *command):
 
 
 # these take longest, and begin
-LONG = ("test_fields", "test_allocation", "test_swing", "test_swing_field", "test_answers")
+LONG = ("test_work", "test_wear", "test_fields", "test_allocation", "test_swing", "test_swing_field", "test_answers")
 
 
 def run(tests):
