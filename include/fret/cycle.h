@@ -48,10 +48,6 @@ fret_status fret_cycle_loss_by_displacement(const fret_pressed *contact, double 
 fret_status fret_cycle_loss_by_definition(const fret_pressed *contact, const fret_loading *peak,
                                           fret_real *loss, fret_real *error);
 
-/* w = loss/(mu F_N delta_x,max) of a power law as a function of t = 1-s; q = n/(n+k+1), r = 1-q.
- * 0 <= t <= 1; w ~ t^3 for small t, every digit kept. */
-fret_real fret_loss_shape(fret_real q, fret_real r, fret_real t, fret_real s);
-
 FRET_END
 
 #endif

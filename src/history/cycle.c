@@ -5,6 +5,7 @@
 
 #include <float.h>
 
+#include "history/loss.h"
 #include "law/check.h"
 #include "law/normal.h"
 #include "number/real.h"

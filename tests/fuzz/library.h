@@ -169,9 +169,6 @@ CALL(fret_cycle_loss_by_displacement) {
     if (have_press(w))
         (void)known_code(fret_cycle_loss_by_displacement(&w->pressed, x[0], w->sink));
 }
-CALL(fret_loss_shape) {
-    w->sink[0] = fret_loss_shape(x[0], x[1], x[2], x[3]);
-}
 CALL(fret_field_make) {
     (void)x;
     fret_field_free(w->field);
@@ -735,7 +732,6 @@ static const struct row {
     ROW(fret_loading_by_displacement),
     ROW(fret_cycle_loss_by_force),
     ROW(fret_cycle_loss_by_displacement),
-    ROW(fret_loss_shape),
     ROW(fret_field_make),
     ROW(fret_field_of_press),
     ROW(fret_field_free),

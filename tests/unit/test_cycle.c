@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "history/loss.h"
 #include "law/normal.h"
 #include "unit.h"
 
