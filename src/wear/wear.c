@@ -77,9 +77,10 @@ static fret_status give_rows(const fret_normal *n, fret_annulus *a, const double
     const fret_real inner = a->x[0], at_inner = fret_normal_profile(n, inner),
                     rise = fret_normal_profile(n, a->x[a->count - 1]);
     const double *profile = fret_annulus_profile(a, depth);
-    double *g = calloc(2 * a->rows, sizeof *g), *h = g + a->rows;
+    double *g = calloc(2 * a->rows, sizeof *g);
     if (!g)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    double *h = g + a->rows;
     *out = (struct fret_worn){.of = n->gap,
                               .inner = inner,
                               .at_inner = at_inner,
