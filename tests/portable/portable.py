@@ -185,14 +185,16 @@ def run(tests):
         def ask(variant, script):
             program, env = programs[variant]
             said[variant, script] = answers(program, *scripts[script][:3], env)
-        tests.each([lambda v=v, s=s: ask(v, s) for s in reversed(scripts) for v in programs])
+        # what digits look like is the C library's
+        asked = {s: [v for v in programs if scripts[s][0] == "json" or v in ("this build", "musl")] for s in scripts}
+        tests.each([lambda v=v, s=s: ask(v, s) for s in reversed(scripts) for v in asked[s]])
         numbers = 0
         for script in scripts:
             want, status = said["this build", script]
             count = len(NUMBER.findall(want))
             numbers += count
             tests.check(script + " answers", count > 0, want)
-            for variant in list(programs)[1:]:
+            for variant in asked[script][1:]:
                 got, code = said[variant, script]
                 tests.check("%s: %s as by this build" % (variant, script), code == status and alike(scripts[script][0], want, got, scripts[script][3]),
                             "exit %d, expected %d\n%s" % (code, status, describe(want, got)))
