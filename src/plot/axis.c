@@ -57,7 +57,7 @@ static plot_extents extent_of(const plot_panel *p) {
 plot_extents plot_settle(plot_panel *p) {
     const plot_extents e = extent_of(p);
     for (size_t i = 0; i < p->count; i++)
-        plot_thin(p->series[i], PLOT_WRITTEN);
+        plot_thin(p->series[i], p->series[i]->role == PLOT_MEASURED ? PLOT_MARKS : PLOT_WRITTEN);
     return e;
 }
 

@@ -21,7 +21,8 @@ enum {
     PLOT_PANELS = 6,     /* side by side */
     PLOT_CURVES = 64,    /* series of a panel */
     PLOT_KEPT = 294912,  /* points a series holds; beyond, it thins itself and keeps the extremes */
-    PLOT_WRITTEN = 1000, /* points of a series that go into a picture, about */
+    PLOT_WRITTEN = 1000, /* points of a curve that go into a picture, about */
+    PLOT_MARKS = 8000,   /* and of marks, which no line joins: few of many would stand in clumps */
     PLOT_GRID = 500,     /* points of a map along an axis */
     PLOT_WORDS = 4,      /* within the frame of a panel */
     PLOT_FRAMES = 1000,  /* of an animation */

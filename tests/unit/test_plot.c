@@ -507,6 +507,22 @@ static void bounded(void) {
     plot_figure_free(&f);
 }
 
+/* A dense cloud stays one: no part of its width is left bare. */
+static void clouds(void) {
+    enum { PARTS = 100 };
+    plot_figure f = figure(PLOT_MEASURED, NULL);
+    plot_series *s = f.panel[0]->series[0];
+    bool seen[PARTS] = {false};
+    for (int i = 0; i < 100000; i++)
+        plot_point(s, i % 10000 / 1e4, i % 7); /* ten turns */
+    plot_settle(f.panel[0]);
+    for (size_t i = 0; i < s->count; i++)
+        seen[(int)(s->x[i] * PARTS)] = true;
+    for (int i = 0; i < PARTS; i++)
+        CHECK(seen[i]);
+    plot_figure_free(&f);
+}
+
 static void bands(void) {
     plot_figure f = figure(PLOT_BAND, NULL);
     plot_series *s = f.panel[0]->series[0];
@@ -1064,6 +1080,7 @@ int main(int argc, char **argv) {
     CASE(styles());
     CASE(layers());
     CASE(thins());
+    CASE(clouds());
     CASE(bounded());
     CASE(bands());
     CASE(axes());
