@@ -67,8 +67,8 @@ static int start(const plot_run *r, pid_t *pid, int *guard) {
     sigset_t before, defaults;
     posix_spawn_file_actions_init(&actions); /* neither of them asks for memory */
     posix_spawnattr_init(&attributes);
-    rewind(r->script);
-    int code = posix_spawn_file_actions_adddup2(&actions, fileno(r->script), 0);
+    int code = fseek(r->script, 0, SEEK_SET) ? errno : 0;
+    code = code ? code : posix_spawn_file_actions_adddup2(&actions, fileno(r->script), 0);
     code = code ? code : posix_spawn_file_actions_adddup2(&actions, fileno(r->out), 1);
     code = code ? code : posix_spawn_file_actions_adddup2(&actions, fileno(r->err), 2);
     /* a group of its own: Ctrl-C reaches fret alone, which then ends it whole */
@@ -153,7 +153,8 @@ bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *
     case ENDED:
         break;
     }
-    rewind(r->out);
+    if (fseek(r->out, 0, SEEK_SET))
+        return calc_errno(error, errno, "cannot read what gnuplot drew");
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return true;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127) /* a C library that finds out late */
