@@ -51,6 +51,28 @@ static void make_places(fret_annulus *a, fret_real inner, fret_real outer, fret_
     a->x[1] = fminl(a->x[1], second);
 }
 
+/* What a change of f, or w, in each of the cells from..to gives at node i: the integral of f' over its
+ * distance in t to the power m - 1. In a cell f' is straight, as in its neighbours' middles (one of its own
+ * at an end), about its mean: errors are of second order, else of that of the power, 1 + m. */
+static void make_row(const fret_annulus *a, fret_real m, size_t i, size_t from, size_t to, double *row) {
+    const fret_real *x = a->x;
+    for (size_t j = from; j <= to; j++) {
+        const bool within = j < i;
+        const size_t nearer = within ? j + 1 : j, l = j > from ? j - 1 : j, r = j < to ? j + 1 : j;
+        const fret_real near = within ? (x[i] - x[nearer]) * (x[i] + x[nearer])
+                                      : (x[nearer] - x[i]) * (x[nearer] + x[i]),
+                        d = (x[j + 1] - x[j]) * (x[j + 1] + x[j]), whole = between(m, near, near + d),
+                        moment = between(m + 1, near, near + d) - (near + d / 2) * whole;
+        row[j - from] += (double)(whole / d);
+        if (l == r)
+            continue;
+        const double bend =
+            (within ? -2 : 2) * (double)moment / (a->t[r + 1] + a->t[r] - a->t[l + 1] - a->t[l]);
+        row[r - from] += bend / (a->t[r + 1] - a->t[r]);
+        row[l - from] -= bend / (a->t[l + 1] - a->t[l]);
+    }
+}
+
 static void make_weights(fret_annulus *a, fret_real m, fret_real stiff) {
     const fret_real *x = a->x;
     for (size_t j = 0; j + 1 < a->count; j++) {
@@ -58,15 +80,10 @@ static void make_weights(fret_annulus *a, fret_real m, fret_real stiff) {
                         whole = between(m, t, end), outer = (between(m + 1, t, end) - t * whole) / d;
         a->weight[j] += (double)(stiff * (whole - outer));
         a->weight[j + 1] += (double)(stiff * outer);
-        for (size_t i = 0; i <= j; i++) {
-            const fret_real near = (x[j] - x[i]) * (x[j] + x[i]);
-            row_p(a, i)[j - i] = (double)(between(m, near, near + d) / d);
-        }
-        for (size_t i = j + 1; i < a->rows; i++) {
-            const fret_real near = (x[i] - x[j + 1]) * (x[i] + x[j + 1]);
-            row_g(a, i)[j] = (double)(between(m, near, near + d) / d);
-        }
+        make_row(a, m, j, j, a->count - 2, row_p(a, j));
     }
+    for (size_t i = 1; i < a->rows; i++)
+        make_row(a, m, i, 0, (i < a->count ? i : a->count - 1) - 1, row_g(a, i));
 }
 
 fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *held, fret_real inner,

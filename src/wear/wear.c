@@ -168,11 +168,9 @@ static fret_status first_ring(const fret_normal *n, const fret_wear_held *held, 
     return fret_ok();
 }
 
-/* As many as a run and its first cycle take; the edge is blunter where k < 0. */
-static size_t nodes_of(const fret_normal *n, double tolerance) {
-    const double m = (double)(n->foundation.k + 1) / 2;
-    return (size_t)fmin(fmax(260 * pow(1e-3 / tolerance, 2.0 / 3) * fmin(pow(fmax(0.5 / m, 1), 1.5), 2), 40),
-                        1000);
+/* Their errors are of second order; a run and its first cycle take as many, whatever k is. */
+static size_t nodes_of(double tolerance) {
+    return (size_t)fmin(fmax(180 * sqrt(1e-3 / tolerance), 40), 1000);
 }
 
 fret_status fret_wear_run_make(const fret_normal *n, const fret_wear_held *held, double tolerance,
@@ -188,8 +186,7 @@ fret_status fret_wear_run_make(const fret_normal *n, const fret_wear_held *held,
         return st;
     if (!run)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    *run =
-        (fret_wear_run){.normal = n, .held = *held, .tolerance = tolerance, .nodes = nodes_of(n, tolerance)};
+    *run = (fret_wear_run){.normal = n, .held = *held, .tolerance = tolerance, .nodes = nodes_of(tolerance)};
     run->before = calloc(3 * (run->nodes + 1), sizeof *run->before);
     if (run->before) {
         run->stiff = run->before + run->nodes + 1;

@@ -203,7 +203,7 @@ static void arrivals(void) {
             fret_wear_ring(limit, &inner, &outer);
             CHECK_REL(c, inner, 1e-6L);
             CHECK_REL(b, outer, 0.01L);
-            CHECK_REL(fret_wear_volume(w), fret_wear_volume(limit), 0.01L);
+            CHECK_REL(fret_wear_volume(w), fret_wear_volume(limit), 4e-3L);
             fret_wear_free(w);
             fret_wear_free(limit);
         }
@@ -226,7 +226,7 @@ static void single_cycles(void) {
                 fret_real inner, outer;
                 const fret_pressed c = {n, mu, press_worn(w, &held).press};
                 fret_real most = 0;
-                CHECK_REL(fret_wear_volume(w), alpha * loss_of(&c, &held), 1.5e-3L);
+                CHECK_REL(fret_wear_volume(w), alpha * loss_of(&c, &held), 1e-3L);
                 CHECK_REL(alpha * fret_wear_work(w), alpha * loss_of(&c, &held), 1e-3L);
                 CHECK_OK(fret_contact_make(n, mu, FRET_EXACT, &contact));
                 CHECK_OK(fret_contact_step(contact,
@@ -245,7 +245,7 @@ static void single_cycles(void) {
                     CHECK_OK(fret_field_slip(field, r, &s));
                     CHECK_OK(fret_wear_depth(w, r, &h));
                     most = fmaxl(most, alpha * 4 * mu * p * s);
-                    if (m > 3 && m < 16 && !(shape == FLAT_CONE && fabsl(r - b) < 0.01L * b))
+                    if (m > 3 && m < 16 && !(shape == FLAT_CONE && fabsl(r - b) < 0.03L * b))
                         CHECK_ABS(h, alpha * 4 * mu * p * s, most, 0.01L);
                 }
                 fret_field_free(field);
