@@ -210,17 +210,25 @@ SEED    ?= 1
 mutants: deps-check
 	@PYTHONDONTWRITEBYTECODE=1 nice -n 19 python3 tests/fuzz/mutants.py --count $(MUTANTS) --seed $(SEED)
 
+# What the tests run sanitized; clang counts for libFuzzer as well, which costs little. SANITIZED: what to build.
+sanitized:
+	@$(MAKE) --no-print-directory -s B=build/asan OPT='-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all \
+		$(if $(findstring clang,$(CC)),-fsanitize-coverage=inline-8bit-counters$(COMMA)pc-table)' $(or $(SANITIZED),build/asan/fret tests)
+
 # Needs clang. FUZZ: seconds for each target; figures in tests/hard/fuzz.txt, new inputs in build/fuzz/corpus.
+# These calls of the program go to the target.
 FUZZ      ?= 450
 FUZZ_CALLS := open fopen posix_spawnp system popen fork mkdtemp
 fuzz-build:
-	@$(MAKE) --no-print-directory -s B=build/fuzz CC=clang OPT='-O1 -g -fsanitize=address,undefined,fuzzer-no-link \
-		-fno-sanitize-recover=all' CFLAGS='$(foreach call,$(FUZZ_CALLS),-D$(call)=fuzz_$(call))' build/fuzz/fuzz
-$(B)/fuzz: tests/fuzz/fuzz.c $(call OBJ,$(filter-out src/prompt/main.c,$(PROG)) $(CORE)) $(B)/scripts.o
-	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -fsanitize=fuzzer -o $@ $(filter %.c %.o,$^) $(LIBS)
+	@$(MAKE) --no-print-directory -s CC=clang SANITIZED=build/asan/fuzz sanitized
+$(B)/program.o: $(call OBJ,$(filter-out src/prompt/main.c,$(PROG)) $(CORE)) $(B)/scripts.o
+	ld -r -o $@ $^
+	objcopy $(foreach call,$(FUZZ_CALLS),--redefine-sym $(call)=fuzz_$(call)) $@
+$(B)/fuzz: tests/fuzz/fuzz.c $(B)/program.o
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -fsanitize=fuzzer -o $@ $^ $(LIBS)
 fuzz: deps-check
 	@$(MAKE) --no-print-directory -s fuzz-build $(B)/fret
-	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/fuzzing.py build/fuzz/fuzz $(FUZZ)
+	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/fuzzing.py build/asan/fuzz $(FUZZ)
 	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/programs.py $(B)/fret $(FUZZ) $$(date +%s)
 	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/typed.py $(B)/fret $(FUZZ) $$(date +%s)
 
@@ -295,5 +303,5 @@ FORCE:
 clean:
 	rm -rf build
 
-.PHONY: published coverage coverage-short mutants fuzz fuzz-build all figures handouts manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram fits faults latency bench format install clean FORCE
+.PHONY: published coverage coverage-short mutants fuzz fuzz-build sanitized all figures handouts manual uninstall deb static chroots tests deps deps-check run check check-all hard hard-diagram fits faults latency bench format install clean FORCE
 -include $(shell find $(B) -name chroots -prune -o -name '*.d' -print 2>/dev/null)

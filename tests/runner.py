@@ -56,7 +56,6 @@ import trouble  # noqa: E402
 import typed  # noqa: E402
 import units  # noqa: E402
 
-SANITIZE = "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all"
 # those that take longest begin
 ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.run, "sharing": sharing.run, "shares": shares.run, "hard": units.hard,
          "accuracy": accuracy_test.run, "explaining": explaining.run, "errors": table.run, "programs": programs.run,
@@ -130,8 +129,8 @@ def short(wanted):
 
 
 def rest(wanted):
-    args = ["B=build/asan", "OPT=" + SANITIZE, "build/asan/fret", "tests"]
-    if harness.links("clang", SANITIZE):  # sees more than gcc's
+    args = ["sanitized"]
+    if harness.links("clang", "-fsanitize=address,undefined"):  # sees more than gcc's
         args.append("CC=clang")
     variants = [("plain", ["all", "tests"]), ("sanitized", args)]
     if "CC=clang" not in args and shutil.which("clang"):  # else that is how it is seen to build with clang

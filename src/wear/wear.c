@@ -175,7 +175,7 @@ static size_t nodes_of(double tolerance) {
 
 fret_status fret_wear_run_make(const fret_normal *n, const fret_wear_held *held, double tolerance,
                                fret_wear_run **out) {
-    fret_real inner, outer;
+    fret_real inner = 0, outer = 0;
     fret_status st = check_held(n, held);
     if (!st.code && !(tolerance >= 1e-4 && tolerance <= 0.1))
         st = fret_fail(FRET_OUTSIDE, "tolerance", tolerance, 1e-4);

@@ -1,15 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Targets for libFuzzer, chosen by FRET_FUZZ: what reads bytes that others made. It keeps to files of a
- * folder of its own, and starts no program: the Makefile compiles the sources so that these calls come here.
- */
-#undef open
-#undef fopen
-#undef posix_spawnp
-#undef system
-#undef popen
-#undef fork
-#undef mkdtemp
-
+ * folder of its own, and starts no program: the Makefile turns these calls of the program's to those here. */
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>

@@ -159,7 +159,7 @@ def fuzz(program, target, seconds, folder, seed):
 
 def run(tests):
     """Ten seconds of each target; and the lines of a session, typed."""
-    program = os.path.join(ROOT, "build/fuzz/fuzz")
+    program = os.path.join(ROOT, "build/asan/fuzz")
     if not harness.links("clang", "-fsanitize=fuzzer", "int LLVMFuzzerTestOneInput(void); int LLVMFuzzerTestOneInput(void) { return 0; }"):
         print("fuzz: not run, clang with libFuzzer is not installed")
         return

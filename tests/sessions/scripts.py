@@ -446,19 +446,17 @@ def demos(tests):
     figures_of_paper = glob.glob(os.path.join(harness.ROOT, "scripts", "paper", "*.txt"))
     tests.check("show demos fits a terminal", max(map(len, listed)) <= 80, max(listed, key=len))
     tests.check("show demos", len(listed) == len(paths) + len(figures_of_paper), "\n".join(listed))
-    jobs = [lambda p=path, row=row: lesson(tests, p, row) for path, row in zip(paths, listed)]
+    jobs = [lambda p=path, row=row, after=after: lesson(tests, p, row, after.split()[0])
+            for path, row, after in zip(paths, listed, [*listed[1:len(paths)], "-"])]
     tests.each(jobs + [lambda: lessons_aside(tests), lambda: path_of_lessons(tests, listed), lambda: own_lessons(tests)])
 
 
 def path_of_lessons(tests, listed):
-    """Each leads to the next; the teacher's page has them all."""
+    """The teacher's page has them all."""
     names = [row.split()[0] for row in listed]
     order = ["pressing", "sticking", "sliding", "loop", "memory", "energy", "grading", "shapes", "swinging", "damper"]
     tests.check("the lessons' order", names[1:11] == order, str(names))
     lessons_of = names[1:names.index("fig04")]
-    for name, after in zip(lessons_of, lessons_of[1:] + [None]):
-        said = tests.run("-c", "demo " + name).stdout.rstrip().splitlines()[-1]
-        tests.check("%s leads on" % name, said.startswith("Next: demo %s, " % after if after else "The last of the lessons"), said)
     page = tests.run("-c", "help teaching").stdout
     titles = re.findall(r"(?m)^(\w+)  +\S", page)
     tests.check("the teacher's page", titles == lessons_of and page.count("\n    The paper: (") == len(titles) and
@@ -556,7 +554,7 @@ def handout(tests, name, path, questions, figures):
     return "\n".join(t for e in body if e.tag != xhtml + "figure" for t in e.itertext())
 
 
-def lesson(tests, path, row):
+def lesson(tests, path, row, after):
     with open(path, encoding="utf-8") as f:
         text = f.read()
     name = re.sub(r"^\d+-", "", os.path.basename(path)[:-4])
@@ -579,6 +577,8 @@ def lesson(tests, path, row):
     shown = [line for line in done.stdout.splitlines() if line.startswith(harness.PROMPT)]
     tests.check("demo " + name, done.returncode == 0 and [harness.PROMPT + s for s in statements] == shown,
                 tests.report(done))
+    said = done.stdout.rstrip().splitlines()[-1]
+    tests.check("%s leads on" % name, name == "tour" or said.startswith("Next: demo %s, " % after if after != "-" else "The last of the lessons"), said)
     lines = (done.stdout + done.stderr).splitlines()
     tests.check("demo %s shows its remarks, and no statement without a prompt" % name, "(null)" not in lines and
                 [line for line in lines if line.startswith("#")] == remarks and not set(statements) & set(lines), tests.report(done))
