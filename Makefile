@@ -23,7 +23,7 @@ GSL       ?= yes
 LIVE      ?= yes
 CURSES    := $(shell pkg-config --libs ncursesw 2>/dev/null || echo -lncursesw -ltinfo)
 LIBS_CORE := -lm
-LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas)
+LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas) $(if $(DARWIN),-liconv) # elsewhere in libc
 LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,$(CURSES))
 
 # what is left out with GSL=no, and without

@@ -13,7 +13,7 @@ size_t character_at(const char *text, size_t left, unsigned *code);
 size_t character_before(const char *text, size_t at);
 
 /* The character as UTF-8, and a NUL: its bytes. */
-enum { CHARACTER_BYTES = 5 };
+enum { CHARACTER_BYTES = 5, CHARACTER_LOST = 0xfffd /* stands for what was none */ };
 size_t character_put(unsigned code, char to[CHARACTER_BYTES]);
 
 /* No control character, and none that turns the direction of writing or takes no place. */

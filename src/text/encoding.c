@@ -4,7 +4,7 @@
  */
 #include "text/encoding.h"
 
-#include <iconv.h>
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,33 +34,28 @@ static bool is_japanese(const char *text, size_t len) {
     return sure >= 2;
 }
 
-/* Each byte is a character, of at most 3 bytes. */
-static size_t western(const char *text, size_t len, char *to) {
-    static const unsigned short high[32] = {0x20ac, 0xfffd, 0x201a, 0x192,  0x201e, 0x2026, 0x2020, 0x2021,
-                                            0x2c6,  0x2030, 0x160,  0x2039, 0x152,  0xfffd, 0x17d,  0xfffd,
-                                            0xfffd, 0x2018, 0x2019, 0x201c, 0x201d, 0x2022, 0x2013, 0x2014,
-                                            0x2dc,  0x2122, 0x161,  0x203a, 0x153,  0xfffd, 0x17e,  0x178};
-    size_t n = 0;
-    for (size_t i = 0; i < len; i++) {
-        const unsigned c = (unsigned char)text[i];
-        if (c < 0x80)
-            to[n++] = text[i];
-        else
-            n += character_put(c < 0xa0 ? high[c - 0x80] : c, to + n);
-    }
-    return n;
+bool encoding_open(iconv_t *by, const char *name, const char *told, const char *path, calc_error *error) {
+    *by = iconv_open("UTF-8", name);
+    if (*by != (iconv_t)-1)
+        return true;
+    const int code = errno;
+    *by = NULL;
+    return code == EINVAL
+               ? calc_fail(error, 0, 0, "%s is in %s, which this system cannot read: save it as UTF-8", path,
+                           told)
+               : calc_errno(error, code, "cannot read %s", path);
 }
 
-/* 0: the system does not know it, or it is none. */
-static size_t japanese(char *text, size_t len, char *to, size_t room) {
-    const iconv_t by = iconv_open("UTF-8", "CP932");
-    char *in = text, *out = to;
-    size_t left = room;
-    if (by == (iconv_t)-1)
-        return 0;
-    const bool ok = iconv(by, &in, &len, &out, &left) != (size_t)-1;
-    iconv_close(by);
-    return ok ? room - left : 0;
+size_t encoding_decode(iconv_t by, size_t unit, char *from, size_t *len, char *to, size_t room) {
+    char *const begin = to;
+    while (*len > 0 && iconv(by, &from, len, &to, &room) == (size_t)-1 && errno == EILSEQ) {
+        const size_t n = character_put(CHARACTER_LOST, to), bad = *len < unit ? *len : unit;
+        to += n;
+        room -= n;
+        from += bad;
+        *len -= bad;
+    }
+    return (size_t)(to - begin);
 }
 
 /* Signs of micro and degrees that were UTF-8 taken for Windows-1252, and written as UTF-8 again. */
@@ -81,20 +76,20 @@ bool encoding_to_utf8(char **text, size_t *len, const char **was, const char *pa
         unmangle(*text, len);
         return true;
     }
-    const size_t room = 3 * *len;
-    char *to = malloc(room + CHARACTER_BYTES);
-    if (!to)
-        return calc_no_memory(error);
     const bool by_pairs = is_japanese(*text, *len);
-    *was = by_pairs ? "Shift-JIS" : NULL;
-    *len = by_pairs ? japanese(*text, *len, to, room) : western(*text, *len, to);
-    if (*len == 0) {
-        free(to);
-        return calc_fail(error, 0, 0, "%s is in Shift-JIS, which this system cannot read: save it as UTF-8",
-                         path);
+    iconv_t by;
+    if (!encoding_open(&by, by_pairs ? "CP932" : "CP1252", by_pairs ? "Shift-JIS" : "Windows-1252", path,
+                       error))
+        return false;
+    size_t room = 3 * *len, left = *len; /* a byte is a character of at most 3 */
+    char *to = malloc(room + CHARACTER_BYTES);
+    if (to) {
+        *was = by_pairs ? "Shift-JIS" : NULL;
+        *len = encoding_decode(by, 1, *text, &left, to, room);
+        to[*len] = 0;
+        free(*text);
+        *text = to;
     }
-    to[*len] = 0;
-    free(*text);
-    *text = to;
-    return true;
+    iconv_close(by);
+    return to || calc_no_memory(error);
 }

@@ -5,6 +5,7 @@
 #ifndef TEXT_FILE_H
 #define TEXT_FILE_H
 
+#include <iconv.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -107,8 +108,6 @@ enum { FILE_LINE_LIMIT = 16 << 20 }; /* bytes of a line, continued or not */
 
 typedef enum file_got { FILE_GOT_LINE, FILE_GOT_END, FILE_GOT_ERROR, FILE_GOT_STOP } file_got;
 
-typedef enum file_order { FILE_UNTOLD, FILE_BYTES, FILE_LITTLE, FILE_BIG } file_order;
-
 /* More lines as someone types them, without the end of the last, to be freed; NULL: no more, or not now,
  * where the stop flag is set. continued: of a line that goes on. */
 typedef char *file_ask(void *self, bool continued);
@@ -119,9 +118,9 @@ typedef struct file_in {
     int fd;        /* -1: not open */
     file_ask *ask; /* in place of a file, or NULL */
     void *self;    /* for it */
-    bool owned, ended, waits;
-    file_order order;
-    unsigned odd, high; /* 1 + a byte without its other half, a surrogate without its second */
+    bool owned, ended, waits, told;
+    iconv_t decoder; /* of UTF-16, or NULL */
+    size_t halves;   /* bytes that are no whole character yet */
     char *name;
     char *block;
     size_t at, have; /* of the block */

@@ -13,19 +13,21 @@
 
 #include "number/array.h"
 #include "text/characters.h"
+#include "text/encoding.h"
 #include "text/lines.h"
 
 enum { BLOCK = 1 << 16, PAUSE = 20 /* ms between looks at the stop flag */ };
 /* UTF-16 is read into the last quarter of the block and becomes UTF-8 at its beginning, which is at most half
  * as long again. */
-enum { RAW = BLOCK / 4 * 3, REPLACEMENT = 0xfffd };
+enum { RAW = BLOCK / 4 * 3 };
+static const char little[] = "UTF-16LE", big[] = "UTF-16BE";
 
 /* Of byte order. */
 static const struct {
     const char *bytes;
     size_t length;
-    file_order order;
-} marks[] = {{"\xef\xbb\xbf", 3, FILE_BYTES}, {"\xff\xfe", 2, FILE_LITTLE}, {"\xfe\xff", 2, FILE_BIG}};
+    const char *encoding; /* NULL: UTF-8 */
+} marks[] = {{"\xef\xbb\xbf", 3, NULL}, {"\xff\xfe", 2, little}, {"\xfe\xff", 2, big}};
 enum { MARKS = sizeof marks / sizeof *marks };
 
 static bool cannot_read(const char *name, int code, calc_error *error) {
@@ -95,6 +97,8 @@ void file_in_close(file_in *in) {
     free(in->name);
     free(in->block);
     free(in->line);
+    if (in->decoder)
+        iconv_close(in->decoder);
     *in = (file_in){.fd = -1};
 }
 
@@ -129,37 +133,12 @@ static file_got read_some(file_in *in, char *to, size_t room, size_t *got, calc_
 
 /* ---- UTF-16 ------------------------------------------------------------------------------------ */
 
-static void put_character(file_in *in, unsigned code) {
-    in->have += character_put(code, in->block + in->have);
-}
-
-/* What has no other half is replaced. */
-static void put_unit(file_in *in, unsigned unit) {
-    const bool first = unit >= 0xd800 && unit < 0xdc00, second = unit >= 0xdc00 && unit < 0xe000;
-    const unsigned high = in->high;
-    in->high = first ? unit : 0;
-    if (high && !second)
-        put_character(in, REPLACEMENT);
-    if (second)
-        put_character(in, high ? 0x10000 + ((high - 0xd800) << 10) + (unit - 0xdc00) : REPLACEMENT);
-    else if (!first)
-        put_character(in, unit);
-}
-
-static void put_bytes(file_in *in, const char *bytes, size_t n) {
-    for (size_t i = 0; i < n; i++) {
-        const unsigned now = (unsigned char)bytes[i], before = in->odd - 1;
-        if (in->odd)
-            put_unit(in, in->order == FILE_BIG ? before << 8 | now : now << 8 | before);
-        in->odd = in->odd ? 0 : 1 + now;
-    }
-}
-
-/* At the end of the file. */
-static void put_halves(file_in *in) {
-    if (in->odd || in->high)
-        put_character(in, REPLACEMENT);
-    in->odd = in->high = 0;
+/* So many bytes more, behind halves. */
+static void decode(file_in *in, size_t n) {
+    const size_t len = in->halves + n;
+    in->halves = len;
+    in->have = encoding_decode(in->decoder, 2, in->block + RAW, &in->halves, in->block, RAW);
+    memmove(in->block + RAW, in->block + RAW + len - in->halves, in->halves);
 }
 
 /* ---- the mark ---------------------------------------------------------------------------------- */
@@ -173,10 +152,10 @@ static bool begins_mark(const char *bytes, size_t n) {
 }
 
 /* UTF-16 that begins with two letters of ASCII needs no mark. */
-static file_order without_mark(const char *bytes, size_t n) {
-    const bool little = n >= 4 && bytes[0] && !bytes[1] && bytes[2] && !bytes[3],
-               big = n >= 4 && !bytes[0] && bytes[1] && !bytes[2] && bytes[3];
-    return little ? FILE_LITTLE : big ? FILE_BIG : FILE_BYTES;
+static const char *without_mark(const char *bytes, size_t n) {
+    const bool low = n >= 4 && bytes[0] && !bytes[1] && bytes[2] && !bytes[3],
+               high = n >= 4 && !bytes[0] && bytes[1] && !bytes[2] && bytes[3];
+    return low ? little : high ? big : NULL;
 }
 
 /* The first bytes, without the mark. */
@@ -189,18 +168,21 @@ static file_got read_beginning(file_in *in, calc_error *error) {
     }
     if (got == FILE_GOT_STOP || got == FILE_GOT_ERROR)
         return got;
-    in->order = without_mark(in->block, in->have);
+    const char *encoding = without_mark(in->block, in->have);
     for (size_t i = 0; i < MARKS; i++)
         if (in->have >= marks[i].length && !memcmp(in->block, marks[i].bytes, marks[i].length)) {
-            in->order = marks[i].order;
+            encoding = marks[i].encoding;
             in->at = marks[i].length;
         }
-    if (in->order != FILE_BYTES) {
-        n = in->have - in->at;
-        memmove(in->block + RAW, in->block + in->at, n);
-        in->at = in->have = 0;
-        put_bytes(in, in->block + RAW, n);
-    }
+    in->told = true;
+    if (!encoding)
+        return FILE_GOT_LINE;
+    if (!encoding_open(&in->decoder, encoding, "UTF-16", in->name, error))
+        return FILE_GOT_ERROR;
+    n = in->have - in->at;
+    memmove(in->block + RAW, in->block + in->at, n);
+    in->at = 0;
+    decode(in, n);
     return FILE_GOT_LINE;
 }
 
@@ -221,19 +203,21 @@ static file_got fill_block(file_in *in, calc_error *error) {
     in->at = in->have = 0;
     if (in->ask)
         return ask_more(in);
-    if (in->order == FILE_UNTOLD)
+    if (!in->told)
         got = read_beginning(in, error);
     while (got == FILE_GOT_LINE && in->at == in->have) {
         size_t n = 0;
         in->at = in->have = 0;
-        const size_t from = in->order == FILE_BYTES ? 0 : RAW;
+        const size_t from = in->decoder ? RAW + in->halves : 0;
         got = read_some(in, in->block + from, BLOCK - from, &n, error);
-        if (in->order == FILE_BYTES)
+        if (!in->decoder) {
             in->have = n;
-        else if (got == FILE_GOT_LINE)
-            put_bytes(in, in->block + RAW, n);
-        else if (got == FILE_GOT_END)
-            put_halves(in);
+        } else if (got == FILE_GOT_LINE) {
+            decode(in, n);
+        } else if (got == FILE_GOT_END && in->halves) {
+            in->have = character_put(CHARACTER_LOST, in->block);
+            in->halves = 0;
+        }
     }
     return got == FILE_GOT_END && in->have > 0 ? FILE_GOT_LINE : got;
 }
