@@ -6,6 +6,7 @@ import shutil
 import subprocess
 
 import harness
+import transcripts
 
 
 def make(tests, target, root):
@@ -42,6 +43,10 @@ def installed(tests):
         told = {**os.environ, "PKG_CONFIG_SYSROOT_DIR": root, "PKG_CONFIG_PATH": os.path.join(root, "usr/lib/pkgconfig")}
         flags = subprocess.run(["pkg-config", "--cflags", "--libs", "fret"], capture_output=True, text=True, env=told).stdout.split()
         example(tests, "as it is installed", flags, {"LD_LIBRARY_PATH": os.path.join(root, "usr/lib")})
+        with open(os.path.join(harness.ROOT, "tests/sessions/first_embedder.txt"), encoding="utf-8") as f:
+            kept, tests.env = tests.env, {**tests.env, **told, "LC_ALL": "C", "LD_LIBRARY_PATH": os.path.join(root, "usr/lib")}
+            transcripts.examples(tests, "first_embedder.txt", f.read().splitlines()[1:])
+            tests.env = kept
     done = make(tests, "uninstall", root)
     tests.check("make uninstall leaves nothing", done.returncode == 0 and not files(root) and
                 not any(os.path.exists(os.path.join(root, "usr", d)) for d in ("include/fret", "share/doc/fret")), done.stderr + "\n".join(files(root)))
