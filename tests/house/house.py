@@ -252,8 +252,18 @@ def selftest(tests):
     tests.check("shapes are seen", list(told_apart(bad)) == ["number/g.c: FRET_GAP_POWER"])
 
 
+def kept(tests):
+    """What git keeps: nothing that a session or a test left behind."""
+    if not os.path.exists(os.path.join(harness.ROOT, ".git")) or not shutil.which("git"):
+        return
+    listed = subprocess.run(["git", "-c", "safe.directory=*", "ls-files"], cwd=harness.ROOT, capture_output=True, text=True).stdout.splitlines()
+    top = {path.split("/")[0] for path in listed if not path.startswith(".")}
+    tests.check("the top level", not listed or top == {"Makefile", "README.md", "LICENSE", "src", "include", "scripts", "tests"}, str(sorted(top)))
+
+
 def run(tests):
     selftest(tests)
+    kept(tests)
     files = sources()
     for what, rule in (("arrows run one way", wrong_arrows), ("no circle of includes", circles),
                        ("files say what they are", unsaid), ("gap.c alone tells shapes apart", told_apart),
