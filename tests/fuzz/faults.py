@@ -187,6 +187,7 @@ class Faults:
 
     def __init__(self, fret, tests, env, setup, statement):
         self.fret, self.tests, self.env, self.statement = fret, tests, env, statement
+        self.tells_times = "accuracy" in statement
         self.script = "".join(line + "\n" for line in
                               (setup, "show", "source arm", statement, "source disarm", "set format text", "set digits 6",
                                "1234567", "show", "show variables"))
@@ -251,10 +252,9 @@ class Faults:
         if what != ALLOCATION and "FAILED\n" not in seen:
             return "not reached"
         before, final = right[1].partition("\n1234567 = ")[0], out.rpartition("1234567 = ")[2]
-        timing = "accuracy" in self.statement
         if status == 0:
             changed = self.changed([right[3]], left, what) + [n for n in LIVE if left[n] != right[3][n]]
-            if not timing and (out != right[1] or changed):
+            if not self.tells_times and (out != right[1] or changed):
                 return "ends well with another answer\n%s\n%s" % (differ(right[1], out), " ".join(changed))
             return "harmless"
         if status != 1:
@@ -280,7 +280,7 @@ class Faults:
     def interrupted(self, status, out, err, left, right):
         """The script ends, if not before, where the next statement would begin."""
         if status == 0:
-            return "harmless" if out == right[1] else "ends well with another answer\n" + differ(right[1], out)
+            return "harmless" if self.tells_times or out == right[1] else "ends well with another answer\n" + differ(right[1], out)
         told = re.findall(r"error: (.*)", err)
         silent = self.statement == "a transcript"
         if status != INTERRUPTED or not (told or silent) or not all("nterrupted" in line for line in told):
