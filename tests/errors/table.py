@@ -58,7 +58,11 @@ def carets(messages, lasts, script):
         last, column = lasts.pop(0) if lasts else None, int(found.group(2))
         if i + 2 >= len(lines) or "^" not in lines[i + 2]:
             return False
-        source, shown, caret = script[int(found.group(1)) - 1], lines[i + 1], lines[i + 2].index("^")
+        row, shown, caret = int(found.group(1)) - 1, lines[i + 1], lines[i + 2].index("^")
+        source = script[row]
+        if row and script[row - 1].rstrip().endswith("\\"):  # a line that goes on is shown without its indentation
+            blanks = min(len(source) - len(source.lstrip(" ")), column - 1)
+            source, column, last = source[blanks:], column - blanks, int(last) - blanks if last else None
         plain = source.isprintable()  # what is not is shown in another way
         if "..." not in shown and (wide(source[:column - 1]) if plain else column - 1) != caret - 2:
             return False
