@@ -165,7 +165,9 @@ bool jenkins(const fret_pressed *contact, double amplitude, size_t count, const 
     const size_t slipping = m.all ? count : count - 1;
     const double scale = loss(&m, m.end);
     double lo = 0, hi = scale;
-    if (!(m.end > TOO_SMALL * slip) || scale < DBL_MIN)
+    if (!(scale <= DBL_MAX))
+        note(&m, (fret_status){FRET_OVERFLOW, NULL, 0, 0});
+    if (m.failed.code || !(m.end > TOO_SMALL * slip) || scale < DBL_MIN)
         return calc_status(error, &m.failed) &&
                calc_fail(error, 0, 0, "the load is too small: what slips can hardly be told from nothing");
     while (!m.failed.code && !march_stopped(&m) && hi - lo > ENOUGH * hi) {
