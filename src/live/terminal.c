@@ -201,7 +201,8 @@ void terminal_close(void) {
             mousemask(0, NULL);
             send(mouse_off);
         }
-        endwin();
+        if (endwin() == ERR) /* whose terminal is not left so that it echoes nothing */
+            reset_shell_mode();
         delscreen(own.screen);
     }
     if (own.nowhere)
