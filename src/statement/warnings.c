@@ -121,7 +121,7 @@ static void note_yield(shell *sh) {
     unsigned yields = 0;
     for (int body = 0; body < 2; body++) {
         const input in = body ? IN_YIELD_2 : IN_YIELD;
-        if ((!s->in.set[in] && !s->in.bound[in]) || (body && s->in.second != SECOND_GIVEN) ||
+        if ((!s->in.set[in] && !s->in.bound[in]) || (body && s->in.second == SECOND_RIGID) ||
             !scene_get(s, in, &yield, error_quiet()) || !scene_press(s, &press, error_quiet()) ||
             !(press->a > 0) || !scene_hardest(s, press->a, body ? -1 : 1, at, &most) || most <= yield)
             continue;
