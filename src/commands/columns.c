@@ -277,10 +277,12 @@ void columns_say(shell *sh, const csv *c, const char *more) {
                                 c->rows == 1 ? "" : "s", c->row[0].line);
     for (size_t i = 0; i < c->columns; i++) {
         const csv_values *v = &c->column[i];
-        if (!v->v || !v->given)
+        if (!v->given)
             continue;
         plain = false;
-        if (*v->title)
+        if (!v->v)
+            n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s not used", v->name);
+        else if (*v->title)
             n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s from \"%.60s\"", v->name, v->title);
         else
             n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s from column %zu", v->name, i + 1);

@@ -33,6 +33,7 @@ SAME = {
     "empty-first-field.csv": NAMED + ONE, "comment-column.csv": NAMED + ONE,
     "names-with-blanks.txt": NAMED + ', dx from "Lateral Displacement (um)", Fx from "Load On Sample (kN)"' + ONE,
     'names-with-blanks.txt using dx=2, Fx="Load On Sample"': NAMED + ', dx from "Lateral Displacement (um)", Fx from "Load On Sample (kN)"' + ONE,
+    "names-with-blanks.txt using t=1": NAMED + ', t not used, dx from "Lateral Displacement (um)", Fx from "Load On Sample (kN)"' + ONE,
     "names-twice.csv using Fx=2": NAMED + ', Fx from "Fx [N]"' + ONE,
     "other-language.csv": NAMED + ', dx from "Verschiebung [\u00b5m]", Fx from "Querkraft [N]"' + ONE,
     "two-forces.csv using Fx=Querkraft": NAMED + ', dx from "Weg [um]", Fx from "Querkraft [N]"' + ONE,
