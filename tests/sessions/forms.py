@@ -116,6 +116,10 @@ def near(got, want, part=1e-12):
 def forms(tests):
     want, _ = table(tests, "loop plain.csv")
     tests.check("loop plain.csv", near(want[0]["dW"], 110e-6) and want[0]["dxA"] == 2e-6 and want[0]["FA"] == 30, str(want))
+    rows, _ = table(tests, "loop several-cycles.csv")
+    out = tests.run("--format=csv", "-c", "loop several-cycles.csv", cwd=HERE).stdout
+    tests.check("loop as CSV is its table", out.startswith("cycle,line,dW [J],") and
+                [float(v) for v in out.splitlines()[-1].split(",")] == list(rows[-1].values()), out)
     for form, words in SAME.items():
         rows, done = table(tests, "loop " + form)
         said = "note: %s: %s\n" % (form.split()[0], words)
