@@ -23,11 +23,11 @@ static bool all_holds(scene *s, calc_error *error) {
                 return false;
         }
     if (s->end.steps == 0) {
-        if (!complete(s) || (s->in.geometry ? scene_normal(s, &normal, error)
-                                            : scene_material(s, false, &material, error)))
+        if (!complete(s) ||
+            (s->in.geometry ? scene_normal(s, &normal, error) : scene_material(s, false, &material, error)))
             return true;
-        const bool waits = error->kind == ERROR_MISSING &&
-                           (error->input == IN_FN || !s->in.geometry); /* c0 := a0 */
+        const bool waits =
+            error->kind == ERROR_MISSING && (error->input == IN_FN || !s->in.geometry); /* c0 := a0 */
         if (waits)
             error_clear(error);
         return waits;
