@@ -2,6 +2,7 @@
 /* Which column is which. Changes the names, units and signs of columns, and which names are known. */
 #include "commands/columns.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -176,14 +177,16 @@ bool columns_at_rig(shell *sh, csv *c) {
 }
 
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
-    double x = 0, F = 0, sum = 0; /* about the means: between neighbours noise would tell */
+    double x = 0, F = 0, sum = 0, rounding = 0; /* about the means: between neighbours noise would tell */
     for (size_t i = 0; i < c->rows; i++) {
         x += dx->v[i] / (double)c->rows;
         F += Fx->v[i] / (double)c->rows;
     }
-    for (size_t i = 0; i < c->rows; i++)
+    for (size_t i = 0; i < c->rows; i++) {
         sum += (dx->v[i] - x) * (Fx->v[i] - F);
-    return sum < 0;
+        rounding += 1e-12 * fabs(dx->v[i] * Fx->v[i]);
+    }
+    return sum < -rounding;
 }
 
 /* ---- as names ---------------------------------------------------------------------------------- */

@@ -139,6 +139,9 @@ def words(tests):
     with open(path, "wb") as f:
         f.write(bytes.fromhex("89504e470d0a1a0a0000000d4948445200000010"))
     done = tests.run("-c", "loop " + path)
+    with tests.file("dx [m],Fx [N]\n" + 20 * "1e-7,3\n", ".csv") as hold:
+        held = tests.run("-c", SCENE + "follow " + hold)
+    tests.check("followed: one place for 20 rows", held.returncode == 0 and "note: Fx of the file is" in held.stderr, tests.report(held))
     tests.check("refused: a picture", done.returncode == 1 and "picture.png:3: this is no text, or UTF-16 without its mark: save it as UTF-8\n" in
                 done.stderr, tests.report(done))
     for statement, message in REFUSED.items():
