@@ -2,6 +2,7 @@
 /* Which column is which. Changes the names, units and signs of columns, and which names are known. */
 #include "commands/columns.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -176,14 +177,16 @@ bool columns_at_rig(shell *sh, csv *c) {
 }
 
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
-    double x = 0, F = 0, sum = 0; /* about the means: between neighbours noise would tell */
+    double x = 0, F = 0, sum = 0, rounding = 0; /* about the means: between neighbours noise would tell */
     for (size_t i = 0; i < c->rows; i++) {
         x += dx->v[i] / (double)c->rows;
         F += Fx->v[i] / (double)c->rows;
     }
-    for (size_t i = 0; i < c->rows; i++)
+    for (size_t i = 0; i < c->rows; i++) {
         sum += (dx->v[i] - x) * (Fx->v[i] - F);
-    return sum < 0;
+        rounding += 1e-12 * fabs(dx->v[i] * Fx->v[i]);
+    }
+    return sum < -rounding;
 }
 
 /* ---- as names ---------------------------------------------------------------------------------- */
@@ -277,10 +280,12 @@ void columns_say(shell *sh, const csv *c, const char *more) {
                                 c->rows == 1 ? "" : "s", c->row[0].line);
     for (size_t i = 0; i < c->columns; i++) {
         const csv_values *v = &c->column[i];
-        if (!v->v || !v->given)
+        if (!v->given)
             continue;
         plain = false;
-        if (*v->title)
+        if (!v->v)
+            n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s not used", v->name);
+        else if (*v->title)
             n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s from \"%.60s\"", v->name, v->title);
         else
             n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s from column %zu", v->name, i + 1);

@@ -79,7 +79,7 @@ static bool tell(shell *sh, lexer *lx, said *all, const csv *data, const loop_an
     si_table t;
     if (!table_open(sh, lx, all, &t))
         return false;
-    if (t.to.file.to)
+    if (t.to.file.to || sh->set.format == FORMAT_CSV)
         return table_close(sh, lx, &t, write_table(sh, &t, data, l, lx->error));
     report_cycles(sh, data, l);
     return true;

@@ -173,10 +173,8 @@ bool do_rig(shell *sh, lexer *lx, said *all) {
 }
 
 bool do_bulk(shell *sh, lexer *lx, said *all) {
-    edit e = {.clear = 0};
+    edit e = {.clear = INPUT_BIT(IN_SB)};
     gather(&e, all);
-    if (said_of(all, "none", 0))
-        edit_put(&e, IN_SB, 0);
     return all->count ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
                       : lex_fail(lx, "bulk of what stress?") || add_usage(lx->error, all->by);
 }

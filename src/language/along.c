@@ -13,7 +13,7 @@ bool trial_along_span(trial *t, along_what what, load_mark from, double *first, 
         return true;
     const size_t cycle = program_last_cycle(s->program, s->end);
     if (cycle == NO_CYCLE)
-        return calc_fail(error, 0, 0, "no cycle has been run yet: use along cycle FA=...");
+        return calc_fail(error, 0, 0, "no cycle has been run yet: cycle first (cycle FA=20 N)");
     *last = program_time(s->program, (load_mark){cycle + 1, s->end.cycles});
     *first = *last - 1;
     return true;

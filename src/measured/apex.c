@@ -19,6 +19,8 @@ typedef struct asymmetry {
     size_t pairs;
 } asymmetry;
 
+static const double rounding = 1e-12; /* of a sum of squares less another: what is below says nothing */
+
 /* The parabola through three places, or what there is where two of them are one. */
 static double between(const place *p, double r) {
     const double a = p[0].r, b = p[1].r, c = p[2].r;
@@ -51,12 +53,12 @@ static asymmetry about(const place *p, size_t n, double x, bool tilted) {
         dd += d * d;
         a.pairs++;
     }
-    if (a.pairs < 4)
+    if (a.pairs < 4 + (size_t)tilted)
         return a;
     a.tilt = tilted ? Dd / dd / 2 : 0;
-    const double rest = fmax(0, DD - 2 * a.tilt * Dd), varies = EE - E * E / (double)a.pairs;
-    a.left = varies > 0 ? rest / varies : INFINITY;
-    a.square = rest / (double)a.pairs;
+    const double varies = (EE - E * E / (double)a.pairs) / (double)(a.pairs - 1);
+    a.square = fmax(0, DD - 2 * a.tilt * Dd) / (double)(a.pairs - 1 - tilted);
+    a.left = varies > rounding * (DD + EE) ? a.square / varies : INFINITY;
     return a;
 }
 
@@ -105,6 +107,12 @@ static bool rises_on_both(const place *p, size_t n) {
     return first - low > 0.1 * (high - low) && last - low > 0.1 * (high - low);
 }
 
+/* By chance the least is less than any by some deviations of a sum of squares. */
+static bool exceeds(const asymmetry *a, const asymmetry *least_of_all) {
+    return a->left > rounding &&
+           !(a->square <= least_of_all->square * (1 + 12 * sqrt(2 / (double)least_of_all->pairs)));
+}
+
 bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error) {
     *out = (apex){.both = false};
     place *p = malloc((rows + 1) * sizeof *p);
@@ -118,11 +126,10 @@ bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error) 
         const asymmetry plain = least(p, rows, false, &at), tilted = least(p, rows, true, &tilted_at),
                         here = about(p, rows, 0, false);
         out->both = true;
-        out->tilted = tilted.square < 0.5 * plain.square && 2 * tilted.pairs > plain.pairs;
+        out->tilted = exceeds(&plain, &tilted) && 2 * tilted.pairs > plain.pairs;
         out->at = out->tilted ? tilted_at : at;
         out->tilt = out->tilted ? tilted.tilt : 0;
-        /* by chance the least is less than any by some deviations of a sum of squares */
-        out->moved = out->tilted || !(here.square <= plain.square * (1 + 6 * sqrt(2 / (double)plain.pairs)));
+        out->moved = out->tilted || exceeds(&here, &plain);
     }
     free(p);
     for (size_t i = 0; i < rows && out->moved; i++) {

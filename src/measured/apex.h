@@ -13,10 +13,11 @@ typedef struct apex {
     double tilt; /* f grows by so much with r, taken off */
 } apex;
 
-/* Rows r, f in any order. Of all x and, where this halves what is left, of all tilts t, those with the least
- * sum of squares of f(x+d) - f(x-d) - 2td, as a part of that of f(x+d) + f(x-d) about its mean, over the rows
- * whose mirror image lies between rows; f(x-d) by the parabola through three of them. r and f are then
- * counted from there. A paraboloid that is tilted is one whose apex is elsewhere: no tilt is found. */
+/* Rows r, f in any order. Of all x and, where by more than chance less is left then, of all tilts t, those
+ * with the least mean square of f(x+d) - f(x-d) - 2td, as a part of that of f(x+d) + f(x-d) about its mean,
+ * over the rows whose mirror image lies between rows; f(x-d) by the parabola through three of them. r and f
+ * are then counted from there. A paraboloid that is tilted is one whose apex is elsewhere: no tilt is found.
+ */
 bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error);
 
 #endif

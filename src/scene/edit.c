@@ -5,8 +5,8 @@
 
 static bool complete(const scene *s) {
     const inputs *in = &s->in;
-    return inputs_any(in, INPUT_MODULUS) && (inputs_know_nu(in) || in->set[IN_ESTAR]) && in->geometry &&
-           (in->v[IN_K] == 0 || in->set[IN_C0]);
+    return inputs_any(in, INPUT_MODULUS) && (inputs_know_nu(in) || in->set[IN_ESTAR]) &&
+           (in->geometry || !in->bindings) && (in->v[IN_K] == 0 || in->set[IN_C0]);
 }
 
 /* Does all that the inputs and the program claim hold? */
@@ -14,6 +14,7 @@ static bool all_holds(scene *s, calc_error *error) {
     const fret_normal *normal;
     const fret_contact *contact;
     const fret_press *press;
+    fret_material material;
     double mu;
     for (input in = 0; in < INPUTS; in++)
         if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in))) {
@@ -22,9 +23,11 @@ static bool all_holds(scene *s, calc_error *error) {
                 return false;
         }
     if (s->end.steps == 0) {
-        if (!complete(s) || scene_normal(s, &normal, error))
+        if (!complete(s) ||
+            (s->in.geometry ? scene_normal(s, &normal, error) : scene_material(s, false, &material, error)))
             return true;
-        const bool waits = error->kind == ERROR_MISSING && error->input == IN_FN; /* c0 := a0 */
+        const bool waits =
+            error->kind == ERROR_MISSING && (error->input == IN_FN || !s->in.geometry); /* c0 := a0 */
         if (waits)
             error_clear(error);
         return waits;

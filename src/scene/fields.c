@@ -229,12 +229,13 @@ static bool mises_at(scene *s, long double x, long double z, long double *out) {
 bool scene_hardest(scene *s, long double a, int side, long double at[2], long double *most) {
     enum { ACROSS = 12, DEEP = 12 };
     static const long double width = 1.2L;
-    *most = -1;
+    const long double top = side < 0 ? -1e-18L * a : 0; /* z = 0 is in the first body */
     long double v;
+    *most = -1;
     for (int i = -ACROSS; i <= ACROSS; i++)
         for (int j = 0; j <= DEEP; j++) {
-            const long double x = width * a * i / ACROSS, z = side * (a * j / DEEP);
-            if (j + (side > 0) == 0 || !mises_at(s, x, z, &v) || v <= *most)
+            const long double x = width * a * i / ACROSS, z = top + side * (a * j / DEEP);
+            if (!mises_at(s, x, z, &v) || v <= *most)
                 continue;
             *most = v;
             at[0] = x;
@@ -244,7 +245,7 @@ bool scene_hardest(scene *s, long double a, int side, long double at[2], long do
         const long double from = *most, x = at[0], z = at[1];
         for (int i = 0; i < 4; i++) {
             const long double to[2] = {x + (i < 2 ? (2 * i - 1) * h : 0), z + (i < 2 ? 0 : (2 * i - 5) * h)};
-            if (to[1] * side < 0 || (side < 0 && to[1] == 0) || !mises_at(s, to[0], to[1], &v) || v <= *most)
+            if ((to[1] - top) * side < 0 || !mises_at(s, to[0], to[1], &v) || v <= *most)
                 continue;
             *most = v;
             at[0] = to[0];

@@ -91,7 +91,7 @@ static const quantity quantities[] = {
     {.name = "yield", .title = "yield stress", .keywords = "plastic strength mises", .d = PRESSURE, INPUT(IN_YIELD),
      .formulas = {{"a note tells where mises exceeds it", NULL, 0}}},
     {.name = "yield_2", .title = "yield stress of the second body", .keywords = "plastic strength mises", .d = PRESSURE, INPUT(IN_YIELD_2),
-     .formulas = {{"as yield, of a second body that differs", NULL, 0}}},
+     .formulas = {{"as yield, of the second body", NULL, 0}}},
     {.name = "sB", .title = "bulk stress along x of the first body", .keywords = "fatigue tension fretting", .d = PRESSURE, INPUT(IN_SB),
      .formulas = {{"added to sxx", NULL, 0}}},
     {.name = "alpha_w", .title = "volume worn by the energy dissipated", .keywords = "wear coefficient energy law Archard Fouvry", .d = {-1, 2, 0, 0},

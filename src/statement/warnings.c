@@ -121,7 +121,7 @@ static void note_yield(shell *sh) {
     unsigned yields = 0;
     for (int body = 0; body < 2; body++) {
         const input in = body ? IN_YIELD_2 : IN_YIELD;
-        if ((!s->in.set[in] && !s->in.bound[in]) || (body && s->in.second != SECOND_GIVEN) ||
+        if ((!s->in.set[in] && !s->in.bound[in]) || (body && s->in.second == SECOND_RIGID) ||
             !scene_get(s, in, &yield, error_quiet()) || !scene_press(s, &press, error_quiet()) ||
             !(press->a > 0) || !scene_hardest(s, press->a, body ? -1 : 1, at, &most) || most <= yield)
             continue;
@@ -130,8 +130,8 @@ static void note_yield(shell *sh) {
             continue;
         calc_value_text((dim){1, -2, 0, 0}, (double)most, text[0]);
         calc_value_text((dim){1, -2, 0, 0}, (double)yield, text[1]);
-        calc_value_text(DIM_LENGTH, fabsl(at[0]) < 1e-4L * press->a ? 0 : (double)at[0], text[2]);
-        calc_value_text(DIM_LENGTH, (double)at[1], text[3]);
+        for (int i = 0; i < 2; i++)
+            calc_value_text(DIM_LENGTH, fabsl(at[i]) < 1e-4L * press->a ? 0 : (double)at[i], text[2 + i]);
         shell_note(sh,
                    "mises = %s exceeds %s = %s at x = %s, z = %s: the body yields there, which is left out",
                    text[0], quantity_of_input(in)->name, text[1], text[2], text[3]);

@@ -33,6 +33,7 @@ SAME = {
     "empty-first-field.csv": NAMED + ONE, "comment-column.csv": NAMED + ONE,
     "names-with-blanks.txt": NAMED + ', dx from "Lateral Displacement (um)", Fx from "Load On Sample (kN)"' + ONE,
     'names-with-blanks.txt using dx=2, Fx="Load On Sample"': NAMED + ', dx from "Lateral Displacement (um)", Fx from "Load On Sample (kN)"' + ONE,
+    "names-with-blanks.txt using t=1": NAMED + ', t not used, dx from "Lateral Displacement (um)", Fx from "Load On Sample (kN)"' + ONE,
     "names-twice.csv using Fx=2": NAMED + ', Fx from "Fx [N]"' + ONE,
     "other-language.csv": NAMED + ', dx from "Verschiebung [\u00b5m]", Fx from "Querkraft [N]"' + ONE,
     "two-forces.csv using Fx=Querkraft": NAMED + ', dx from "Weg [um]", Fx from "Querkraft [N]"' + ONE,
@@ -115,6 +116,10 @@ def near(got, want, part=1e-12):
 def forms(tests):
     want, _ = table(tests, "loop plain.csv")
     tests.check("loop plain.csv", near(want[0]["dW"], 110e-6) and want[0]["dxA"] == 2e-6 and want[0]["FA"] == 30, str(want))
+    rows, _ = table(tests, "loop several-cycles.csv")
+    out = tests.run("--format=csv", "-c", "loop several-cycles.csv", cwd=HERE).stdout
+    tests.check("loop as CSV is its table", out.startswith("cycle,line,dW [J],") and
+                [float(v) for v in out.splitlines()[-1].split(",")] == list(rows[-1].values()), out)
     for form, words in SAME.items():
         rows, done = table(tests, "loop " + form)
         said = "note: %s: %s\n" % (form.split()[0], words)
@@ -134,6 +139,9 @@ def words(tests):
     with open(path, "wb") as f:
         f.write(bytes.fromhex("89504e470d0a1a0a0000000d4948445200000010"))
     done = tests.run("-c", "loop " + path)
+    with tests.file("dx [m],Fx [N]\n" + 20 * "1e-7,3\n", ".csv") as hold:
+        held = tests.run("-c", SCENE + "follow " + hold)
+    tests.check("followed: one place for 20 rows", held.returncode == 0 and "note: Fx of the file is" in held.stderr, tests.report(held))
     tests.check("refused: a picture", done.returncode == 1 and "picture.png:3: this is no text, or UTF-16 without its mark: save it as UTF-8\n" in
                 done.stderr, tests.report(done))
     for statement, message in REFUSED.items():

@@ -4,6 +4,7 @@ import itertools
 import math
 import os
 import random
+import re
 
 import harness
 
@@ -225,6 +226,23 @@ def contacts(tests):
     tests.check("both sides count", close(both[1], [sphere(r) for r in AT], 5 * NOISE / 20), str(both))
 
 
+def apexes(tests):
+    """A profile of both sides: its apex and tilt are told where they are, and not where chance or rounding alone tells of them."""
+    def told(f, n, noise, seed=1):
+        rows = [(r, f(r) + error) for r, error in profile(lambda r: 0, noise, n, both=True, seed=seed)]
+        with tests.file(text_of(rows), ".csv") as path:
+            return tests.run("-c", "geometry file %s smooth" % path).stderr
+    for n in (11, 21, 41):
+        for noise in (0, 0.02):
+            tilts = sum("tilt" in told(lambda r: 50 * r ** 2, n, noise, seed) for seed in range(20 if noise else 1))
+            tests.check("a tilt of a paraboloid, %d rows, noise %g um" % (n, noise), tilts <= 6 * (noise > 0), "%d of 20" % tilts)
+        for noise in (0, 0.02):
+            out = told(lambda r: 25 * abs(r - 0.07) + 10 * (r - 0.07), n, noise)
+            tilt = re.search(r"apex is at r = ([0-9.]+) um, a tilt of ([0-9.]+) is taken off", out)
+            tests.check("a tilted cone, %d rows, noise %g um" % (n, noise), tilt and abs(float(tilt[1]) - 70) < 120 / (n - 1) and
+                        abs(float(tilt[2]) - 0.01) < 2e-3, out)
+
+
 def kept(tests):
     """show, save, record and undo restore it to the last bit."""
     where = os.path.join(tests.dir, "smoothed")
@@ -297,4 +315,4 @@ def refused(tests):
 
 
 def run(tests):
-    tests.each([lambda room=room: room(tests) for room in (squares, hollows, noise, convex, contacts, kept, refused)])
+    tests.each([lambda room=room: room(tests) for room in (squares, hollows, noise, convex, contacts, apexes, kept, refused)])
