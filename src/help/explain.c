@@ -304,7 +304,8 @@ static void explain_error(const page *p, double good, const char *of) {
 static void put_error(const page *p, const quantity *q, bool call, model_id model, double sine) {
     const scene *s = p->sh->calc.now;
     const bool power = scene_is_power(s), local = is_local(q, call);
-    const char *of = local ? "largest value" : models[model].steps ? "largest value so far" : "value";
+    const bool before = models[model].steps || scene_is_worn(s); /* dW of a worn gap, say, ends at 0 */
+    const char *of = local ? "largest value" : before ? "largest value so far" : "value";
     double good = sine > 0 && local ? 1e-12 : sine > 0 || q->by || !power ? 1e-13 : DBL_EPSILON;
     good = fmax(q->calls == CALL_STRESS ? 1e-12 : good, sine);
     if (scene_is_worn(s))

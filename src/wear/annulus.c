@@ -37,17 +37,20 @@ static fret_real between(fret_real m, fret_real a, fret_real b) {
 
 /* ---- making ------------------------------------------------------------------------------------ */
 
-/* Nodes ever closer to the inner end, where the worn profile is steep; beyond the ring the closer the nearer
- * to it. */
-static void make_places(fret_annulus *a, fret_real inner, fret_real outer, fret_real second, fret_real end) {
-    const size_t n = a->count;
+/* Nodes ever closer to where the worn profile is steep, an eighth of them within; beyond the ring the closer
+ * the nearer to it. */
+static void make_places(fret_annulus *a, fret_real inner, fret_real steep, fret_real outer, fret_real second,
+                        fret_real end) {
+    const size_t n = a->count, within = steep > inner ? n / 8 : 0;
     for (size_t i = 0; i < a->rows; i++) {
-        const fret_real u = i < n ? (fret_real)i / (fret_real)(n - 1)
-                                  : (fret_real)(i + 1 - n) / (fret_real)(a->rows - n),
-                        part = u * u * (2 - u);
-        a->x[i] = i < n ? sqrtl(inner * inner + part * (outer - inner) * (outer + inner))
+        const fret_real u = i < within ? 1 - (fret_real)i / (fret_real)within
+                            : i < n    ? (fret_real)(i - within) / (fret_real)(n - 1 - within)
+                                       : (fret_real)(i + 1 - n) / (fret_real)(a->rows - n),
+                        part = u * u * (2 - u), far = i < within ? inner : outer;
+        a->x[i] = i < n ? sqrtl(steep * steep + part * (far - steep) * (far + steep))
                         : outer + (end - outer) * u * u;
     }
+    a->x[0] = inner;
     a->x[1] = fminl(a->x[1], second);
 }
 
@@ -87,7 +90,8 @@ static void make_weights(fret_annulus *a, fret_real m, fret_real stiff) {
 }
 
 fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *held, fret_real inner,
-                              fret_real outer, fret_real second, size_t count, fret_annulus *out) {
+                              fret_real steep, fret_real outer, fret_real second, size_t count,
+                              fret_annulus *out) {
     enum { BEYOND = 64 };
     const fret_foundation *f = fret_normal_foundation(normal);
     const fret_point start = fret_law_at_radius(normal, inner);
@@ -106,7 +110,7 @@ fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *h
         *part[i] = out->t + i * rows;
     out->to_p = out->t + PARTS * rows;
     out->to_g = out->to_p + half;
-    make_places(out, inner, outer, second, end);
+    make_places(out, inner, steep, outer, second, end);
     for (size_t i = 0; i < rows; i++) {
         const fret_real x = out->x[i];
         out->t[i] = (double)((x - inner) * (x + inner));
@@ -143,13 +147,6 @@ static void worn_profile(fret_annulus *a, const double *h, size_t rows) {
         a->g[i] = h[0] + a->x1k[i] * dot(row_g(a, i), a->change, i < a->count ? i : a->count - 1);
 }
 
-const double *fret_annulus_profile(fret_annulus *a, const double *h) {
-    worn_profile(a, h, a->rows);
-    for (size_t i = 0; i < a->rows; i++)
-        a->g[i] += a->g0[i];
-    return a->g;
-}
-
 static void pressures(const fret_annulus *a, const double *change, size_t last, double *p) {
     for (size_t i = 0; i < a->count; i++)
         p[i] = i < last ? a->of_slope * dot(row_p(a, i), change + i, last - i) : 0;
@@ -178,6 +175,18 @@ static void find_depth(fret_annulus *a) {
             return;
         a->depth += step;
     }
+}
+
+const double *fret_annulus_profile(fret_annulus *a, const double *h, double *depth) {
+    const fret_annulus kept = *a;
+    worn_profile(a, h, a->rows);
+    for (size_t i = 0; i < a->rows; i++)
+        a->g[i] += a->g0[i];
+    a->touched = 0; /* as a contact that has no past */
+    find_depth(a);
+    *depth = a->depth - a->g[0];
+    *a = kept;
+    return a->g;
 }
 
 /* By how much of its depth the contact has slipped at the turning point, delta_A/(mu eta): of a force from

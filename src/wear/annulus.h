@@ -27,10 +27,11 @@ typedef struct fret_annulus {
     double within;       /* load of the contact up to the inner end */
 } fret_annulus;
 
-/* Between two radii within the gap, the node next to the inner one at `second` at most. Errors:
- * FRET_NO_MEMORY. Free with fret_annulus_free, also after an error. */
+/* Between two radii within the gap, nodes closest at `steep`, the node next to the inner one at `second` at
+ * most. Errors: FRET_NO_MEMORY. Free with fret_annulus_free, also after an error. */
 fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *held, fret_real inner,
-                              fret_real outer, fret_real second, size_t count, fret_annulus *out);
+                              fret_real steep, fret_real outer, fret_real second, size_t count,
+                              fret_annulus *out);
 void fret_annulus_free(fret_annulus *annulus);
 
 /* dh/dn of the depths h, and at [count] the work of one cycle. Error: FRET_GROSS_SLIP. */
@@ -43,8 +44,9 @@ void fret_annulus_touch(fret_annulus *annulus);
  * a vector from one time to the next. */
 double fret_annulus_stiffness(fret_annulus *annulus, double *v);
 
-/* g of the worn gap in all rows, which it keeps: they change with the next question. */
-const double *fret_annulus_profile(fret_annulus *annulus, const double *h);
+/* g of the worn gap in all rows, which it keeps: they change with the next question; and how deep it is
+ * pressed, from its tip. */
+const double *fret_annulus_profile(fret_annulus *annulus, const double *h, double *depth);
 
 /* The size of depths: the root of the sum of squares by area; and the volume. */
 double fret_annulus_norm(const fret_annulus *annulus, const double *h);

@@ -11,11 +11,12 @@
 
 #include "law/check.h"
 #include "law/normal.h"
+#include "law/table.h"
 #include "number/array.h"
 #include "number/real.h"
 
 enum { STAGES = 250, RATES = 1000000 };
-static const double LATE = 1e-3;
+static const double LATE = 1e-3, FOLLOW = 0.5; /* of the tolerance; FOLLOW: the cell of c, of the ring */
 
 /* y after a block of `cycles` from y0, whose rate is rate0, in `stages` (Sommeijer, Shampine, Verwer 1997).
  * before, rate: room. */
@@ -103,39 +104,45 @@ double fret_blocks_reached(const fret_wear_run *run) {
 
 /* ---- rings ------------------------------------------------------------------------------------- */
 
-/* The same depths, straight between nodes, and springs that have been touched, on another ring. */
-static void take_over(fret_blocks *to, const fret_blocks *from) {
+/* The same depths, cubic between nodes, and springs that have been touched, on another ring. */
+static fret_status take_over(fret_blocks *to, const fret_blocks *from, fret_stop stop) {
     const fret_annulus *old = &from->ring;
     const double *h = depths(from, from->count - 1);
-    size_t j = 0;
-    for (size_t i = 0; i < to->ring.count && to->ring.t[i] <= old->t[old->count - 1]; i++) {
-        const double t = to->ring.t[i];
-        while (j + 2 < old->count && old->t[j + 1] < t)
-            j++;
-        depths(to, 0)[i] = h[j] + (h[j + 1] - h[j]) * (t - old->t[j]) / (old->t[j + 1] - old->t[j]);
-        if (t <= old->t[old->touched])
+    double *more = rates(to, 0);
+    struct fret_table *table;
+    for (size_t i = 0; i < old->count; i++)
+        more[i] = h[i] - h[0];
+    const fret_status st = fret_table_make(old->t, more, old->count, stop, &table);
+    for (size_t i = 0; !st.code && i < to->ring.count && to->ring.t[i] <= old->t[old->count - 1]; i++) {
+        depths(to, 0)[i] = h[0] + (double)fret_table_f(table, to->ring.t[i]);
+        if (to->ring.t[i] <= old->t[old->touched])
             to->ring.touched = i;
     }
     depths(to, 0)[to->ring.count] = h[old->count];
     *cycles(to, 0) = *cycles(from, from->count - 1);
+    if (!st.code)
+        fret_table_free(table);
+    return st;
 }
 
-fret_status fret_blocks_begin(fret_wear_run *run, fret_real inner, fret_real outer) {
+fret_status fret_blocks_begin(fret_wear_run *run, fret_real inner, fret_real steep, fret_real outer) {
     fret_blocks *all = fret_array_for(run->blocks, &run->room, run->count + 1, sizeof *all);
     if (!all)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     run->blocks = all;
     fret_blocks *b = &all[run->count];
     *b = (fret_blocks){.count = 0};
-    fret_status st = fret_annulus_make(run->normal, &run->held, inner, outer, outer, run->nodes, &b->ring);
+    fret_status st =
+        fret_annulus_make(run->normal, &run->held, inner, steep, outer, outer, run->nodes, &b->ring);
     if (!st.code)
         st = make_room(b);
     if (!st.code) {
         memset(cycles(b, 0), 0, (run->nodes + 2) * sizeof *b->row);
         if (run->count)
-            take_over(b, b - 1);
-        st = fret_annulus_rate(&b->ring, depths(b, 0), rates(b, 0));
+            st = take_over(b, b - 1, run->normal->stop);
     }
+    if (!st.code)
+        st = fret_annulus_rate(&b->ring, depths(b, 0), rates(b, 0));
     st = fret_unless_stopped(run->normal, st);
     if (st.code) {
         fret_blocks_free(b);
@@ -149,12 +156,21 @@ fret_status fret_blocks_begin(fret_wear_run *run, fret_real inner, fret_real out
     return st;
 }
 
+/* Where c grows, the last node that sticks. */
+static size_t stick_end(const fret_wear_run *run) {
+    const fret_annulus *a = &last_of(run)->ring;
+    size_t i = 0;
+    while (run->held.by_displacement && !run->held.by_depth && i + 2 < a->count && !(a->slip[i + 1] > 0))
+        i++;
+    return i;
+}
+
 static fret_status widen(fret_wear_run *run) {
     const fret_annulus *a = &last_of(run)->ring;
     const fret_real inner = a->x[0], outer = a->x[a->count - 1], end = fret_normal_end(run->normal);
     if (!(outer < end))
         return fret_fail(FRET_TABLE_SHORT, "r", (double)outer, (double)end);
-    return fret_blocks_begin(run, inner,
+    return fret_blocks_begin(run, inner, a->x[stick_end(run)],
                              fminl(sqrtl(inner * inner + 1.5L * (outer - inner) * (outer + inner)), end));
 }
 
@@ -192,6 +208,9 @@ fret_status fret_blocks_go_on(fret_wear_run *run) {
     if (off <= 1) {
         *cycles(b, b->count++) = done + step;
         fret_annulus_touch(a);
+        const size_t i = stick_end(run);
+        if (a->t[i + 1] - a->t[i] > FOLLOW * run->tolerance * a->t[a->count - 1])
+            return fret_blocks_begin(run, a->x[0], a->x[i], a->x[a->count - 1]);
     }
     return fret_ok();
 }

@@ -25,9 +25,9 @@ struct fret_wear_run {
     double *before, *stiff, *off; /* vectors, in one piece: of the stages, of the fastest decay, of errors */
 };
 
-/* A ring from where the last one has come to, or the first. Errors: FRET_GROSS_SLIP, FRET_NO_MEMORY,
- * FRET_INTERRUPTED. */
-fret_status fret_blocks_begin(fret_wear_run *run, fret_real inner, fret_real outer);
+/* A ring from where the last one has come to, or the first; nodes are closest at `steep`. Errors:
+ * FRET_GROSS_SLIP, FRET_NO_MEMORY, FRET_INTERRUPTED. */
+fret_status fret_blocks_begin(fret_wear_run *run, fret_real inner, fret_real steep, fret_real outer);
 
 /* One block further, or a wider ring. Errors, after which it is as before: as of fret_wear_after. */
 fret_status fret_blocks_go_on(fret_wear_run *run);

@@ -70,13 +70,18 @@ fret_real fret_wear_work(const fret_wear *w) {
 
 /* ---- the worn gap ------------------------------------------------------------------------------ */
 
+static const fret_real TOLD = 1e-4L; /* g, of the depth */
+
 /* The rows of a worn gap: of the ring, and beyond it. Where nothing presses any more g is level, and falls by
- * what nodes do not tell: it is lifted to what it has been. least: it is as much at least. */
+ * what nodes do not tell: it is lifted to what it has been. Nor do they tell whether it is above or below the
+ * depth: it touches. least: it is as much at least. */
 static fret_status give_rows(const fret_normal *n, fret_annulus *a, const double *depth, fret_real least,
                              struct fret_worn *out) {
+    double pressed;
+    const double *profile = fret_annulus_profile(a, depth, &pressed);
     const fret_real inner = a->x[0], at_inner = fret_normal_profile(n, inner),
-                    rise = fret_normal_profile(n, a->x[a->count - 1]);
-    const double *profile = fret_annulus_profile(a, depth);
+                    rise = fret_normal_profile(n, a->x[a->count - 1]),
+                    touching = (1 - TOLD / 10) * pressed - 2e-9L * rise;
     double *g = calloc(2 * a->rows, sizeof *g);
     if (!g)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
@@ -87,8 +92,9 @@ static fret_status give_rows(const fret_normal *n, fret_annulus *a, const double
                               .lift = 1e-9L * rise / (fret_real)a->t[a->rows - 1],
                               .tip = depth[0]};
     for (size_t i = 1; i < a->rows; i++) {
-        const fret_real up = profile[i] - (fret_real)depth[0];
-        g[i] = fmax(g[i - 1], (double)fmaxl(fmaxl(up, least), out->lift * (fret_real)a->t[i]));
+        const fret_real up = profile[i] - (fret_real)depth[0],
+                        told = up > touching && up < (1 + TOLD) * pressed ? touching : up;
+        g[i] = fmax(g[i - 1], (double)fmaxl(fmaxl(told, least), out->lift * (fret_real)a->t[i]));
         h[i] = (i < a->count ? depth[i] : 0) - depth[0];
     }
     fret_status st = fret_table_make(a->t, g, a->rows, n->stop, &out->g);
@@ -191,7 +197,7 @@ fret_status fret_wear_run_make(const fret_normal *n, const fret_wear_held *held,
     if (run->before) {
         run->stiff = run->before + run->nodes + 1;
         run->off = run->stiff + run->nodes + 1;
-        st = fret_blocks_begin(run, inner, outer);
+        st = fret_blocks_begin(run, inner, inner, outer);
     } else
         st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     if (st.code)
@@ -246,7 +252,7 @@ fret_status fret_wear_limit(const fret_normal *n, const fret_wear_held *held, fr
     if (!st.code)
         st = fret_wear_end_make(n, held, &e);
     if (!st.code)
-        st = fret_annulus_make(n, held, e.c, fmaxl(e.b + (e.b - e.c) / 20, (1 + LEAST) * e.c),
+        st = fret_annulus_make(n, held, e.c, e.c, fmaxl(e.b + (e.b - e.c) / 20, (1 + LEAST) * e.c),
                                (1 + LEAP) * e.c, NODES, &a);
     for (size_t i = 0; i < a.count && !st.code; i++) {
         fret_real depth;

@@ -203,6 +203,7 @@ static void arrivals(void) {
             fret_wear_ring(limit, &inner, &outer);
             CHECK_REL(c, inner, 1e-6L);
             CHECK_REL(b, outer, 0.01L);
+            CHECK_REL(press_worn(w, &held).press.a, outer, 0.01L);
             CHECK_REL(fret_wear_volume(w), fret_wear_volume(limit), 4e-3L);
             fret_wear_free(w);
             fret_wear_free(limit);
@@ -404,6 +405,28 @@ static void stick_radii(void) {
     }
 }
 
+/* F_N and delta_A held, what sticks grows into what has worn and leaves it as it is. References by other
+ * elements, quadratic in r^2 and with quadratures of both transforms, in implicit steps: extrapolated from
+ * 137 and 205 nodes, to 3e-4. */
+static void growing_stick(void) {
+    static const double cycles[] = {1e5, 1e6, 1e7}, V[] = {1.2148e-14, 1.1044e-13, 1.6355e-13},
+                        c[] = {4.3701e-5, 4.4021e-5, 4.4021e-5};
+    const fret_normal *n = normal_of(CONE, 0);
+    const fret_wear_held held = hold(n, false, true, 0.6);
+    fret_wear_run *r = begin(n, &held, 1e-3);
+    for (int i = 0; i < 3; i++) {
+        fret_wear *w = after(r, cycles[i]);
+        const fret_pressed worn = press_worn(w, &held);
+        fret_loading turn;
+        CHECK_REL(fret_wear_volume(w), V[i], 2e-3L);
+        CHECK_OK(fret_loading_by_displacement(&worn, held.amplitude, &turn));
+        CHECK_REL(turn.c, c[i], 1e-3L);
+        CHECK(worn.press.a > (i ? 1.8L : 1.2L) * press(n, &held).press.a); /* of those 1.82, 2.02 */
+        fret_wear_free(w);
+    }
+    fret_wear_run_free(r);
+}
+
 /* The same to the last bit whatever has been asked before, within a block, at the end of one or beyond; and
  * smooth from block to block, and from ring to ring. */
 static void orders(void) {
@@ -598,6 +621,7 @@ int main(int argc, char **argv) {
     CASE(worn_tips());
     CASE(tolerances());
     CASE(stick_radii());
+    CASE(growing_stick());
     CASE(orders());
     CASE(nothing_worn());
     CASE(refusals());
