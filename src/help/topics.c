@@ -148,7 +148,7 @@ static void paper(FILE *to) {
         equation(to, number, i > EQUATIONS ? NULL : equations[i]);
     }
     fputs("\nSlips of the paper, as this program reads it:\n"
-          "  (13)       is for two equal elastic bodies; here it holds for any two\n"
+          "  (13),(27)  are for two equal elastic bodies; here they hold for any two\n"
           "  (19)       beyond first loading the test needs the trial displacement of\n"
           "             the spring, u + d(delta_x), not delta_x\n"
           "  (22)       tells the loss on the first branch only; here it is W1D, signed\n"

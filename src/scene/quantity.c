@@ -146,7 +146,7 @@ static const quantity quantities[] = {
      .reads = READS_TANGENTIAL, .formulas = {{"U = 1/2 int c_T u^2 dx", NULL, 0}}},
     {.name = "dW", .title = "energy dissipated per cycle", .keywords = "hysteresis loop dissipation loss damping Mindlin",
      .d = ENERGY, GETTER(scene_cycle_loss), CALLED(CALL_LOSS, FA, FORCE), .reads = READS_TANGENTIAL, .load = true,
-     .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) h_T E0 a^(k+1))] "
+     .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) 2 c_T0 a^(k+1))] "
                    "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
                   {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
                   {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
