@@ -44,7 +44,7 @@ typedef void (*fret_wear_told)(double cycles, void *user);
  * whatever was asked before; between two ends of blocks depths are cubic in the number of cycles. delta_z
  * counts from the tip as it is. told may be NULL. The object borrows normal, not the run.
  * Measured, of spheres, cones and flat ends with F_A/(mu F_N) of 0.4 and 0.9: alpha W and V differ by up to
- * 0.7 of the tolerance 1e-3, and the volume by up to 1.7 from that of the limit; those of a cone near gross
+ * 0.7 of the tolerance 1e-3, and the volume by up to 2.2 from that of the limit; those of a cone near gross
  * slip by 2.4 and 2.3 at k = -0.5, 5 and 11 at k = -0.7. The first 10^6 cycles take 0.05 to 0.3 s at k >= 0,
  * to 0.6 s at k = -0.3, 1.4 s at k = -0.5 and 2.4 s at k = -0.7, where decays are fast; any number of cycles
  * that have been passed, 2 ms. Errors: FRET_NOT_FINITE, FRET_NEGATIVE (cycles); FRET_OUTSIDE (cycles: more
