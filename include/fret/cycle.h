@@ -44,7 +44,8 @@ fret_status fret_cycle_loss_by_displacement(const fret_pressed *contact, double 
 /* The same by quadrature of the definition, to tell how far others err: of a cycle that turns at `peak`, from
  * fret_loading_by_force or _by_displacement. error: relative, an estimate with what a thin annulus, or one
  * beside a flat end, loses of the digits of long double; power laws 1e-18 + the rounding of FA/(mu F_N).
- * Takes 10 us to 10 ms, of a table 0.1 to 20 ms a row. Errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE. */
+ * Takes 10 us to 10 ms, of a table 0.1 to 20 ms a row. Errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE.
+ */
 fret_status fret_cycle_loss_by_definition(const fret_pressed *contact, const fret_loading *peak,
                                           fret_real *loss, fret_real *error);
 

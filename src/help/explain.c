@@ -296,8 +296,8 @@ static void put_difference(const page *p, const expr *e, value v) {
 
 /* What the value is good to, as a part of what. */
 static void explain_error(const page *p, double good, const char *of) {
-    answer_words(p->out, "    error: %s %.0e of the %s\n",
-                 scene_is_worn(p->sh->calc.now) ? "some" : "below", round_up(good), of);
+    answer_words(p->out, "    error: %s %.0e of the %s\n", scene_is_worn(p->sh->calc.now) ? "some" : "below",
+                 round_up(good), of);
     say_error(p, round_up(good), of);
 }
 
