@@ -147,8 +147,8 @@ static const quantity quantities[] = {
     {.name = "dW", .title = "energy dissipated per cycle", .keywords = "hysteresis loop dissipation loss damping Mindlin",
      .d = ENERGY, GETTER(scene_cycle_loss), CALLED(CALL_LOSS, FA, FORCE), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) 2 c_T0 a^(k+1))] "
-                   "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
-                  {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
+                   "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_STEADY | WHEN_POWER},
+                  {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_STEADY},
                   {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
     {.name = "Vwear", .by = MODEL_BLOCKS, .title = "worn volume so far", .keywords = "wear Archard", .d = VOLUME, .unit = "um^3",
      GETTER(get_Vwear), .reads = READS_WORN, .load = true, .formulas = {{"2 pi int hwear r dr = alpha_w times the work of Nw cycles", NULL, 0}}},
@@ -410,16 +410,15 @@ dim quantity_dim(const quantity *q, const scene *s) {
 /* Which formulas hold in the scene. */
 static unsigned holds(const quantity *q, scene *s, bool call) {
     const load_reach *reach;
-    const bool power = scene_is_power(s);
-    const unsigned when = power ? WHEN_POWER : WHEN_SHAPE;
+    const unsigned when = scene_is_power(s) ? WHEN_POWER : WHEN_ALWAYS;
     if (call)
-        return when | WHEN_CALL | WHEN_FIRST;
+        return when | WHEN_CALL | WHEN_FIRST | WHEN_STEADY;
     if (!scene_reach(s, &reach, error_quiet()))
         return when;
     if (reach->normal_varies)
         return when | WHEN_HISTORY;
     if (q->get == scene_cycle_loss ? scene_closed_loss(s) : reach->first)
-        return when | WHEN_FIRST;
+        return when | WHEN_FIRST | WHEN_STEADY;
     return reach->alike ? when | WHEN_LATER : when;
 }
 
