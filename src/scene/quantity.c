@@ -147,8 +147,8 @@ static const quantity quantities[] = {
     {.name = "dW", .title = "energy dissipated per cycle", .keywords = "hysteresis loop dissipation loss damping Mindlin",
      .d = ENERGY, GETTER(scene_cycle_loss), CALLED(CALL_LOSS, FA, FORCE), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) 2 c_T0 a^(k+1))] "
-                   "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_STEADY | WHEN_POWER},
-                  {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_STEADY},
+                   "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1); gross slip adds 4 mu F_N (dxA-dxmax)", "(27)", WHEN_STEADY | WHEN_POWER},
+                  {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx; gross slip adds 4 mu F_N (dxA-dxmax)", "(26)", WHEN_STEADY},
                   {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
     {.name = "Vwear", .by = MODEL_BLOCKS, .title = "worn volume so far", .keywords = "wear Archard", .d = VOLUME, .unit = "um^3",
      GETTER(get_Vwear), .reads = READS_WORN, .load = true, .formulas = {{"2 pi int hwear r dr = alpha_w times the work of Nw cycles", NULL, 0}}},
