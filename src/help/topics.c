@@ -92,8 +92,12 @@ static void equation(FILE *to, const char *number, const char *text) {
     char names[512] = "";
     const quantity *q;
     fprintf(to, "%-5s ", number);
-    if (!text)
+    char own[512];
+    if (!text) { /* without what is no part of the equation */
         text = formula_of(number);
+        snprintf(own, sizeof own, "%.*s", (int)strcspn(text, ";"), text);
+        text = own;
+    }
     for (size_t i = 0; (q = quantity_row(i)); i++)
         if (quotes(q, number)) {
             const size_t n = strlen(names);
