@@ -141,9 +141,7 @@ const char limits_text[] =
     "    quasi-static, no adhesion, one coefficient of friction\n"
     "    slip and friction's work at a radius are means over the angle, along F_x\n"
     "    wear takes away what it wears: no debris, no change of friction\n\n"
-    "`accuracy` tells the numerical error of every model in your scene, `explain`\n"
-    "that of an answer, and `explain EXPR conditioning` what the last digit of each\n"
-    "input does to it.\n";
+    "`help exactness` tells how good the numbers are.\n";
 
 const char exactness_text[] =
     "Closed forms and the memory diagram have no step size. Every scalar of a\n"
@@ -183,9 +181,8 @@ const char exactness_text[] =
     "    springs                 N = 100    649.544   6.6e-05    3.11 us       10.4\n"
     "    springs               N = 10000    649.586   3.9e-08     195 us        653\n"
     "    springs, midpoint     N = 10000    652.858   5.0e-03     199 us        668\n\n"
-    "Springs scatter about second order with the place of the slip front within its\n"
-    "cell; with the weights x^k h of the midpoint rule they converge with order 1 +\n"
-    "k.\n";
+    "Springs scatter about second order, as the slip front lies within its cell; with\n"
+    "weights x^k h, of the midpoint rule, they converge with order 1+k where k < 0.\n";
 
 const char cracking_text[] =
     "Cracks begin where the surface is pulled and where it slips. Indicators of both\n"

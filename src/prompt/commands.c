@@ -561,10 +561,9 @@ const command commands[] = {
      .summary = "how sure a value is, and which input that comes from",
      .help = "Standard deviations of independent inputs; 5 % is a part of the value. The\n"
              "answer is first order, from derivatives, with the share of each input in the\n"
-             "variance.\n"
-             "A Monte Carlo of normal samples stands beside it where it says something else.\n"
-             "With fret --part I/N only the samples of that share are drawn, as rows; the same\n"
-             "question `from` a file of all shares sums them.\n\n"
+             "variance. A Monte Carlo of normal samples stands beside it where it says\n"
+             "something else. With fret --part I/N only the samples of that share are drawn,\n"
+             "as rows; the same question `from` a file of all shares sums them.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> uncertainty dWd(0.5 um), a with mu +- 0.02, E0 +- 5 %\n"
              "    dWd(0.5 um) = 948.431 nJ +- 84 nJ\n"
@@ -610,9 +609,8 @@ const command commands[] = {
      .keywords = "options",
      .takes = "[SETTING ...]",
      .summary = "settings",
-     .help = "One setting a statement. `set timing on` shows the time of each statement and\n"
-             "the models that answered. `set model` picks one: auto takes the closed form\n"
-             "where there is one, else the memory diagram; springs are an approximation.\n\n"
+     .help = "One setting a statement. Of the models auto takes the closed form where there is\n"
+             "one, else the memory diagram; springs are an approximation.\n\n"
              "    fret> set digits 12; pi\n"
              "    pi = 3.14159265359\n"},
     {.name = "source",
