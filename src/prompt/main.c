@@ -30,13 +30,13 @@ static const char usage[] =
     "  --live              the full-screen mode; FILE: a script to step through\n"
     "  --replay FILE...    run transcripts and compare; exit 1 where one differs\n"
     "  --tolerance X       relative tolerance of numbers in a replay\n"
-    "  --format=FORMAT     answers as text, csv or json\n"
+    "  --format=FORMAT     text, csv or json\n"
     "  --part I/N          share I = 1..N of the rows of a table or a map, or of the\n"
     "                      samples of uncertainty, as csv or json: cat puts them together\n"
     "  --keep-going        go on after an error\n"
     "  --quiet             no banner\n"
     "  --no-rc             do not read the start-up file\n"
-    "  --color=WHEN        colours: auto, always or never\n"
+    "  --color=WHEN        auto, always or never\n"
     "  --version, --help, -h\n\n"
     "  exit status: 0 fine, 1 an error, 2 wrong usage, 130 interrupted\n";
 
