@@ -16,10 +16,10 @@ typedef struct fret_loading {
     fret_real yc; /* depth at the stick radius, g(c) [m] */
 } fret_loading;
 
-/* delta_x,max = mu eta delta_z [m]: displacement at which gross slip begins (18). */
+/* delta_x,max = mu eta delta_z [m]: displacement at which gross slip begins, (17) with c = 0. */
 fret_real fret_gross_slip(const fret_pressed *contact);
 
-/* F_x = mu [F_N(a)-F_N(c)], delta_x = mu eta [g(a)-g(c)] (15),(18); power law:
+/* F_x = mu [F_N(a)-F_N(c)], delta_x = mu eta [g(a)-g(c)] (16),(15); power law (18),(17):
  *   c/a = (1-F_x/mu F_N)^(1/(n+k+1)), delta_x = mu eta delta_z [1-(c/a)^n].
  * Odd in its argument. By force: |Fx| <= mu F_N, else FRET_GROSS_SLIP (limit: mu F_N); a force that equals
  * mu F_N to 2.2e-16, the rounding of the product, is taken as equal.
@@ -44,7 +44,8 @@ fret_status fret_cycle_loss_by_displacement(const fret_pressed *contact, double 
 /* The same by quadrature of the definition, to tell how far others err: of a cycle that turns at `peak`, from
  * fret_loading_by_force or _by_displacement. error: relative, an estimate with what a thin annulus, or one
  * beside a flat end, loses of the digits of long double; power laws 1e-18 + the rounding of FA/(mu F_N).
- * Takes 10 us to 10 ms, of a table 0.4 ms a row. Errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE. */
+ * Takes 10 us to 10 ms, of a table 0.1 to 20 ms a row. Errors: FRET_NOT_POSITIVE (mu, FN), FRET_NOT_FINITE.
+ */
 fret_status fret_cycle_loss_by_definition(const fret_pressed *contact, const fret_loading *peak,
                                           fret_real *loss, fret_real *error);
 

@@ -44,7 +44,7 @@ typedef void (*fret_wear_told)(double cycles, void *user);
  * whatever was asked before; between two ends of blocks depths are cubic in the number of cycles. delta_z
  * counts from the tip as it is. told may be NULL. The object borrows normal, not the run.
  * Measured, of spheres, cones and flat ends with F_A/(mu F_N) of 0.4 and 0.9: alpha W and V differ by up to
- * 0.7 of the tolerance 1e-3, and the volume by up to 1.7 from that of the limit; those of a cone near gross
+ * 0.7 of the tolerance 1e-3, and the volume by up to 2.2 from that of the limit; those of a cone near gross
  * slip by 2.4 and 2.3 at k = -0.5, 5 and 11 at k = -0.7. F_N and delta_A held, where rings follow c, volumes
  * by up to 3 from those of a quarter of the tolerance; of a cone at 0.95 delta_x,max, of which but a tip
  * sticks, by a quarter when nearly all has worn. The first 10^6 cycles take 0.05 to 0.3 s at k >= 0 (F_N and

@@ -133,7 +133,7 @@ static const char *const borders[][BORDERS] = {{"mu*eta*(dz - g(a))", "mu*eta*(d
                                                 "dxmax + mu*FN/K_rig"}};
 static const char *const titles[] = {"c = a", "c = a/2", "c = 0"};
 
-/* Between two borders, or the ends; in blue, yellow and gray, which the colour-blind tell apart. */
+/* Between two borders, or the ends; in blue, yellow and grey, which the colour-blind tell apart. */
 static const struct {
     const char *name;
     int from, to, style;

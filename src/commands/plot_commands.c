@@ -206,8 +206,8 @@ static bool fail_figure(const calc *c, lexer *lx, const grammar *row, const char
         return lex_fail(lx, "expected %s", wants);
     for (size_t i = 0; figure_name(i); i++)
         snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", figure_name(i));
-    return lex_fail(lx, "there is no figure '%s': %s %s, or EXPR, ... for VAR = LO .. HI", word, row->command,
-                    all);
+    return lex_fail(lx, "there is no figure '%s': %s %s, or EXPR, ... for NAME = LO .. HI", word,
+                    row->command, all);
 }
 
 /* All figures, and the file, which is looked at before long work: empty where there is none. */
@@ -243,7 +243,7 @@ static bool draw_plot(shell *sh, lexer *lx, plot_figure *f, const char *file) {
 }
 
 bool do_plot(shell *sh, lexer *lx, said *all) {
-    static const char wants[] = "EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N";
+    static const char wants[] = "EXPR, ... for NAME = LO .. HI, such as for FN = 1 N .. 9 N";
     char file[FILE_NAME];
     plot_figure f;
     panels p = {.count = 0};

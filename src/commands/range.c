@@ -221,7 +221,7 @@ bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
     if (along)
         return range_read_along(sh, lx, &along->hole[0], out);
     if (!by)
-        return lex_fail(lx, "expected for VAR = LO .. HI");
+        return lex_fail(lx, "expected for NAME = LO .. HI");
     return range_read_name(sh, lx, all, which, true, out);
 }
 

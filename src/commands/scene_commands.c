@@ -208,6 +208,9 @@ static bool tell_limit(shell *sh, calc_error *error) {
     answer_quantity(&a, "Vwear", (value){fret_wear_volume(limit), quantity_find("Vwear", 5)->d});
     answer_done(&a);
     answer_end(&a, true);
+    if (inputs_any(&s->in, INPUT_BIT(IN_FN)) && inputs_any(&s->in, INPUT_BIT(IN_DXA)))
+        shell_note(sh,
+                   "with FN and dxA held, c grows on the way: cycles wear more than this (wear cycles N)");
     fret_wear_free(limit);
     return true;
 }

@@ -319,7 +319,7 @@ bool do_table(shell *sh, lexer *lx, said *all) {
     const bool ranged = at.given || said_of(all, "for", 0) || said_of(all, "along", 0);
     ok = ok && (ranged || (!range_hides(lx, all) &&
                            calc_fail(lx->error, first->at, first->len,
-                                     "expected EXPR, ... for VAR = LO .. HI, such as for FN = 1 N .. 9 N")));
+                                     "expected EXPR, ... for NAME = LO .. HI, such as for FN = 1 N .. 9 N")));
     ok = ok && read_expressions_in(sh, lx, first, columns, COLUMNS - 2, &count);
     if (!ok && at.given)
         columns_missed(sh, lx, &at.data);

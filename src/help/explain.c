@@ -211,7 +211,7 @@ static void put_law(const page *p) {
     char text[MODEL_TEXT];
     const int n =
         scene_is_worn(s)
-            ? snprintf(text, sizeof text, "worn by blocks of cycles, good to %.0e", WEAR_TOLERANCE)
+            ? snprintf(text, sizeof text, "worn by blocks of cycles, good to some %.0e", WEAR_TOLERANCE)
             : snprintf(text, sizeof text, "%s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
     if (rows && fret_table_within(rows) > 0)
         snprintf(text + n, sizeof text - (size_t)n, ", of %zu pieces within %.0e of the gap",
@@ -296,7 +296,8 @@ static void put_difference(const page *p, const expr *e, value v) {
 
 /* What the value is good to, as a part of what. */
 static void explain_error(const page *p, double good, const char *of) {
-    answer_words(p->out, "    error: below %.0e of the %s\n", round_up(good), of);
+    answer_words(p->out, "    error: %s %.0e of the %s\n", scene_is_worn(p->sh->calc.now) ? "some" : "below",
+                 round_up(good), of);
     say_error(p, round_up(good), of);
 }
 

@@ -40,9 +40,11 @@ static void when_text(const formula *f, bool others, char *buf, size_t size) {
     static const struct {
         unsigned when;
         const char *text;
-    } words[] = {{WHEN_CALL, "as a function"},     {WHEN_FIRST, "on first loading"},
-                 {WHEN_LATER, "after a reversal"}, {WHEN_HISTORY, "where FN changed"},
-                 {WHEN_POWER, "power-law gap"},    {WHEN_SHAPE, "other gaps"}};
+    } words[] = {{WHEN_CALL, "as a function"},
+                 {WHEN_FIRST, "on first loading"},
+                 {WHEN_LATER, "after a reversal"},
+                 {WHEN_STEADY, "at constant FN"},
+                 {WHEN_POWER, "power-law gap"}};
     *buf = 0;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (f->when & words[i].when) {

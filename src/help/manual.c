@@ -101,19 +101,19 @@ static void put_commands(FILE *to) {
         }
 }
 
-/* ` -f FILE  what it does` of the usage. */
+/* `  -f FILE  what it does` of the usage, and lines that go on with what it does. */
 static void put_options(FILE *to, const char *usage) {
     enum { TEXT = 22 };
     for (const char *line = usage; *line; line += strcspn(line, "\n") + (strchr(line, '\n') != NULL)) {
-        const size_t n = strcspn(line, "\n");
-        if (n < 3 || strncmp(line, "  -", 3))
-            continue;
-        size_t option = 2;
-        while (option < n && strncmp(line + option, "  ", 2) != 0)
-            option++;
-        fputs(".TP\n.B ", to);
-        put_line(to, line + 2, option - 2);
-        if (option < n)
+        const size_t n = strcspn(line, "\n"), begin = strspn(line, " ");
+        size_t end = begin;
+        while (line[begin] == '-' && end < n && strncmp(line + end, "  ", 2) != 0)
+            end++;
+        if (end > begin) {
+            fputs(".TP\n.B ", to);
+            put_line(to, line + begin, end - begin);
+        }
+        if (end < n && (end > begin || begin == TEXT))
             put_line(to, line + TEXT, n - TEXT);
     }
 }

@@ -59,11 +59,11 @@ static void quantities(FILE *to) {
 enum { EQUATIONS = 28, APPENDIX = 3 };
 static const char *const equations[EQUATIONS + 1] = {
     [2] = "no quantity is computed by it",
-    [3] = "g(x) from f(r), an Abel transform; fields by its inverse",
+    [3] = "g(x) from f(r), an Abel transform, and fields by its inverse",
     [19] = "which springs stick in a step: step, cycle, follow",
     [21] = "the area of the hysteresis loop: plot loop, and W over a cycle",
     [24] = "no quantity is computed by it",
-    [25] = "the energy dissipated per cycle; agrees with (21), (22), (26) and (27)",
+    [25] = "the energy dissipated per cycle, the same as by (21), (22), (26) and (27)",
     [28] = "(27) for a sphere and k = 0, by Mindlin and Deresiewicz: dW there"};
 
 static bool quotes(const quantity *q, const char *number) {
@@ -92,15 +92,17 @@ static void equation(FILE *to, const char *number, const char *text) {
     char names[512] = "";
     const quantity *q;
     fprintf(to, "%-5s ", number);
+    char own[512]; /* the equation alone */
     if (!text)
         text = formula_of(number);
+    snprintf(own, sizeof own, "%.*s", (int)strcspn(text, ";"), text);
     for (size_t i = 0; (q = quantity_row(i)); i++)
         if (quotes(q, number)) {
             const size_t n = strlen(names);
             snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "in: ", q->name);
         }
     enum { INDENT = 6 };
-    help_wrapped(to, text, INDENT, INDENT);
+    help_wrapped(to, own, INDENT, INDENT);
     if (*names) {
         fprintf(to, "%*s", INDENT, "");
         help_wrapped(to, names, INDENT, INDENT + 4);
@@ -148,7 +150,7 @@ static void paper(FILE *to) {
         equation(to, number, i > EQUATIONS ? NULL : equations[i]);
     }
     fputs("\nSlips of the paper, as this program reads it:\n"
-          "  (13)       is for two equal elastic bodies; here it holds for any two\n"
+          "  (13),(27)  are for two equal elastic bodies; here they hold for any two\n"
           "  (19)       beyond first loading the test needs the trial displacement of\n"
           "             the spring, u + d(delta_x), not delta_x\n"
           "  (22)       tells the loss on the first branch only; here it is W1D, signed\n"

@@ -66,7 +66,7 @@ typedef enum plot_role {
 typedef struct plot_series {
     plot_role role;
     int style;          /* of the series that look alike, from 0; -1: by its place among the curves */
-    bool thin;          /* a helping line: half as wide, not in the cycle of styles, gray */
+    bool thin;          /* a helping line: half as wide, not in the cycle of styles, grey */
     char *title;        /* in the key; NULL: not there */
     double *x, *y, *y2; /* y2 of bands only */
     size_t count, room;

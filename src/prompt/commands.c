@@ -166,10 +166,11 @@ const command commands[] = {
              "N` adds N to Nw: the gap, and all that follows, is then as that many of the\n"
              "last cycle leave it, under what press and cycle hold: FN or dz, FA or dxA. Nw\n"
              "is an input like another, swept and solved for, and 0 again after another press\n"
-             "or cycle. hwear(r), Vwear are depth and volume so far, to 0.1 % of the largest.\n"
-             "Both bodies wear together, and debris is gone. `wear limit` is the end of it:\n"
-             "within c nothing wears, outside pressure is gone (Popov, Sci. Rep. 4, 3749,\n"
-             "2014).\n\n"
+             "or cycle. hwear(r), Vwear are depth and volume so far, to some 0.1 % of the\n"
+             "largest (1 or 2 % of cones near gross slip at k < 0, and with FN and dxA held).\n"
+             "Both bodies wear together, and debris is gone. `wear limit` is the end of it,\n"
+             "unless FN and dxA are held: within c nothing wears, outside pressure is gone\n"
+             "(Popov, Sci. Rep. 4, 3749, 2014).\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> cycle FA=20 N; wear K=1e-4 H=2 GPa\n"
              "    fret> alpha_w, dVwear, dVwear/(alpha_w*dW)\n"
@@ -560,10 +561,9 @@ const command commands[] = {
      .summary = "how sure a value is, and which input that comes from",
      .help = "Standard deviations of independent inputs; 5 % is a part of the value. The\n"
              "answer is first order, from derivatives, with the share of each input in the\n"
-             "variance.\n"
-             "A Monte Carlo of normal samples stands beside it where it says something else.\n"
-             "With fret --part I/N only the samples of that share are drawn, as rows; the same\n"
-             "question `from` a file of all shares sums them.\n\n"
+             "variance. A Monte Carlo of normal samples stands beside it where it says\n"
+             "something else. With fret --part I/N only the samples of that share are drawn,\n"
+             "as rows; the same question `from` a file of all shares sums them.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> uncertainty dWd(0.5 um), a with mu +- 0.02, E0 +- 5 %\n"
              "    dWd(0.5 um) = 948.431 nJ +- 84 nJ\n"
@@ -609,9 +609,8 @@ const command commands[] = {
      .keywords = "options",
      .takes = "[SETTING ...]",
      .summary = "settings",
-     .help = "One setting a statement. `set timing on` shows the time of each statement and\n"
-             "the models that answered. `set model` picks one: auto takes the closed form\n"
-             "where there is one, else the memory diagram; springs are an approximation.\n\n"
+     .help = "One setting a statement. Of the models auto takes the closed form where there is\n"
+             "one, else the memory diagram; springs are an approximation.\n\n"
              "    fret> set digits 12; pi\n"
              "    pi = 3.14159265359\n"},
     {.name = "source",

@@ -59,7 +59,7 @@ static bool read_choices(exercise *x, const lexer *lx, const heard *of) {
     if (!at_end(&own))
         return false;
     if (x->choices < 2)
-        return calc_fail(lx->error, of->hole[0].at, of->hole[0].len, "one choice is none");
+        return calc_fail(lx->error, of->hole[0].at, of->hole[0].len, "a choice is of two or more");
     return x->right <= x->choices ||
            calc_fail(lx->error, of->hole[1].at, of->hole[1].len, "there are %u choices", x->choices);
 }

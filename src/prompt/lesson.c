@@ -70,7 +70,7 @@ static bool check_statements(reading *r, const char *text, size_t number) {
         if (!ok && !meant) {
             calc_word(&r->trial.calc, mistake);
             if (!mistake->raised) /* it has been told where it was */
-                calc_raise(mistake, 0, 0, "what it runs fails");
+                calc_raise(mistake, 0, 0, "the file that it runs fails");
             mistake->at += i;
             return tell_mistake(r, text, number, mistake);
         }

@@ -109,6 +109,6 @@ bool do_replay(shell *sh, lexer *lx, said *all) {
     if (status == EXIT_OK)
         return true;
     if (!lx->error->raised)
-        calc_fail(lx->error, 0, 0, "%s does not come out again", name);
+        calc_fail(lx->error, 0, 0, "%s: answers differ", name);
     return heard_place(lx->error, &all->list[0]);
 }

@@ -127,10 +127,10 @@ static const quantity quantities[] = {
                   {"F_x = mu int sigma dF_N, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
     {.name = "dx", .imposed = "step", .title = "tangential displacement", .keywords = "shear", .d = LENGTH, LOADING(dx), CALLED(CALL_LOADING, F, FORCE),
      .reads = READS_TANGENTIAL,
-     .formulas = {{"delta_x = mu eta delta_z [1-(c/a)^n]", "(15),(17)", WHEN_FIRST | WHEN_POWER},
-                  {"delta_x = mu eta [g(a)-g(c)]", "(15)", WHEN_FIRST},
+     .formulas = {{"delta_x = mu eta delta_z [1-(c/a)^n]; gross slip goes on from there", "(15),(17)", WHEN_FIRST | WHEN_POWER},
+                  {"delta_x = mu eta [g(a)-g(c)]; gross slip goes on from there", "(15)", WHEN_FIRST},
                   {"Masing: (delta_1-delta_x)/2 = delta_first((F_1-F_x)/2), from the turning point (F_1, delta_1)", NULL, WHEN_LATER},
-                  {"delta_x = mu eta int sigma dy, sigma = -u'(y)/(mu eta) along depths y = g(x)", NULL, 0}}},
+                  {"delta_x = mu eta int sigma dy, sigma = -u'(y)/(mu eta) along depths y = g(x); gross slip goes on from there", NULL, 0}}},
     {.name = "drig", .imposed = "step", .title = "tangential displacement at the rig", .keywords = "machine compliance", .d = LENGTH,
      GETTER(get_drig), .reads = READS_TANGENTIAL, .load = true, .formulas = {{"drig = dx + Fx/K_rig", NULL, 0}}},
     {.name = "c", .title = "stick radius", .keywords = "slip annulus Cattaneo", .d = LENGTH, LOADING(c), CALLED(CALL_LOADING, F, FORCE),
@@ -146,9 +146,9 @@ static const quantity quantities[] = {
      .reads = READS_TANGENTIAL, .formulas = {{"U = 1/2 int c_T u^2 dx", NULL, 0}}},
     {.name = "dW", .title = "energy dissipated per cycle", .keywords = "hysteresis loop dissipation loss damping Mindlin",
      .d = ENERGY, GETTER(scene_cycle_loss), CALLED(CALL_LOSS, FA, FORCE), .reads = READS_TANGENTIAL, .load = true,
-     .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) h_T E0 a^(k+1))] "
-                   "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1)", "(27)", WHEN_FIRST | WHEN_POWER},
-                  {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx", "(26)", WHEN_FIRST},
+     .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) 2 c_T0 a^(k+1))] "
+                   "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1); gross slip adds 4 mu F_N (dxA-dxmax)", "(27)", WHEN_STEADY | WHEN_POWER},
+                  {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx; gross slip adds 4 mu F_N (dxA-dxmax)", "(26)", WHEN_STEADY},
                   {"dW = [W at the end of the last period]-[W at its beginning]", NULL, 0}}},
     {.name = "Vwear", .by = MODEL_BLOCKS, .title = "worn volume so far", .keywords = "wear Archard", .d = VOLUME, .unit = "um^3",
      GETTER(get_Vwear), .reads = READS_WORN, .load = true, .formulas = {{"2 pi int hwear r dr = alpha_w times the work of Nw cycles", NULL, 0}}},
@@ -180,10 +180,10 @@ static const quantity quantities[] = {
      .reads = READS_TANGENTIAL, .load = true, .formulas = {{"mu eta delta_z for k = 0", "(17) with c = 0", 0}}},
     {.name = "kn", .title = "normal stiffness", .keywords = "compliance", .d = STIFFNESS, GETTER(get_kn), .reads = READS_NORMAL,
      .load = true, .formulas = {{"dF_N/d(delta_z) = 2 c_N0 c0^-k a^(k+1)/(k+1)", "(10),(13)", 0}}},
-    {.name = "kt", .title = "tangential stiffness going on", .keywords = "compliance", .d = STIFFNESS, STATE(kt),
+    {.name = "kt", .title = "tangential stiffness in the direction of the last step", .keywords = "compliance", .d = STIFFNESS, STATE(kt),
      .reads = READS_TANGENTIAL, .formulas = {{"dF_x/d(delta_x) = F_N'(y_c)/eta, y_c = g(c)", "(17),(18)", WHEN_FIRST},
                                              {"dF_x/d(delta_x) = F_N'(y_c)/eta, y_c = g(c)", NULL, 0}}},
-    {.name = "W1D", .title = "work of the springs' forces along their slip", .keywords = "dissipation", .d = ENERGY, GETTER(get_W1D),
+    {.name = "W1D", .title = "force of the springs times their present slip", .keywords = "dissipation", .d = ENERGY, GETTER(get_W1D),
      .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"W1D = -2 int_0^a c_T |u| |delta_x-u| dx", "(22)", 0}}},
     {.name = "time", .title = "time along the load", .keywords = "phase instant", GETTER(get_time), .load = true,
@@ -256,15 +256,15 @@ static const quantity quantities[] = {
     /* ---- in the body ---- */
     {.name = "sxx", .title = "stress along x inside, k = 0, tension positive", .keywords = "subsurface tensor tension bulk surface crack", STRESS, .at = offsetof(fret_stress, xx),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xx + q_x(t) Q_xx] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "syy", .title = "stress across x inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, yy),
+    {.name = "syy", .title = "stress along y inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, yy),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_yy + q_x(t) Q_yy] dt at zeta = z+i t (help cracking)", NULL, 0}}},
     {.name = "szz", .title = "stress along z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, zz),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_zz + q_x(t) Q_zz] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "sxy", .title = "shear stress in the plane inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, xy),
+    {.name = "sxy", .title = "shear stress of x and y inside, k = 0", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, xy),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xy + q_x(t) Q_xy] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "sxz", .title = "shear stress, of x and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, xz),
+    {.name = "sxz", .title = "shear stress of x and z inside, k = 0", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, xz),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_xz + q_x(t) Q_xz] dt at zeta = z+i t (help cracking)", NULL, 0}}},
-    {.name = "syz", .title = "shear stress, of y and z inside, k = 0, tension positive", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, yz),
+    {.name = "syz", .title = "shear stress of y and z inside, k = 0", .keywords = "subsurface tensor ", STRESS, .at = offsetof(fret_stress, yz),
      .formulas = {{"(1/2pi) Re int_-a^a [q_z(t) P_yz + q_x(t) Q_yz] dt at zeta = z+i t (help cracking)", NULL, 0}}},
     {.name = "mises", .title = "equivalent stress of von Mises inside, k = 0", .keywords = "yield plastic subsurface", STRESS, .invariant = fret_stress_mises,
      .formulas = {{"sqrt(1/2 [(s1-s2)^2+(s2-s3)^2+(s3-s1)^2]) of the principal stresses", NULL, 0}}},
@@ -410,16 +410,15 @@ dim quantity_dim(const quantity *q, const scene *s) {
 /* Which formulas hold in the scene. */
 static unsigned holds(const quantity *q, scene *s, bool call) {
     const load_reach *reach;
-    const bool power = scene_is_power(s);
-    const unsigned when = power ? WHEN_POWER : WHEN_SHAPE;
+    const unsigned when = scene_is_power(s) ? WHEN_POWER : WHEN_ALWAYS;
     if (call)
-        return when | WHEN_CALL | WHEN_FIRST;
+        return when | WHEN_CALL | WHEN_FIRST | WHEN_STEADY;
     if (!scene_reach(s, &reach, error_quiet()))
         return when;
     if (reach->normal_varies)
         return when | WHEN_HISTORY;
     if (q->get == scene_cycle_loss ? scene_closed_loss(s) : reach->first)
-        return when | WHEN_FIRST;
+        return when | WHEN_FIRST | WHEN_STEADY;
     return reach->alike ? when | WHEN_LATER : when;
 }
 

@@ -37,7 +37,7 @@ enum {
     WHEN_LATER = 2,   /* after a reversal, F_N constant */
     WHEN_HISTORY = 4, /* F_N has changed on the way */
     WHEN_POWER = 8,   /* the gap is a power law */
-    WHEN_SHAPE = 16,  /* it is not */
+    WHEN_STEADY = 16, /* of a cycle, at constant F_N */
     WHEN_CALL = 32    /* as a function */
 };
 

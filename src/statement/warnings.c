@@ -6,7 +6,7 @@
 #include "scene/functions.h"
 #include "statement/shell.h"
 
-/* By how many percent friction stiffens the normal contact where nothing slips, at most: artanh(beta)/beta -
+/* By how many per cent friction stiffens the normal contact where nothing slips, at most: artanh(beta)/beta -
  * 1 (Spence, Proc. R. Soc. A 305, 1968), for any shape, k = 0. */
 static double stiffened(const fret_foundation *f) {
     return 100 * (double)(atanhl(f->mismatch) / f->mismatch - 1);

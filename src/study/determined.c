@@ -18,7 +18,7 @@ static const struct {
     {"E0", "FN", "measure FN: a column FN beside Fx"},
     {"E0", "nu", "give nu, which changes little"},
     {"E0", "R", "measure the shape: a profile of the body (geometry file)"},
-    {"E0", "K_rig", "measure K_rig on a body that does not yield, or loops at several FN"},
+    {"E0", "K_rig", "measure K_rig with the bodies clamped together, or loops at several FN"},
     {"E0", "E0_2", "a contact shows the sum of both compliances: give the modulus of one body"},
 };
 

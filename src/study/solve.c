@@ -311,7 +311,7 @@ static bool no_root(search *s, calc_error *error) {
                          from, to, s->p.none.text);
     if (alike)
         return calc_fail(error, left->at, left->len, "the two sides %s for every %s from %s to %s",
-                         best.f == 0 ? "are equal" : "differ by the same", k->text, from, to);
+                         best.f == 0 ? "are equal" : "differ by the same amount", k->text, from, to);
     if (below && above)
         return calc_fail(error, left->at, left->len,
                          "no root from %s = %s to %s: the sides pass each other where they have no value: %s",

@@ -36,6 +36,7 @@ def usage(tests):
     expect(tests, "--help", tests.run("--help"), 0, "usage: fret")
     expect(tests, "-h", tests.run("-h"), 0, "usage: fret")
     for page, parts in (("1", (".TH FRET 1 ", ".SH OPTIONS\n.TP\n.B \\-f FILE\nrun a script (\\- is standard input)\n",
+                               "of the\nsamples of uncertainty, as csv or json: cat puts them together\n.TP\n",
                                ".SH COMMANDS\n", "\n.B friction MU\n", ".SH SETTINGS\n", ".SH EXIT STATUS\n", "E0 (z/c0)\\(hak")),
                         ("5", (".TH FRET 5 ", ".SH SCRIPTS AND TRANSCRIPTS\n", ".BR fret (1)\n")),
                         ("bash", ("complete -F _fret fret\n", " --format=text --format=csv --format=json --part --keep-going ",

@@ -247,7 +247,7 @@ def maps(tests):
     text, _ = script(tests, "panels of one height", "plot springs | loop title \"\" | W1D along program")
     tests.check("panels stand on one line", [len(set(re.findall("^set %s .*" % m, text, re.M)))
                                              for m in ("tmargin", "bmargin")] == [1, 1], text[-3000:])
-    fails(tests, "plot map a for k = 0 .. 0.5", "expected for VAR2 = LO .. HI")
+    fails(tests, "plot map a for k = 0 .. 0.5", "expected for B = LO .. HI")
     fails(tests, "plot map a along program", "a map goes for A = LO .. HI for B = LO .. HI")
     done = tests.run("-c", SCENE + "table x*y, x+y for x = 1 .. 3 steps 2 for y = 1 .. 2 steps 1")
     tests.check("a matrix", [line.split() for line in done.stdout.splitlines()] ==

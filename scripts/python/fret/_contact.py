@@ -434,8 +434,8 @@ class Contact:
         return self._many(amplitudes, 1, by_displacement)[0]
 
     def loading(self, Fx: Array) -> Tuple[Values, Values]:
-        """Stick radii c and displacements dx [m] of first loading to |Fx| <= mu FN [N], at the normal force as it is (15),
-        (18), to 1e-15 of a power law. Raises GrossSlip for the first that is beyond."""
+        """Stick radii c and displacements dx [m] of first loading to |Fx| <= mu FN [N], at the normal force as it is (15)
+        to (18), to 1e-15 of a power law. Raises GrossSlip for the first that is beyond."""
         contact = self._loaded()
         return self._many(Fx, 2, lambda at, to, n: library.fret_arrays_loading(contact, at, to[0], to[1], n))
 
@@ -447,7 +447,7 @@ class Contact:
 
     @property
     def dxmax(self) -> float:
-        """Displacement at which gross slip begins [m], mu eta dz, at the normal force as it is (18)."""
+        """Displacement at which gross slip begins [m], mu eta dz, at the normal force as it is (17)."""
         return library.fret_gross_slip(self._loaded())
 
     def _many(self, loads: Array, count: int, ask) -> Tuple[Values, ...]:
