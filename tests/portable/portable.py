@@ -30,10 +30,8 @@ def has_fma():
 def variants():
     """{name: arguments of make}, of what this machine can build and run."""
     found = {}
-    if shutil.which("gcc"):
-        found["gcc-O0"] = ["CC=gcc", "OPT=-O0"]
-        if has_fma():
-            found["gcc-O3-fma"] = ["CC=gcc", "OPT=-O3 -march=x86-64-v3"]
+    if shutil.which("gcc") and has_fma():
+        found["gcc-O3-fma"] = ["CC=gcc", "OPT=-O3 -march=x86-64-v3"]
     if shutil.which("clang"):
         found["clang-O3"] = ["CC=clang", "OPT=-O3"]
     if shutil.which("musl-gcc"):
@@ -67,6 +65,8 @@ def sessions():
         with open(path, encoding="utf-8") as f:
             files, _, session = transcripts.parts(f.read().splitlines())
         steps = [s for s, _ in harness.read_transcript("\n".join(session)) if not harness.draws(s) and not backwards(s)]
+        if not steps:  # calls of the library alone
+            continue
         name, script = os.path.basename(path), "\n".join(steps) + "\n"
         for form, to in (("text", script), ("json", re.sub(r"\bset (format|digits) \w+", "set format json", script))):
             found[name + (", all digits" if form == "json" else "")] = (form, to, files, name)

@@ -322,7 +322,7 @@ int main(int argc, char **argv) {
     }
     for (int i = 0; i < unit_draws(4); i++)
         CASE(swinging(i));
-    for (int i = 0; i < (scenes ? atoi(scenes) : unit_skips(1) ? 12 : 60); i++)
+    for (int i = 0; i < (scenes ? atoi(scenes) : unit_skips(1) ? 12 : 30); i++)
         CASE(random_scene(i));
     return unit_finish();
 }
