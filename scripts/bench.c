@@ -92,7 +92,7 @@ static double memory_diagram(const fret_normal *n, const fret_press *p, bool los
             fret_contact_forces(m, &st);
             sink = (double)(st.Fx + (loss ? fret_contact_last_loss(m) : 0));
         }
-        best = fmin(best, (seconds() - t0) / LOADS);
+        best = fmin(best, (seconds() - t0) / (double)LOADS);
     }
     fret_contact_free(m);
     return best;
@@ -114,8 +114,8 @@ static double moving(const fret_normal *n, const fret_press *p, bool by_force, d
     fret_contact_count_loss(fast, kind == DOUBLE_LOSS);
     for (int i = 0; i < STEPS; i++)
         load[i] = (fret_step){by_force ? FRET_TO_FORCE : FRET_TO_DEPTH, by_force ? FRET_TO_FX : FRET_TO_DX,
-                              normal * (0.7 + 0.2 * sin(2 * pi * i / STEPS)),
-                              tangential * 0.4 * cos(2 * pi * i / STEPS)};
+                              normal * (0.7 + 0.2 * sin(2 * pi * i / (double)STEPS)),
+                              tangential * 0.4 * cos(2 * pi * i / (double)STEPS)};
     for (int run = 0; run < 40; run++) {
         double t0 = seconds();
         for (int round = 0; round < ROUNDS; round++)
@@ -215,10 +215,10 @@ static double swinging_springs(const fret_normal *n, const fret_press *p, size_t
         for (int i = 0; i < STEPS; i++)
             need(fret_springs_step(s,
                                    &(fret_step){FRET_TO_FORCE, FRET_TO_FX,
-                                                FN * (1 + 0.3 * sin(2 * pi * i / STEPS)),
-                                                20 * cos(2 * pi * i / STEPS)},
+                                                FN * (1 + 0.3 * sin(2 * pi * i / (double)STEPS)),
+                                                20 * cos(2 * pi * i / (double)STEPS)},
                                    1));
-        best = fmin(best, (seconds() - t0) / STEPS / (double)count);
+        best = fmin(best, (seconds() - t0) / (double)STEPS / (double)count);
     }
     fret_springs_free(s);
     return best;
@@ -255,7 +255,7 @@ static double constant(const fret_normal *n, const fret_press *p, bool loss, lon
             const fret_state now = pushed(d, load[i]);
             sink = (double)(now.Fx + now.W);
         }
-        best = fmin(best, (seconds() - t0) / LOADS);
+        best = fmin(best, (seconds() - t0) / (double)LOADS);
     }
     fret_contact_free(d);
     return best;
@@ -451,7 +451,7 @@ static double sweep_point(const fret_normal *n, const fret_press *p, sweep kind)
     static double F[POINTS], x[POINTS], y[POINTS];
     double best = INFINITY;
     for (int i = 0; i < POINTS; i++)
-        F[i] = mu * FN * (0.5 + i) / POINTS;
+        F[i] = mu * FN * (0.5 + i) / (double)POINTS;
     const fret_pressed c = {n, mu, *p};
     for (int run = 0; run < RUNS; run++) {
         double t0 = seconds();
@@ -639,7 +639,7 @@ static double gap_chord(const fret_normal *n, long count) {
     step.tangential_by = FRET_TO_FX;
     const double t0 = seconds();
     for (long i = 1; i <= count; i++) {
-        const double angle = 2 * 3.14159265358979 * (double)i / GAP_CHORDS;
+        const double angle = 2 * 3.14159265358979 * (double)i / (double)GAP_CHORDS;
         step.normal = FN * (0.9 + 0.1 * cos(angle));
         step.tangential = mu * FN / 2 * sin(angle);
         need(fret_contact_step(m, &step));
@@ -834,7 +834,7 @@ int main(void) {
     fret_press p;
     need(fret_normal_make(&material, &gap, NULL, NULL, &n));
     need(fret_press_by_force(n, FN, &p));
-    const double plain = spring_scheme(n, &p, 2000, true), one = plain / SPRINGS;
+    const double plain = spring_scheme(n, &p, 2000, true), one = plain / (double)SPRINGS;
     puts("A step of the memory diagram");
     line("F_x", memory_diagram(n, &p, false), spring_scheme(n, &p, 2000, false), "1000 springs", ns, "");
     line("F_x and loss", memory_diagram(n, &p, true), plain, "1000 springs", ns, "");

@@ -51,20 +51,20 @@ typedef struct motion {
 
 /* From the peak x = d on; the force is psi ahead of the motion. */
 static motion integrate(fret_contact *contact, double d, double omega, double psi) {
-    const double dt = 2 * pi / omega / STEPS;
+    const double dt = 2 * pi / omega / (double)STEPS;
     double x = d, v = 0, sum[2][2] = {{0, 0}, {0, 0}};
     fret_contact_reset(contact);
     need(fret_contact_step(contact, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 25, 0}));
     double acceleration = (force * cos(psi) - stiffness * x - contact_force(contact, x)) / mass;
     for (int i = 1; i <= PERIODS * STEPS; i++) {
-        const double angle = 2 * pi * i / STEPS;
+        const double angle = 2 * pi * i / (double)STEPS;
         v += dt / 2 * acceleration;
         x += dt * v;
         acceleration = (force * cos(angle + psi) - stiffness * x - contact_force(contact, x)) / mass;
         v += dt / 2 * acceleration;
         for (int h = 0; h < 2 && i > (PERIODS - 1) * STEPS; h++) {
-            sum[h][0] += 2 * x * cos((2 * h + 1) * angle) / STEPS;
-            sum[h][1] += 2 * x * sin((2 * h + 1) * angle) / STEPS;
+            sum[h][0] += 2 * x * cos((2 * h + 1) * angle) / (double)STEPS;
+            sum[h][1] += 2 * x * sin((2 * h + 1) * angle) / (double)STEPS;
         }
     }
     return (motion){hypot(sum[0][0], sum[0][1]), hypot(sum[1][0], sum[1][1])};

@@ -188,7 +188,7 @@ static bool add_region(const regimes *r, int region) {
             continue;
         widest = hi - lo;
         at[r->across] = (lo + hi) / 2;
-        at[!r->across] = (double)i / PLACES;
+        at[!r->across] = (double)i / (double)PLACES;
     }
     if (widest <= 0.01)
         return true;

@@ -50,7 +50,7 @@ static void try_cells(peak *k) {
     for (size_t i = 0; cells && i < cells->count && cells->cell[i].x < k->a && !k->st.code; i++) {
         const fret_real from = k->a - cells->cell[i].x,
                         to = i + 1 < cells->count ? fmaxl(k->a - cells->cell[i + 1].x, 0) : 0,
-                        part = (from - to) / PARTS;
+                        part = (from - to) / (double)PARTS;
         for (int j = 0; j < PARTS; j++) {
             const fret_real e = from - part * (fret_real)j;
             try_place(k, fminl(e + part, k->a), e, e - part);

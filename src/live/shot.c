@@ -76,7 +76,7 @@ bool shot_lost(calc *c, double a, double lost[SHOT_SAMPLES + 1]) {
     if (!scene_reach(c->now, &reach, error_quiet()) || reach->swings || !c->now->end.cycles)
         return false;
     for (int i = 0; i <= SHOT_SAMPLES; i++) {
-        if (!scene_work(c->now, true, (long double)a * i / SHOT_SAMPLES, &v, error_quiet()))
+        if (!scene_work(c->now, true, (long double)a * i / (double)SHOT_SAMPLES, &v, error_quiet()))
             return false;
         lost[i] = (double)v;
     }

@@ -243,7 +243,7 @@ static void draw_energies(const pane *p) {
 static void draw_lost(const pane *p) {
     const side *s = p->side;
     char text[40] = "of a cycle at constant FN";
-    const double step = (p->wide - 1) * s->now.a / p->most->a / SHOT_SAMPLES, bottom = p->high - 1,
+    const double step = (p->wide - 1) * s->now.a / p->most->a / (double)SHOT_SAMPLES, bottom = p->high - 1,
                  ky = bottom / p->most->lost;
     plot_pen lost = pen_of(p, "1", INK_SLIP);
     for (int i = 0; i < SHOT_SAMPLES && s->loses; i++)

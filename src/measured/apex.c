@@ -78,7 +78,7 @@ static fret_real left_about(fret_real x, fret_real *slope, void *context) {
 static asymmetry least(const place *p, size_t n, bool tilted, double *at) {
     enum { PLACES = 160 };
     sought s = {p, n, tilted};
-    const double first = 0.9 * p[0].r + 0.1 * p[n - 1].r, step = 0.8 * (p[n - 1].r - p[0].r) / PLACES;
+    const double first = 0.9 * p[0].r + 0.1 * p[n - 1].r, step = 0.8 * (p[n - 1].r - p[0].r) / (double)PLACES;
     asymmetry best = {INFINITY, INFINITY, 0, 0};
     for (size_t i = 0; i <= PLACES; i++) {
         const asymmetry now = about(p, n, first + (double)i * step, tilted);

@@ -564,7 +564,7 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
     double foot = t->caption ? 0.5 : 0;
     for (const char *p = t->caption; p && *p; p++)
         foot += *p == '\n';
-    foot *= FOOT * scale;
+    foot *= (double)FOOT * scale;
     h += foot;
     double points = kind->font * scale * (panels > 1 ? 0.9 : 1);
     fputs("# made by fret; to see it: gnuplot -p FILE\n", to);

@@ -135,9 +135,9 @@ static void say_off(const exercise *x, long double guess) {
         snprintf(text, sizeof text, "too %s", guess > 0 ? "large" : "small");
     else if (ratio < 0)
         snprintf(text, sizeof text, "of the wrong sign");
-    else if (ratio > FAR)
+    else if (ratio > (double)FAR)
         snprintf(text, sizeof text, "too large, %.3Lg times the answer", ratio);
-    else if (ratio > 0 && 1 / ratio > FAR)
+    else if (ratio > 0 && 1 / ratio > (double)FAR)
         snprintf(text, sizeof text, "too small, the answer is %.3Lg times as much", 1 / ratio);
     else
         snprintf(text, sizeof text, "%.2Lg %% too %s", 100 * fabsl(ratio - 1), way);

@@ -231,14 +231,14 @@ bool scene_hardest(scene *s, long double a, int side, long double at[2], long do
     *most = -1;
     for (int i = -ACROSS; i <= ACROSS; i++)
         for (int j = 0; j <= DEEP; j++) {
-            const long double x = width * a * i / ACROSS, z = top + side * (a * j / DEEP);
+            const long double x = width * a * i / (double)ACROSS, z = top + side * (a * j / (double)DEEP);
             if (!mises_at(s, x, z, &v) || v <= *most)
                 continue;
             *most = v;
             at[0] = x;
             at[1] = z;
         }
-    for (long double h = a / DEEP; *most > 0 && h > 1e-5L * a;) {
+    for (long double h = a / (double)DEEP; *most > 0 && h > 1e-5L * a;) {
         const long double from = *most, x = at[0], z = at[1];
         for (int i = 0; i < 4; i++) {
             const long double to[2] = {x + (i < 2 ? (2 * i - 1) * h : 0), z + (i < 2 ? 0 : (2 * i - 5) * h)};

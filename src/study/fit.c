@@ -475,7 +475,7 @@ static double profiled(const profile *p, double by) {
 static double reach(const profile *p, double side) {
     enum { FAR = 64 };
     double lo = 0, hi = 1, at = profiled(p, side);
-    while (at < 1 && hi < FAR) {
+    while (at < 1 && hi < (double)FAR) {
         lo = hi;
         hi *= 2;
         at = profiled(p, side * hi);

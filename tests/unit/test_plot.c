@@ -517,7 +517,7 @@ static void clouds(void) {
         plot_point(s, i % 10000 / 1e4, i % 7); /* ten turns */
     plot_settle(f.panel[0]);
     for (size_t i = 0; i < s->count; i++)
-        seen[(int)(s->x[i] * PARTS)] = true;
+        seen[(int)(s->x[i] * (double)PARTS)] = true;
     for (int i = 0; i < PARTS; i++)
         CHECK(seen[i]);
     plot_figure_free(&f);

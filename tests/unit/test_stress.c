@@ -175,16 +175,16 @@ typedef struct plane {
 static fret_real plane_rate(fret_real t, fret_real rest, void *context) {
     enum { TURNS = 8 };
     const plane *p = context;
-    const double r = p->a * SPAN * (double)t;
+    const double r = p->a * (double)SPAN * (double)t;
     double sum = 0;
     for (int i = 0; i < TURNS; i++) {
-        const double angle = 6.283185307179586 * (i + 0.3) / TURNS;
+        const double angle = 6.283185307179586 * (i + 0.3) / (double)TURNS;
         fret_stress s;
         CHECK_OK(fret_field_stress(p->field, 0.3, r * cos(angle), r * sin(angle), p->z, &s));
         sum += p->shear ? s.xz : s.zz;
     }
     (void)rest;
-    return 2 * FRET_PI * r * sum / TURNS * p->a * SPAN;
+    return 2 * FRET_PI * r * sum / (double)TURNS * p->a * (double)SPAN;
 }
 
 static void resultants(int i) {
@@ -193,7 +193,8 @@ static void resultants(int i) {
     for (int j = 0; j < 4; j++) {
         plane p = {f, (double)now.a, (double)now.a * (j < 2 ? 0.3 : -1.1), j % 2};
         const double z = fabs(p.z) / p.a, whole = SPAN * SPAN + z * z, cube = whole * sqrt(whole),
-                     beyond = j % 2 ? z * (1.5 * SPAN * SPAN + z * z) / cube : z * z * z / cube;
+                     beyond =
+                         j % 2 ? z * (1.5 * (double)SPAN * (double)SPAN + z * z) / cube : z * z * z / cube;
         const fret_real load = j % 2 ? now.Fx : now.FN;
         CHECK_ABS(fret_integral(plane_rate, &p, 1e-8L).value, -load * (1 - beyond), now.FN,
                   j % 2 ? 1e-5L : 1e-8L);

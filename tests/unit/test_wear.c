@@ -271,9 +271,9 @@ static void volumes_and_work(void) {
             const fret_pressed unworn = press(n, &held);
             fret_real sum = loss_of(&unworn, &held);
             for (int i = 1; i <= PARTS; i++) {
-                fret_wear *w = after(r, cycles * i / PARTS);
+                fret_wear *w = after(r, cycles * i / (double)PARTS);
                 const fret_pressed c = press_worn(w, &held);
-                CHECK(fret_wear_cycles(w) == cycles * i / PARTS);
+                CHECK(fret_wear_cycles(w) == cycles * i / (double)PARTS);
                 CHECK_REL(fret_wear_volume(w), alpha * fret_wear_work(w), 1.3e-3L);
                 if (i % 2 == 0)
                     CHECK_REL(fret_wear_work(w), (sum + loss_of(&c, &held)) * cycles / (3 * PARTS), 2e-3L);

@@ -183,21 +183,21 @@ static void small_parts(int i, bool swings) {
                  dz = (double)from.dz * (i % 4 < 2 ? -0.3 : 0.25);
     CHECK_OK(fret_field_make(c, &field[0]));
     for (int j = 1; j <= PARTS; j++) {
-        const double t = (double)j / PARTS;
+        const double t = (double)j / (double)PARTS;
         CHECK_OK(swings
                      ? fret_contact_swing(c, &sine, (j - 1) / (double)PARTS, t)
                      : fret_contact_step(c, &(fret_step){FRET_TO_DEPTH, FRET_TO_DX, (double)from.dz + dz * t,
                                                          (double)from.dx + dx * t}));
         CHECK_OK(fret_field_make(c, &field[j % 2]));
         for (int l = 0; l < PLACES; l++)
-            sum[l] += between(field[1 - j % 2], field[j % 2], a * (l + 0.5L) / PLACES);
+            sum[l] += between(field[1 - j % 2], field[j % 2], a * (l + 0.5L) / (double)PLACES);
         fret_field_free(field[1 - j % 2]);
     }
     fret_field_free(field[0]);
     CHECK_OK(fret_work_make(n, mu, s, 0, fret_slips_count(s), &work));
     for (int l = PLACES - 1; l >= 0; l--) {
         fret_real w = 0;
-        CHECK_OK(fret_work_at(work, a * (l + 0.5L) / PLACES, &w));
+        CHECK_OK(fret_work_at(work, a * (l + 0.5L) / (double)PLACES, &w));
         largest = fmaxl(largest, w);
         CHECK_ABS(sum[l], w, largest, 3e-4L);
     }
