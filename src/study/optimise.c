@@ -58,7 +58,7 @@ static long double take_value(search *s, const value *v, const calc_error *why) 
 
 static long double at_parts(search *s, const double *u) {
     long double x[N];
-    value v;
+    value v = {.v = (long double)NAN};
     set_knobs(s, u, x);
     return take_value(s, &v, points_at(&s->p, x, &v) ? NULL : &s->p.none);
 }
