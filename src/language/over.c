@@ -323,9 +323,10 @@ static bool climb(search *s, peak p, long double *most) {
 }
 
 bool over_extreme(over *o, bool largest, long double *out) {
-    enum { PLACES = 256, PER_TIME = 32, AT_MOST = 16384 };
+    enum { PLACES = 256, AT_MOST = 16384 };
+    static const long double per_time = 32;
     search s = {.o = o, .sign = largest ? 1 : -1};
-    const long double many = o->name ? 0 : (double)PER_TIME * (o->hi - o->lo);
+    const long double many = o->name ? 0 : per_time * (o->hi - o->lo);
     if (!scan(&s, o->lo, o->hi, (size_t)fminl(fmaxl(many, PLACES), AT_MOST)))
         return false;
     if (!s.peaks)

@@ -560,11 +560,11 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
     double scale = fmin(w / (double)panels / (panels > 1 ? BESIDE : WIDTH), h / (double)HEIGHT);
     const double text = t->text > 0 ? t->text : 1;
     scale = fmax(scale, 0.5) * text;
-    enum { FOOT = 20 }; /* pixels of a line */
+    static const double line = 20; /* pixels */
     double foot = t->caption ? 0.5 : 0;
     for (const char *p = t->caption; p && *p; p++)
         foot += *p == '\n';
-    foot *= (double)FOOT * scale;
+    foot *= line * scale;
     h += foot;
     double points = kind->font * scale * (panels > 1 ? 0.9 : 1);
     fputs("# made by fret; to see it: gnuplot -p FILE\n", to);

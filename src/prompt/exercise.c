@@ -127,7 +127,7 @@ static void say(const char *text) {
 
 /* How far off, in words. */
 static void say_off(const exercise *x, long double guess) {
-    enum { FAR = 2 };
+    static const long double far = 2;
     const long double is = x->value.v, ratio = is != 0 ? guess / is : 0;
     const char *way = fabsl(guess) > fabsl(is) ? "large" : "small";
     char text[80];
@@ -135,9 +135,9 @@ static void say_off(const exercise *x, long double guess) {
         snprintf(text, sizeof text, "too %s", guess > 0 ? "large" : "small");
     else if (ratio < 0)
         snprintf(text, sizeof text, "of the wrong sign");
-    else if (ratio > (double)FAR)
+    else if (ratio > far)
         snprintf(text, sizeof text, "too large, %.3Lg times the answer", ratio);
-    else if (ratio > 0 && 1 / ratio > (double)FAR)
+    else if (ratio > 0 && 1 / ratio > far)
         snprintf(text, sizeof text, "too small, the answer is %.3Lg times as much", 1 / ratio);
     else
         snprintf(text, sizeof text, "%.2Lg %% too %s", 100 * fabsl(ratio - 1), way);

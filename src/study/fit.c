@@ -471,11 +471,11 @@ static double profiled(const profile *p, double by) {
     return fmin(start, end);
 }
 
-/* Where the sum has grown by one variance, to that side; infinite: not as far as FAR standard errors. */
+/* Where the sum has grown by one variance, to that side; infinite: not as far as so many standard errors. */
 static double reach(const profile *p, double side) {
-    enum { FAR = 64 };
+    static const double far = 64;
     double lo = 0, hi = 1, at = profiled(p, side);
-    while (at < 1 && hi < (double)FAR) {
+    while (at < 1 && hi < far) {
         lo = hi;
         hi *= 2;
         at = profiled(p, side * hi);

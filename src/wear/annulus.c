@@ -178,7 +178,7 @@ static void find_depth(fret_annulus *a) {
 }
 
 const double *fret_annulus_profile(fret_annulus *a, const double *h, double *depth) {
-    const fret_annulus kept = *a;
+    const fret_annulus kept = *a; /* the run goes on from there, whatever has been asked */
     worn_profile(a, h, a->rows);
     for (size_t i = 0; i < a->rows; i++)
         a->g[i] += a->g0[i];

@@ -74,7 +74,7 @@ static const fret_real TOLD = 1e-4L; /* g, of the depth */
 
 /* The rows of a worn gap: of the ring, and beyond it. Where nothing presses any more g is level, and falls by
  * what nodes do not tell: it is lifted to what it has been. Nor do they tell whether it is above or below the
- * depth: it touches. least: it is as much at least. */
+ * depth: it touches, lifted by no more than it falls short. least: it is as much at least. */
 static fret_status give_rows(const fret_normal *n, fret_annulus *a, const double *depth, fret_real least,
                              struct fret_worn *out) {
     double pressed;
