@@ -189,8 +189,16 @@ static void part_of_cell(const fret_cell *c, fret_real a, profile_part *p) {
     }
 }
 
+/* At the edge of a flat punch g is all depth at once. */
+static void add_edge(const place_inside *a, double edge, double depth, double sum[6]) {
+    const double complex lambda = lambda_at(a, edge), rho = (lambda + a->r * a->r / lambda) / 2;
+    add_node(a, lambda, _Complex_I * depth / rho, sum);
+}
+
 static void add_all(const fret_field *f, place_inside *a, double sum[6]) {
-    const fret_real unit = f->slice[f->slices - 1].a;
+    static const fret_real NEAR = 1e-7L; /* of the way to the edge: what ends so close to it is a punch */
+    const fret_real unit = f->slice[f->slices - 1].a, start = fret_gap_start(&f->normal->gap),
+                    near = NEAR * hypotl(a->r * unit - start, a->z * unit);
     const fret_cells *cells = f->normal->cells;
     const size_t parts = cells ? cells->count : 1;
     size_t next = 0; /* the first part that reaches beyond the slice before */
@@ -198,6 +206,10 @@ static void add_all(const fret_field *f, place_inside *a, double sum[6]) {
     for (size_t i = 0; i < f->slices; i++) {
         const double lo = i > 0 ? (double)(f->slice[i - 1].a / unit) : 0, hi = (double)(f->slice[i].a / unit);
         a->mu_sigma = f->loads > DRAGGED ? f->mu * (double)f->slice[i].weight[DRAGGED] : 0;
+        if (start > 0 && f->slice[i].a - start <= near) {
+            add_edge(a, hi, (double)((f->slice[i].y - (i > 0 ? f->slice[i - 1].y : 0)) / unit), sum);
+            continue;
+        }
         for (size_t j = next; j < parts; j++) {
             if (cells)
                 part_of_cell(&cells->cell[j], unit, &p);

@@ -28,7 +28,7 @@ static fret_real by_depth(fret_real t, fret_real rest, void *context) {
 }
 
 static fret_real profile(const annulus *s, fret_real e) {
-    return fret_gap_profile(&s->normal->gap, &s->normal->rule, e).g;
+    return e > 0 ? fret_gap_profile(&s->normal->gap, &s->normal->rule, e).g : 0;
 }
 
 /* 2 (x/c0)^k (g(a)-g(x)) (g(x)-g(c)) */

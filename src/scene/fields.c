@@ -222,7 +222,8 @@ static bool mises_at(scene *s, long double x, long double z, long double *out) {
     return true;
 }
 
-/* The largest mises in the plane of F_x, of one body: the best of a grid of places, uphill from there. */
+/* The largest mises in the plane of F_x, of one body: infinite where the pressure is, else the best of a grid
+ * of places, uphill from there. */
 bool scene_hardest(scene *s, long double a, int side, long double at[2], long double *most) {
     enum { ACROSS = 12, DEEP = 12 };
     static const long double width = 1.2L;
@@ -238,7 +239,17 @@ bool scene_hardest(scene *s, long double a, int side, long double at[2], long do
             at[0] = x;
             at[1] = z;
         }
-    for (long double h = a / (double)DEEP; *most > 0 && h > 1e-5L * a;) {
+    const fret_field *field;
+    if (!(*most > 0) || !scene_stress_field(s, &field, error_quiet()))
+        return false;
+    const fret_status peak = fret_field_peak(field, NULL, &v);
+    if (peak.code == FRET_SINGULAR) {
+        at[0] = peak.value;
+        at[1] = 0;
+        *most = (long double)INFINITY;
+        return true;
+    }
+    for (long double h = a / (double)DEEP; h > 1e-5L * a;) {
         const long double from = *most, x = at[0], z = at[1];
         for (int i = 0; i < 4; i++) {
             const long double to[2] = {x + (i < 2 ? (2 * i - 1) * h : 0), z + (i < 2 ? 0 : (2 * i - 5) * h)};
@@ -250,5 +261,5 @@ bool scene_hardest(scene *s, long double a, int side, long double at[2], long do
         }
         h = *most > from ? h : h / 2;
     }
-    return *most > 0;
+    return true;
 }

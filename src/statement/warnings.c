@@ -111,19 +111,19 @@ static void warn_bulk(shell *sh) {
     sh->bulk = sB != 0;
 }
 
-/* Beyond yield stress of bodies without a plastic part is none. */
-static void note_yield(shell *sh) {
+/* Beyond yield stress of bodies without a plastic part is none. yields: bodies that need no look. */
+static void note_yield(shell *sh, unsigned yields) {
     scene *s = &sh->calc.scene;
     const fret_press *press;
     const unsigned used = s->used;
     long double yield, most, at[2];
     char text[4][CALC_VALUE_TEXT];
-    unsigned yields = 0;
     for (int body = 0; body < 2; body++) {
         const input in = body ? IN_YIELD_2 : IN_YIELD;
-        if ((!s->in.set[in] && !s->in.bound[in]) || (body && s->in.second == SECOND_RIGID) ||
-            !scene_get(s, in, &yield, error_quiet()) || !scene_press(s, &press, error_quiet()) ||
-            !(press->a > 0) || !scene_hardest(s, press->a, body ? -1 : 1, at, &most) || most <= yield)
+        if (yields & 1u << body || (!s->in.set[in] && !s->in.bound[in]) ||
+            (body && s->in.second == SECOND_RIGID) || !scene_get(s, in, &yield, error_quiet()) ||
+            !scene_press(s, &press, error_quiet()) || !(press->a > 0) ||
+            !scene_hardest(s, press->a, body ? -1 : 1, at, &most) || most <= yield)
             continue;
         yields |= 1u << body;
         if (sh->yields & 1u << body)
@@ -157,8 +157,7 @@ static void find_widest(shell *sh) {
 void shell_pressed(shell *sh, const load_step *step) {
     if (step->tangential && !sh->dissimilar)
         shell_warn_dissimilar(sh);
-    if (!sh->yields)
-        note_yield(sh);
+    note_yield(sh, sh->yields);
     if (step->normal == BY_NONE || sh->no_half_space)
         return;
     if (!sh->widest_known)
@@ -181,5 +180,5 @@ void shell_warn(shell *sh) {
     }
     shell_warn_dissimilar(sh);
     warn_half_space(sh);
-    note_yield(sh);
+    note_yield(sh, 0);
 }

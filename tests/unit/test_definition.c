@@ -86,6 +86,19 @@ static void flat_ends(void) {
             }
 }
 
+/* Nothing of a rigid punch slips until all slides. */
+static void punch(void) {
+    unit_scene s = unit_make_scene(2, 0.3);
+    s.gap = (fret_gap){.kind = FRET_GAP_FLAT, .b = 1e-4};
+    const fret_pressed c = unit_make_contact(&s, 100);
+    const fret_real max = fret_gross_slip(&c);
+    const double dA = 2.5 * (double)max;
+    CHECK_OK(by_force(&c, c.mu * 50));
+    CHECK(loss == 0 && error == 0);
+    CHECK_OK(by_displacement(&c, dA));
+    CHECK_REL(loss, 4 * c.mu * 100.0L * (dA - max), UNIT_TOL(1e-17L, 1e-14L));
+}
+
 /* By displacement, into gross slip. */
 static void amplitudes(void) {
     unit_scene s = unit_make_scene(2, -0.5);
@@ -135,6 +148,7 @@ int main(int argc, char **argv) {
     CASE(scenes());
     CASE(shapes());
     CASE(flat_ends());
+    CASE(punch());
     CASE(amplitudes());
     CASE(sampled());
     return unit_finish();

@@ -19,6 +19,7 @@ static const fret_gap shapes[] = {
     {.kind = FRET_GAP_SUM, .terms = 2, .power = {{2, 5e-6, 1e-3}, {4, 1e-6, 5e-4}}},
     {.kind = FRET_GAP_POWER, .terms = 1, .power = {{1.3, 0.005, 0.01}}},
     {.kind = FRET_GAP_POWER, .terms = 1, .power = {{1, 0.005, 0.01}}},
+    {.kind = FRET_GAP_FLAT, .b = 1e-4},
 };
 enum { SHAPES = sizeof shapes / sizeof *shapes };
 
@@ -104,6 +105,36 @@ static void sphere(void) {
     CHECK_OK(fret_field_stress(f, nu, -a, 0, 0, &s));
     CHECK_REL(s.xx, p0 * ((1 - 2 * nu) / 3 + (4 + nu) * FRET_PI * mu / 8), 1e-13L);
     fret_field_free(f);
+}
+
+/* On the axis of a rigid punch, Sneddon: -F_N/(2 pi b^2) (1+3z^2)/(1+z^2)^2; of any flat end where it is
+ * hardly pressed. */
+static void punch(void) {
+    static const fret_gap flat[] = {{.kind = FRET_GAP_FLAT, .b = 1e-4},
+                                    {.kind = FRET_GAP_FLAT_CONE, .b = 1e-4, .slope = 0.01},
+                                    {.kind = FRET_GAP_FLAT_PARABOLOID, .b = 1e-4, .R = 0.01},
+                                    {.kind = FRET_GAP_FLAT_ROUNDED, .b = 1e-4, .R = 0.01}};
+    static const double light[] = {100, 1e-3, 1e-6, 1e-9, 1e-18, 1e-30};
+    const fret_material steel = {{{210e9, 0.3, false}, {210e9, 0.3, false}}, 0, 1e-3};
+    for (size_t i = 0; i < sizeof flat / sizeof *flat; i++) {
+        const fret_normal *n = unit_keep_normal(&steel, &flat[i]);
+        for (size_t j = i > 0; j < sizeof light / sizeof *light; j++) {
+            fret_press press;
+            fret_field *f = NULL;
+            CHECK_OK(fret_press_by_force(n, light[j], &press));
+            CHECK_OK(fret_field_of_press(n, &press, &f));
+            const double b = flat[i].b, beyond = (double)(press.a / b - 1);
+            for (double z = 0.01; z < 10; z *= 3) {
+                const double whole = 1 + z * z, expected = -light[j] / (2 * (double)FRET_PI * b * b) *
+                                                           (1 + 3 * z * z) / (whole * whole);
+                fret_stress s;
+                CHECK_OK(fret_field_stress(f, 0.3, 0, 0, z * b, &s));
+                CHECK_REL(s.zz, expected, 1e-14L + 3 * beyond);
+                CHECK_ABS(s.xz, 0, -expected, 0);
+            }
+            fret_field_free(f);
+        }
+    }
 }
 
 /* ---- whatever the shape and the history -------------------------------------------------------- */
@@ -265,6 +296,7 @@ int main(int argc, char **argv) {
     unit_start("stress", argc, argv);
     CASE(point_loads());
     CASE(sphere());
+    CASE(punch());
     for (int i = 0; i < SHAPES; i++) {
         CASE(surface(i));
         CASE(equilibrium(i));
