@@ -322,10 +322,6 @@ const char *help_name(size_t i) {
     return NULL;
 }
 
-void help_settings(FILE *to) {
-    choices_help(to, command_form(command_find("set", strlen("set"))));
-}
-
 /* ---- help -------------------------------------------------------------------------------------- */
 
 /* The commands of the group that begins at row i on one line, broken where it is full. Returns where the next

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import time
 
-from harness import at_work
+from harness import ROOT, at_work
 
 SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
 LONG = SCENE + "table dW(F) for F = 1 N .. 30 N steps 50000000 to %s\n"
@@ -21,6 +21,11 @@ def expect(tests, name, done, status, out=None, err=None):
     ok = (done.returncode == status and "Sanitizer" not in done.stderr and "runtime error" not in done.stderr
           and (out is None or out in done.stdout) and (err is None or err in done.stderr))
     tests.check(name, ok, "expected exit %s, %r, %r\n%s" % (status, out, err, tests.report(done)))
+
+
+def manual(tests, page):
+    return subprocess.run(["sh", os.path.join(ROOT, "scripts", "manual"), page, tests.fret], capture_output=True, text=True,
+                          env=tests.env, timeout=60, check=False)
 
 
 def usage(tests):
@@ -41,22 +46,22 @@ def usage(tests):
                         ("5", (".TH FRET 5 ", ".SH SCRIPTS AND TRANSCRIPTS\n", ".BR fret (1)\n")),
                         ("bash", ("complete -F _fret fret\n", " --format=text --format=csv --format=json --part --keep-going ",
                                   " --color=auto --color=always --color=never --version --help'\n"))):
-        done = tests.run("--manual=" + page)
+        done = manual(tests, page)
         for part in parts:
-            expect(tests, "--manual=%s: %s" % (page, part.strip()), done, 0, part)
-        tests.check("--manual=%s: no line is a request by chance" % page, page == "bash" or not
+            expect(tests, "manual %s: %s" % (page, part.strip()), done, 0, part)
+        tests.check("manual %s: no line is a request by chance" % page, page == "bash" or not
                     re.findall(r"^(?:'|\.(?!TH|SH|PP|TP|BR?|I|nf|fi)).*", done.stdout, re.M) and
                     done.stdout.count(".nf\n") == done.stdout.count(".fi\n"), done.stdout[-3000:])
-    page = re.sub(r"^\.(PP|nf|fi)\n", "", tests.run("--manual=1").stdout, flags=re.M)
+    page = re.sub(r"^\.(PP|nf|fi)\n", "", manual(tests, "1").stdout, flags=re.M)
     for roff, plain in ((r"\-", "-"), (r"\(ha", "^"), (r"\(aq", "'"), (r"\(ga", "`"), (r"\(ti", "~"), (r"\&", ""), (r"\e", "\\")):
         page = page.replace(roff, plain)
     for title, topic in (("EXPRESSIONS", "expressions"), ("QUANTITIES", "quantities"), ("UNITS", "units"), ("THE PROMPT", "prompt"),
                          ("SCRIPTS", "scripts"), ("LIMITS", "limits"), ("SETTINGS", "set")):
         section, told = page.partition(".SH %s\n" % title)[2].partition("\n.SH ")[0], tests.run("-c", "help " + topic)
         want = [line for line in told.stdout.split("\n") if line and not (topic == "set" and not line.startswith("    set"))]
-        tests.check("--manual=1: %s are help %s" % (title, topic), len(want) > 5 and all(line in section for line in want),
+        tests.check("manual 1: %s are help %s" % (title, topic), len(want) > 5 and all(line in section for line in want),
                     "\n".join(line for line in want if line not in section))
-    expect(tests, "--manual=2", tests.run("--manual=2"), 2, "", "--manual is 1, 5 or bash, not 2")
+    expect(tests, "manual 2", manual(tests, "2"), 2, "", "there is no page 2")
 
 
 def files(tests):
