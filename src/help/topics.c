@@ -435,16 +435,15 @@ const char *model_text(size_t id) {
         [MODEL_QUADRATURE] =
             "Integrals over the contact, for local fields and for the stiffness of loops.\n\n" EXAMPLE
             "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
-        [MODEL_PIECES] =
-            "The law FN(dz) of a gap without a formula is polynomials in the square of the\n"
-            "radius, cell by cell, with the powers that a kink of the gap adds: a dozen cells\n"
-            "for a shape, one or more for each row of a table. Made once, of a shape in 1 ms,\n"
-            "of a table in 0.1 ms a row, and scaled for another R, b, slope or E0, to 1e-15:\n"
-            "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
-            "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
-            "Local fields are sums over the same cells, good to 1e-15 of the largest value.\n\n" EXAMPLE
-            "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
-            "    dW = 2.53755 uJ\n",
+        [MODEL_PIECES] = "The law FN(dz) of a gap without a formula is polynomials in the square of the\n"
+                         "radius, cell by cell, with the powers that a kink of the gap adds: a dozen cells\n"
+                         "for a shape, one or more for each row of a table. Made once, of a shape in 1 ms,\n"
+                         "of a table in 0.1 ms a row, and scaled for another R, b, slope or E0, to 1e-15:\n"
+                         "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
+                         "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
+                         "Local fields are sums over the same cells (`help exactness`).\n\n" EXAMPLE
+                         "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
+                         "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
                           "    fret> set model springs 100\n    fret> dW\n    dW = 1.90687 uJ\n",
