@@ -673,32 +673,6 @@ static bool explain_expression(const page *p, const expr *e, const expr *asked, 
 
 /* ---- the statement ----------------------------------------------------------------------------- */
 
-/* A name that means nothing. */
-static bool no_quantity(shell *sh, lexer *lx) {
-    char word[LEX_NAME];
-    size_t i;
-    if (lx->kind != T_NAME) {
-        if (lx->kind == T_END)
-            lex_fail(lx, "explain which quantity? try: explain dW");
-        return lx->kind == T_END;
-    }
-    lex_word(lx, word); /* as much as is shown */
-    if (quantity_find(lx->text + lx->at, lx->len) || lex_is(lx, "ans") ||
-        names_find(&sh->calc.names, lx->text + lx->at, lx->len, &i))
-        return false;
-    i = 0;
-    for (const char *name; (name = builtin_name(i)); i++)
-        if (lex_is(lx, name))
-            return false;
-    const char *lead = lead_from(word), *near = lead ? lead : suggest(word, quantity_name);
-    lex_fail(lx,
-             lead   ? "'%s' is no quantity: %s"
-             : near ? "'%s' is no quantity: did you mean %s?"
-                    : "'%s' is no quantity; try: explain dW",
-             word, near);
-    return true;
-}
-
 /* An input or a function by its name alone may be without a value. */
 static const quantity *bare_name(const lexer *lx) {
     const quantity *q = lx->kind == T_NAME ? quantity_find(lx->text + lx->at, lx->len) : NULL;
@@ -772,8 +746,8 @@ bool do_explain(shell *sh, lexer *lx, said *all) {
     const bool alone = own.at + own.len == own.end && !conditioning;
     if (lex_is(&own, "mismatch") && alone)
         return explain_mismatch(sh, lx);
-    if (no_quantity(sh, &own))
-        return false;
+    if (own.kind == T_END)
+        return lex_fail(&own, "explain which quantity? try: explain dW");
     const quantity *bare = alone ? bare_name(&own) : NULL;
     const bool ok = (bare || read_explained(sh, &own, &e, &asked, &changed, &v)) &&
                     explain(sh, bare, e, asked, v, conditioning, lx);
