@@ -506,6 +506,11 @@ static void bounded(void) {
         gap |= isnan(s->y[i]);
     }
     CHECK(rising && gap && widest < 1000);
+    plot_thin(s, PLOT_WRITTEN);
+    extremes(s, of);
+    CHECK(of[0] == 0 && of[1] == N - 1 && of[2] == -99 && of[3] == 99);
+    for (size_t i = 1; i < s->count; i++)
+        CHECK(s->x[i] - s->x[i - 1] < 2.5 * N / (PLOT_WRITTEN / 4.0)); /* stretches of two such */
     plot_figure_free(&f);
 }
 
