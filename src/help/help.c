@@ -3,6 +3,7 @@
 #include "help/help.h"
 
 #include <string.h>
+#include <strings.h>
 
 #include "commands/figures.h"
 #include "help/topics.h"
@@ -390,14 +391,9 @@ static size_t help_on(FILE *to, const char *word) {
 
 static bool contains(const char *text, const char *word) {
     const size_t n = strlen(word);
-    for (; text && *text; text++) {
-        size_t i = 0;
-        while (i < n && text[i] && (text[i] | 0x20) == (word[i] | 0x20))
-            i++;
-        if (i == n)
-            return true;
-    }
-    return false;
+    while (text && *text && strncasecmp(text, word, n) != 0)
+        text++;
+    return text && *text;
 }
 
 static bool is_about(const entry *e, const char *word, bool deep) {
