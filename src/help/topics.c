@@ -97,15 +97,13 @@ static void equation(FILE *to, const char *number, const char *text) {
         text = formula_of(number);
     snprintf(own, sizeof own, "%.*s", (int)strcspn(text, ";"), text);
     for (size_t i = 0; (q = quantity_row(i)); i++)
-        if (quotes(q, number)) {
-            const size_t n = strlen(names);
-            snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "in: ", q->name);
-        }
+        if (quotes(q, number))
+            list_word(names, sizeof names, q->name, false);
     enum { INDENT = 6 };
     help_wrapped(to, own, INDENT, INDENT);
     if (*names) {
-        fprintf(to, "%*s", INDENT, "");
-        help_wrapped(to, names, INDENT, INDENT + 4);
+        fprintf(to, "%*sin: ", INDENT, "");
+        help_wrapped(to, names, INDENT + 4, INDENT + 4);
     }
 }
 
