@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "help/conditioning.h"
-#include "help/texts.h"
 #include "language/trial.h"
 #include "number/array.h"
 #include "statement/answer.h"
@@ -632,27 +631,6 @@ static bool read_explained(shell *sh, lexer *lx, const expr **e, const expr **as
     return expr_eval(&sh->calc, *e, v, lx->error) || calc_place(lx->error, at, whole->len);
 }
 
-/* Not a quantity, but a word of the warning on dissimilar bodies. */
-static bool explain_mismatch(shell *sh, lexer *lx) {
-    const fret_normal *normal;
-    text_out text;
-    answer out;
-    if (!text_begin(&text, sh, TEXT_ANSWERS, lx->error))
-        return false;
-    answer_begin(&out, &sh->set, text.to);
-    answer_page(&out, "explain");
-    answer_string(&out, "name", "mismatch");
-    if (scene_normal(&sh->calc.scene, &normal, error_quiet())) {
-        const double mismatch = (double)fret_normal_foundation(normal)->mismatch;
-        answer_words(&out, "mismatch = %.3g\n\n", mismatch);
-        answer_number(&out, "value", mismatch);
-    }
-    answer_words(&out, "%s", coupling_text);
-    answer_string(&out, "text", coupling_text);
-    answer_done(&out);
-    return text_end(&text, true);
-}
-
 static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *asked, value v,
                     bool conditioning, lexer *lx) {
     text_out text;
@@ -679,8 +657,6 @@ bool do_explain(shell *sh, lexer *lx, said *all) {
     const bool conditioning = said_of(all, "conditioning", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     const bool alone = own.at + own.len == own.end && !conditioning;
-    if (lex_is(&own, "mismatch") && alone)
-        return explain_mismatch(sh, lx);
     if (own.kind == T_END)
         return lex_fail(&own, "explain which quantity? try: explain dW");
     const quantity *bare = alone ? bare_name(&own) : NULL;

@@ -118,7 +118,7 @@ const char theory_text[] =
     "without discretisation. `help paper` lists the equations, `explain NAME` puts\n"
     "numbers in.\n";
 
-const char coupling_text[] =
+const char limits_text[] =
     "The theory neglects what couples normal and tangential contact. That is exact\n"
     "for equal bodies, for nu = 1/(2+k), and without friction. Else a warning, where\n"
     "something tangential is asked, tells the mismatch: how far a pressure displaces\n"
@@ -129,10 +129,8 @@ const char coupling_text[] =
     "off, then the contact shakes down. While it is pressed, k = 0: where friction\n"
     "holds all of it, kn at a radius is artanh(beta)/beta times that of here, with\n"
     "beta the mismatch (Spence 1968), and between the two where some slips. For other\n"
-    "k the size is not known.\n";
-
-const char limits_text[] =
-    "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
+    "k the size is not known.\n\n"
+    "Slip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
     "0.4 % of dW in a comparison with boundary elements.\n\n"
     "    -1 < k < 1, -1 < nu <= 1/2; both bodies share k and c0\n"
     "    bodies are half-spaces: a warning where a > 0.3 R (of R1 and R2 the smaller\n"

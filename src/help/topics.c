@@ -201,11 +201,6 @@ static void teaching(FILE *to) {
 
 /* ---- the table --------------------------------------------------------------------------------- */
 
-static void limits(FILE *to) {
-    fputs(coupling_text, to);
-    fputs(limits_text, to);
-}
-
 static const topic topics[] = {
     {.name = "expressions",
      .summary = "arithmetic, names of your own, functions",
@@ -392,7 +387,7 @@ static const topic topics[] = {
     {.name = "limits",
      .summary = "what the theory leaves out",
      .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",
-     .print = limits,
+     .text = limits_text,
      .example = "    fret> material steel; second aluminium; geometry sphere R=10 mm; friction 0.4\n"
                 "    fret> press FN=100 N; step Fx=10 N\n"
                 "    warning: the bodies are elastically dissimilar (mismatch 0.117): normal and tangential "
