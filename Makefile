@@ -252,12 +252,11 @@ published: $(B)/fret
 format:
 	clang-format -i $(shell git ls-files '*.c' '*.h')
 
-# Made from the tables of the program and from the headers.
+# Made from what the program tells of itself and from the headers.
 manual: $(B)/fret
 	@mkdir -p $(B)/manual
-	@for page in 1 5; do $(B)/fret --manual=$$page > $(B)/manual/fret.$$page || exit 1; done
-	@$(B)/fret --manual=bash > $(B)/manual/fret.bash
-	@sh scripts/library-manual $(VERSION) $(HEADERS) > $(B)/manual/libfret.3
+	@for page in 1 5 bash; do sh scripts/manual $$page $(B)/fret > $(B)/manual/fret.$$page || exit 1; done
+	@sh scripts/manual 3 $(B)/fret $(HEADERS) > $(B)/manual/libfret.3
 	@$(B)/fret -c 'help news' > $(B)/manual/NEWS
 
 HEADERS := $(sort $(wildcard include/fret/*.h))

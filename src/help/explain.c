@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command `explain`: the quantities that an expression is made of, a page each: formula, the numbers put
- * in, the model that answered, the error, and how far the last digit of each input moves it. Each is said
- * once, to readers and to programs. Changes nothing. */
+ * in, the model that answered, the error. Each is said once, to readers and to programs. Changes nothing. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "help/texts.h"
+#include "help/conditioning.h"
 #include "language/trial.h"
 #include "number/array.h"
 #include "statement/answer.h"
@@ -316,7 +315,7 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
     explain_error(p, good, of);
 }
 
-/* ---- inputs and conditioning ------------------------------------------------------------------- */
+/* ---- inputs --------------------------------------------------------------------------------------- */
 
 static bool has_effect(const influence_study *study, input in) {
     for (size_t i = 0; i < study->count; i++)
@@ -384,70 +383,6 @@ static void put_load(const page *p, const quantity *q, const influence_study *st
         answer_quantity(p->out, "Fx now", (value){state->Fx, DIM_FORCE});
 }
 
-static const char *const not_shown[] = {"no effect", "condition number below 0.01",
-                                        "not smooth here, or hidden by rounding", "left out after 3 seconds",
-                                        "0 has no last digit"};
-
-static const char *argument_of(const cause *c) {
-    return c->kind == CAUSE_ARGUMENT ? "argument " : "";
-}
-
-static void put_shown(const page *p, const cause *c, const char *name) {
-    char head[400], text[160];
-    format_value(&p->sh->set, c->v, text, sizeof text);
-    snprintf(head, sizeof head, "%s %s %s", name, c->increment ? "+=" : "=", text);
-    answer_words(p->out, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, c->digit, c->change,
-                 c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
-    answer_number(p->out, "last digit", (double)c->digit);
-    answer_number(p->out, "moves", (double)c->change);
-    answer_number(p->out, "condition number", (double)(c->change / c->digit));
-    answer_flag(p->out, "at the end of its range", c->refused);
-}
-
-/* For readers: the causes of a kind in a line. */
-static void put_others(const page *p, const influence_study *study, influence kind) {
-    const char *before = "";
-    for (size_t i = 0; i < study->count; i++) {
-        const cause *c = &study->cause[i];
-        if (c->influence != kind)
-            continue;
-        if (*before)
-            answer_words(p->out, "%s%s%s", before, argument_of(c), c->name);
-        else
-            answer_words(p->out, "    %s: %s%s", not_shown[kind], argument_of(c), c->name);
-        before = ", ";
-    }
-    if (*before)
-        answer_words(p->out, "\n");
-}
-
-/* name: what is moved. */
-static void explain_conditioning(const page *p, const char *name, const influence_study *study) {
-    char moves[100], of[180];
-    bool headed = false;
-    snprintf(moves, sizeof moves, "moves %s by", name);
-    answer_items(p->out, "conditioning");
-    for (size_t i = 0; i < study->count; i++) {
-        const cause *c = &study->cause[i];
-        const bool shown = c->influence == INFLUENCE_SHOWN;
-        snprintf(of, sizeof of, "%s%s", argument_of(c), c->name);
-        if (shown && !headed)
-            answer_words(p->out, "    %-20s  last digit  %14s  condition number\n", "conditioning", moves);
-        headed = headed || shown;
-        answer_item(p->out);
-        answer_string(p->out, "of", of);
-        answer_number(p->out, "value", (double)c->v.v);
-        if (shown)
-            put_shown(p, c, of);
-        else
-            answer_string(p->out, "not shown", not_shown[c->influence]);
-        answer_up(p->out);
-    }
-    answer_up(p->out);
-    for (influence kind = INFLUENCE_SHOWN; kind-- > INFLUENCE_NONE;)
-        put_others(p, study, kind);
-}
-
 /* ---- the page ---------------------------------------------------------------------------------- */
 
 /* Of a number that no formula made. */
@@ -494,7 +429,7 @@ static void explain_quantity(const page *p, const part *of, const expr *e, value
     else if (e)
         put_error(p, q, of->call, model, sine);
     if (conditioning)
-        explain_conditioning(p, q->name, study);
+        conditioning_tell(p->out, q->name, study);
     answer_done(p->out);
 }
 
@@ -592,8 +527,7 @@ static bool part_value(const page *p, const part *of, expr *e, value *v) {
     return !(of->in && is_free(of, of->in)) && text_value(p, of->text, of->len, e, v);
 }
 
-/* ---- pages of an expression
- * ------------------------------------------------------------------------------------- */
+/* ---- pages of an expression --------------------------------------------------------------------- */
 
 static bool explain_part(const page *p, const part *of) {
     expr e = {0}, unused = {0};
@@ -655,7 +589,7 @@ static bool explain_whole(const page *p, const expr *e, value v) {
     if (p->sh->calc.over_error > 0)
         explain_error(p, fmax(p->sh->calc.over_error, DBL_EPSILON), "integral of the magnitude");
     if (p->conditioning)
-        explain_conditioning(p, "it", &study);
+        conditioning_tell(p->out, "it", &study);
     answer_done(p->out);
     return true;
 }
@@ -672,32 +606,6 @@ static bool explain_expression(const page *p, const expr *e, const expr *asked, 
 }
 
 /* ---- the statement ----------------------------------------------------------------------------- */
-
-/* A name that means nothing. */
-static bool no_quantity(shell *sh, lexer *lx) {
-    char word[LEX_NAME];
-    size_t i;
-    if (lx->kind != T_NAME) {
-        if (lx->kind == T_END)
-            lex_fail(lx, "explain which quantity? try: explain dW");
-        return lx->kind == T_END;
-    }
-    lex_word(lx, word); /* as much as is shown */
-    if (quantity_find(lx->text + lx->at, lx->len) || lex_is(lx, "ans") ||
-        names_find(&sh->calc.names, lx->text + lx->at, lx->len, &i))
-        return false;
-    i = 0;
-    for (const char *name; (name = builtin_name(i)); i++)
-        if (lex_is(lx, name))
-            return false;
-    const char *lead = lead_from(word), *near = lead ? lead : suggest(word, quantity_name);
-    lex_fail(lx,
-             lead   ? "'%s' is no quantity: %s"
-             : near ? "'%s' is no quantity: did you mean %s?"
-                    : "'%s' is no quantity; try: explain dW",
-             word, near);
-    return true;
-}
 
 /* An input or a function by its name alone may be without a value. */
 static const quantity *bare_name(const lexer *lx) {
@@ -721,27 +629,6 @@ static bool read_explained(shell *sh, lexer *lx, const expr **e, const expr **as
         return calc_fail(lx->error, at, whole->len, "explain which quantity? try: explain dW");
     sh->calc.over_error = 0;
     return expr_eval(&sh->calc, *e, v, lx->error) || calc_place(lx->error, at, whole->len);
-}
-
-/* Not a quantity, but a word of the warning on dissimilar bodies. */
-static bool explain_mismatch(shell *sh, lexer *lx) {
-    const fret_normal *normal;
-    text_out text;
-    answer out;
-    if (!text_begin(&text, sh, TEXT_ANSWERS, lx->error))
-        return false;
-    answer_begin(&out, &sh->set, text.to);
-    answer_page(&out, "explain");
-    answer_string(&out, "name", "mismatch");
-    if (scene_normal(&sh->calc.scene, &normal, error_quiet())) {
-        const double mismatch = (double)fret_normal_foundation(normal)->mismatch;
-        answer_words(&out, "mismatch = %.3g\n\n", mismatch);
-        answer_number(&out, "value", mismatch);
-    }
-    answer_words(&out, "%s", coupling_text);
-    answer_string(&out, "text", coupling_text);
-    answer_done(&out);
-    return text_end(&text, true);
 }
 
 static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *asked, value v,
@@ -770,10 +657,8 @@ bool do_explain(shell *sh, lexer *lx, said *all) {
     const bool conditioning = said_of(all, "conditioning", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     const bool alone = own.at + own.len == own.end && !conditioning;
-    if (lex_is(&own, "mismatch") && alone)
-        return explain_mismatch(sh, lx);
-    if (no_quantity(sh, &own))
-        return false;
+    if (own.kind == T_END)
+        return lex_fail(&own, "explain which quantity? try: explain dW");
     const quantity *bare = alone ? bare_name(&own) : NULL;
     const bool ok = (bare || read_explained(sh, &own, &e, &asked, &changed, &v)) &&
                     explain(sh, bare, e, asked, v, conditioning, lx);

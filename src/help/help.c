@@ -3,6 +3,7 @@
 #include "help/help.h"
 
 #include <string.h>
+#include <strings.h>
 
 #include "commands/figures.h"
 #include "help/topics.h"
@@ -47,10 +48,8 @@ static void when_text(const formula *f, bool others, char *buf, size_t size) {
                  {WHEN_POWER, "power-law gap"}};
     *buf = 0;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (f->when & words[i].when) {
-            const size_t n = strlen(buf);
-            snprintf(buf + n, size - n, "%s%s", n ? ", " : "", words[i].text);
-        }
+        if (f->when & words[i].when)
+            list_word(buf, size, words[i].text, false);
     if (f->when == WHEN_ALWAYS && others)
         snprintf(buf, size, "else");
 }
@@ -322,10 +321,6 @@ const char *help_name(size_t i) {
     return NULL;
 }
 
-void help_settings(FILE *to) {
-    choices_help(to, command_form(command_find("set", strlen("set"))));
-}
-
 /* ---- help -------------------------------------------------------------------------------------- */
 
 /* The commands of the group that begins at row i on one line, broken where it is full. Returns where the next
@@ -355,11 +350,10 @@ static void overview(FILE *to) {
           to);
     for (size_t i = 0; command_row(i);)
         i = group_line(to, i);
-    for (size_t i = 0; topic_name(i); i++) {
-        const size_t n = strlen(names);
-        snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "Topics: ", topic_name(i));
-    }
-    help_wrapped(to, names, 0, 8);
+    for (size_t i = 0; topic_name(i); i++)
+        list_word(names, sizeof names, topic_name(i), false);
+    fputs("Topics: ", to);
+    help_wrapped(to, names, 8, 8);
     fputs("help NAME tells of any quantity, unit, geometry, setting or model, such as\n"
           "`help dW`; apropos WORD finds them by what they are about.\n\n"
           "Begin with `demo`, or:\n"
@@ -394,14 +388,9 @@ static size_t help_on(FILE *to, const char *word) {
 
 static bool contains(const char *text, const char *word) {
     const size_t n = strlen(word);
-    for (; text && *text; text++) {
-        size_t i = 0;
-        while (i < n && text[i] && (text[i] | 0x20) == (word[i] | 0x20))
-            i++;
-        if (i == n)
-            return true;
-    }
-    return false;
+    while (text && *text && strncasecmp(text, word, n) != 0)
+        text++;
+    return text && *text;
 }
 
 static bool is_about(const entry *e, const char *word, bool deep) {

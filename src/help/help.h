@@ -4,15 +4,11 @@
 #define HELP_HELP_H
 
 #include <stddef.h>
-#include <stdio.h>
 
 /* All that has help, one table after the other: i = 0, 1, ... until NULL. For completion and suggestions. */
 const char *help_name(size_t i);
 
 /* The command that tells of a word, `help` or `apropos`; NULL: none does. */
 const char *help_where(const char *word);
-
-/* For `print` of a row of the table of commands. */
-void help_settings(FILE *to);
 
 #endif

@@ -118,7 +118,7 @@ const char theory_text[] =
     "without discretisation. `help paper` lists the equations, `explain NAME` puts\n"
     "numbers in.\n";
 
-const char coupling_text[] =
+const char limits_text[] =
     "The theory neglects what couples normal and tangential contact. That is exact\n"
     "for equal bodies, for nu = 1/(2+k), and without friction. Else a warning, where\n"
     "something tangential is asked, tells the mismatch: how far a pressure displaces\n"
@@ -129,10 +129,8 @@ const char coupling_text[] =
     "off, then the contact shakes down. While it is pressed, k = 0: where friction\n"
     "holds all of it, kn at a radius is artanh(beta)/beta times that of here, with\n"
     "beta the mismatch (Spence 1968), and between the two where some slips. For other\n"
-    "k the size is not known.\n";
-
-const char limits_text[] =
-    "\nSlip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
+    "k the size is not known.\n\n"
+    "Slip across the direction of F_x is neglected too, as by Cattaneo and Mindlin:\n"
     "0.4 % of dW in a comparison with boundary elements.\n\n"
     "    -1 < k < 1, -1 < nu <= 1/2; both bodies share k and c0\n"
     "    bodies are half-spaces: a warning where a > 0.3 R (of R1 and R2 the smaller\n"
@@ -152,16 +150,16 @@ const char exactness_text[] =
     "In the sources `make hard` holds random scenes of that domain against an\n"
     "independent oracle of 256 bits, and keeps the worst of each region in\n"
     "tests/hard/worst.txt.\n\n"
-    "Local fields, and contacts of other shapes, are good to 1e-13, their fields\n"
-    "after a swinging normal force to 1e-12; tables of more than 2000 rows are\n"
-    "thinned first (`help polynomials`). `(integral ...)` is as good as what it goes\n"
-    "over where that is smooth or bends, and to 1e-12 where it is infinite at an\n"
-    "end; of p it is less, down to a refusal, where k < 0 and the contact reaches\n"
-    "less than 1e-11 b beyond a flat end, of which a radius keeps too few digits.\n"
-    "`explain` tells its error, and what does not converge is refused.\n"
-    "`(maximum ...)` and `(minimum ...)` are good to rounding. From one compiler or\n"
-    "C library to another the last of 17 digits may differ, the six that are shown\n"
-    "do not.\n\n"
+    "Local fields are good to 1e-13 of their largest value, contacts of other shapes\n"
+    "to 1e-13, and their fields after a swinging normal force to 1e-12; tables of\n"
+    "more than 2000 rows are thinned first (`help polynomials`). `(integral ...)` is\n"
+    "as good as what it goes over where that is smooth or bends, and to 1e-12 where\n"
+    "it is infinite at an end; of p it is less, down to a refusal, where k < 0 and\n"
+    "the contact reaches less than 1e-11 b beyond a flat end, of which a radius keeps\n"
+    "too few digits. `explain` tells its error, and what does not converge is\n"
+    "refused. `(maximum ...)` and `(minimum ...)` are good to rounding. From one\n"
+    "compiler or C library to another the last of 17 digits may differ, the six that\n"
+    "are shown do not.\n\n"
     "A boundary-element solution of a homogeneous sphere, on 201 x 201 points, which\n"
     "includes the cross-tractions that the theory leaves out, differs by 0.4 % in the\n"
     "loss per cycle. In the sources `make published` prints numbers of code_aster,\n"

@@ -97,15 +97,13 @@ static void equation(FILE *to, const char *number, const char *text) {
         text = formula_of(number);
     snprintf(own, sizeof own, "%.*s", (int)strcspn(text, ";"), text);
     for (size_t i = 0; (q = quantity_row(i)); i++)
-        if (quotes(q, number)) {
-            const size_t n = strlen(names);
-            snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "in: ", q->name);
-        }
+        if (quotes(q, number))
+            list_word(names, sizeof names, q->name, false);
     enum { INDENT = 6 };
     help_wrapped(to, own, INDENT, INDENT);
     if (*names) {
-        fprintf(to, "%*s", INDENT, "");
-        help_wrapped(to, names, INDENT, INDENT + 4);
+        fprintf(to, "%*sin: ", INDENT, "");
+        help_wrapped(to, names, INDENT + 4, INDENT + 4);
     }
 }
 
@@ -203,11 +201,6 @@ static void teaching(FILE *to) {
 
 /* ---- the table --------------------------------------------------------------------------------- */
 
-static void limits(FILE *to) {
-    fputs(coupling_text, to);
-    fputs(limits_text, to);
-}
-
 static const topic topics[] = {
     {.name = "expressions",
      .summary = "arithmetic, names of your own, functions",
@@ -275,17 +268,9 @@ static const topic topics[] = {
                 "    0,0\n"
                 "    0.5,12.5\n"
                 "    1,50\n"
-                "    $ cat load.csv\n"
-                "    FN [N],Fx [N]\n"
-                "    100,0\n"
-                "    120,15\n"
-                "    120,-15\n"
                 "    fret> material steel; geometry file gap.csv; friction 0.4\n"
-                "    fret> follow load.csv\n"
-                "    fret> FN, Fx, W\n"
-                "    FN = 120 N\n"
-                "    Fx = -15 N\n"
-                "    W = 328.223 nJ\n"
+                "    fret> press FN=120 N; step Fx=15 N; step Fx=-15 N; W\n"
+                "    W = 394.215 nJ\n"
                 "    fret> history to loop.csv\n"
                 "    wrote loop.csv (221 B)\n"},
     {.name = "lessons",
@@ -402,7 +387,7 @@ static const topic topics[] = {
     {.name = "limits",
      .summary = "what the theory leaves out",
      .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",
-     .print = limits,
+     .text = limits_text,
      .example = "    fret> material steel; second aluminium; geometry sphere R=10 mm; friction 0.4\n"
                 "    fret> press FN=100 N; step Fx=10 N\n"
                 "    warning: the bodies are elastically dissimilar (mismatch 0.117): normal and tangential "
@@ -435,16 +420,15 @@ const char *model_text(size_t id) {
         [MODEL_QUADRATURE] =
             "Integrals over the contact, for local fields and for the stiffness of loops.\n\n" EXAMPLE
             "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
-        [MODEL_PIECES] =
-            "The law FN(dz) of a gap without a formula is polynomials in the square of the\n"
-            "radius, cell by cell, with the powers that a kink of the gap adds: a dozen cells\n"
-            "for a shape, one or more for each row of a table. Made once, of a shape in 1 ms,\n"
-            "of a table in 0.1 ms a row, and scaled for another R, b, slope or E0, to 1e-15:\n"
-            "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
-            "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
-            "Local fields are sums over the same cells, good to 1e-15 of the largest value.\n\n" EXAMPLE
-            "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
-            "    dW = 2.53755 uJ\n",
+        [MODEL_PIECES] = "The law FN(dz) of a gap without a formula is polynomials in the square of the\n"
+                         "radius, cell by cell, with the powers that a kink of the gap adds: a dozen cells\n"
+                         "for a shape, one or more for each row of a table. Made once, of a shape in 1 ms,\n"
+                         "of a table in 0.1 ms a row, and scaled for another R, b, slope or E0, to 1e-15:\n"
+                         "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
+                         "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
+                         "Local fields are sums over the same cells (`help exactness`).\n\n" EXAMPLE
+                         "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
+                         "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
                           "    fret> set model springs 100\n    fret> dW\n    dW = 1.90687 uJ\n",

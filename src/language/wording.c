@@ -33,6 +33,7 @@ static const struct {
     {"lessons", "`show demos` lists them, `help lessons` tells how to write one"},
     {"redo", "undo has no way forward; the arrow keys bring statements back"},
     {"adhesion", "none is computed; try: help limits"},
+    {"mismatch", "the warning on dissimilar bodies tells it; try: help limits"},
 };
 enum { LEADS = sizeof leads / sizeof *leads };
 

@@ -13,8 +13,10 @@
 
 #include "text/characters.h"
 #include "text/file.h"
+#include "text/typeset.h"
 
-bool canvas_make(plot_cells *c, rect at, bool braille) {
+bool canvas_make(plot_cells *c, rect at) {
+    const bool braille = typeset_unicode();
     if (at.rows <= 0 || at.cols <= 0)
         return false;
     const bool made = plot_cells_make(c, at.cols, at.rows, braille ? 2 : 1, braille ? 4 : 2);

@@ -25,7 +25,7 @@ typedef struct rect {
 } rect;
 
 /* Cells for the rectangle. False: out of memory, or no room; nothing is to be freed then. */
-bool canvas_make(plot_cells *c, rect at, bool braille);
+bool canvas_make(plot_cells *c, rect at);
 /* Puts them on the screen and frees them. */
 void canvas_show(plot_cells *c, rect at);
 

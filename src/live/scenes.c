@@ -75,7 +75,7 @@ static bool take_side(live *l, side *s, bool along, calc_error *error) {
     s->trouble[0] = 0;
     if (along)
         s->before = s->now;
-    if (!shot_take(c, NULL, &s->now, error)) {
+    if (!shot_take(c, &s->now, error)) {
         s->now = (shot){.time = 0}; /* keys go on from what is shown, which is nothing now */
         return false;
     }

@@ -5,55 +5,18 @@
 
 #include "live/state.h"
 #include "text/characters.h"
-#include "text/file.h"
-#include "text/lines.h"
 
-static void drop_lines(live_script *s) {
-    for (size_t i = 0; i < s->count; i++)
-        free(s->line[i].text);
-    s->count = 0;
-}
-
-/* A logical line becomes one line. */
-static bool add_script_line(live *l, const char *line) {
+bool script_open(live *l, const char *const *line, calc_error *error) {
     live_script *s = &l->script;
-    struct live_line *grown = realloc(s->line, (s->count + 1) * sizeof *grown);
-    char *kept = strdup(line + strspn(line, " \t"));
-    s->line = grown ? grown : s->line;
-    if (!grown || !kept) {
-        free(kept);
-        return false;
-    }
-    s->line[s->count++] = (struct live_line){.text = kept};
-    for (char *end = kept; (end = strchr(end, '\n')) != NULL;)
-        *end = ' ';
-    return true;
-}
-
-bool script_open(live *l, const char *path, calc_error *error) {
-    live_script *s = &l->script;
-    file_in in;
-    if (!file_in_open(&in, path, l->host->stop, error))
-        return false;
-    file_got got = FILE_GOT_LINE;
-    bool ok = true, transcript = false; /* of which the statements count alone */
-    while (ok && (got = file_in_line(&in, error)) == FILE_GOT_LINE) {
-        const bool prompt = begins_with_prompt(in.line, in.length);
-        if (prompt && !transcript)
-            drop_lines(s);
-        transcript = transcript || prompt;
-        if (prompt || !transcript)
-            ok = file_in_rest(&in, error) == FILE_GOT_LINE && add_script_line(l, in.line);
-    }
-    file_in_close(&in);
-    return ok ? got == FILE_GOT_END : calc_no_memory(error);
+    s->line = line;
+    while (line[s->count])
+        s->count++;
+    s->before = calloc(s->count + 1, sizeof *s->before);
+    return s->before || calc_no_memory(error);
 }
 
 void script_close(live *l) {
-    live_script *s = &l->script;
-    drop_lines(s);
-    free(s->line);
-    *s = (live_script){.line = NULL};
+    free(l->script.before);
 }
 
 static bool is_comment(const char *line) {
@@ -64,8 +27,8 @@ static bool is_comment(const char *line) {
 static void take_note(live *l) {
     live_script *s = &l->script;
     l->note[0] = 0;
-    for (; s->at < s->count && is_comment(s->line[s->at].text); s->at++) {
-        const char *text = s->line[s->at].text + strspn(s->line[s->at].text, "# ");
+    for (; s->at < s->count && is_comment(s->line[s->at]); s->at++) {
+        const char *text = s->line[s->at] + strspn(s->line[s->at], "# ");
         char shown[LIVE_LINE];
         const size_t n = strlen(l->note);
         characters_shown(text, shown, sizeof shown);
@@ -85,16 +48,16 @@ void script_on(live *l) {
         live_update(l);
         return;
     }
-    if (is_comment(s->line[s->at].text)) {
+    if (is_comment(s->line[s->at])) {
         take_note(l);
         live_update(l);
         return;
     }
-    struct live_line *line = &s->line[s->at++];
-    const size_t steps = line->steps = c->scene.end.steps;
-    line->undo = c->undo.count;
+    const char *line = s->line[s->at];
+    const size_t steps = c->scene.end.steps;
+    s->before[s->at++] = (struct live_before){c->undo.count, steps};
     take_note(l);
-    if (live_say_line(l, line->text) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
+    if (live_say_line(l, line) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
         live_play_item(l);
 }
 
@@ -106,17 +69,17 @@ void script_back(live *l) {
     live_script *s = &l->script;
     const calc *c = l->host->calc;
     size_t to = s->at;
-    while (to > 0 && is_comment(s->line[to - 1].text))
+    while (to > 0 && is_comment(s->line[to - 1]))
         to--;
     if (to == 0) {
         live_tell(l, false, "the beginning of the script");
         return;
     }
     l->note[0] = 0;
-    while (c->undo.count > s->line[to - 1].undo || c->scene.end.steps > s->line[to - 1].steps)
+    while (c->undo.count > s->before[to - 1].undo || c->scene.end.steps > s->before[to - 1].steps)
         if (!live_say(l, "undo"))
             return;
     s->at = to - 1;
-    live_tell(l, false, "back before: %s", s->line[s->at].text);
+    live_tell(l, false, "back before: %s", s->line[s->at]);
     live_update(l);
 }

@@ -40,17 +40,15 @@ static void take_rings(const fret_contact *contact, shot *out) {
     }
 }
 
-/* What friction allows depends on F_N alone: taken over from a shot of the same press. */
-static void take_springs(const fret_contact *contact, const shot *like, shot *out) {
-    const bool known = like && like->bound == out->bound;
+static void take_springs(const fret_contact *contact, shot *out) {
     for (int i = 0; i <= SHOT_SAMPLES; i++) {
         const fret_real x = out->a * (fret_real)i / (fret_real)SHOT_SAMPLES;
         out->u[i] = (double)fret_contact_displacement(contact, x);
-        out->B[i] = known ? like->B[i] : (double)fret_contact_bound(contact, x);
+        out->B[i] = (double)fret_contact_bound(contact, x);
     }
 }
 
-bool shot_take(calc *c, const shot *like, shot *out, calc_error *error) {
+bool shot_take(calc *c, shot *out, calc_error *error) {
     const fret_contact *contact;
     fret_state state;
     if (!scene_straight(c->now, &contact, error))
@@ -63,7 +61,7 @@ bool shot_take(calc *c, const shot *like, shot *out, calc_error *error) {
     out->Fx = (double)state.Fx;
     out->slip = fret_contact_friction(contact) * (double)state.FN;
     out->bound = (double)fret_contact_bound(contact, 0);
-    take_springs(contact, like, out);
+    take_springs(contact, out);
     take_rings(contact, out);
     take_values(c, out);
     out->digits = 0;

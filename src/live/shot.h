@@ -27,8 +27,8 @@ typedef struct shot {
 } shot;
 
 const char *shot_name(size_t i);
-/* Of the scene that expressions see. like: an earlier one, whose bounds may be taken over, or NULL. */
-bool shot_take(calc *c, const shot *like, shot *out, calc_error *error);
+/* Of the scene that expressions see. */
+bool shot_take(calc *c, shot *out, calc_error *error);
 
 /* Friction's work per area in the last closed cycle [J/m^2], at r = a i/SHOT_SAMPLES; false: there is none,
  * or F_N is not constant. */

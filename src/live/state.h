@@ -22,10 +22,10 @@ typedef struct side {
 
 /* A script that is stepped through. */
 typedef struct live_script {
-    struct live_line {
-        char *text;         /* without its end */
-        size_t undo, steps; /* of the session before it */
-    } * line;               /* NULL: there is none */
+    const char *const *line; /* NULL: there is none */
+    struct live_before {
+        size_t undo, steps; /* of the session before a line */
+    } * before;
     size_t count, at;
 } live_script;
 
@@ -109,7 +109,7 @@ void live_play_item(live *l);
 void live_walk(live *l, bool (*late)(void));
 
 /* ---- script.c ---- */
-bool script_open(live *l, const char *path, calc_error *error);
+bool script_open(live *l, const char *const *line, calc_error *error);
 void script_close(live *l);
 void script_on(live *l);
 void script_back(live *l);

@@ -8,7 +8,6 @@
 
 #include <curses.h>
 #include <errno.h>
-#include <langinfo.h>
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
@@ -30,7 +29,7 @@ static struct {
     SCREEN *screen;
     FILE *nowhere; /* in place of the terminal */
     int guard;
-    bool unicode, mouse;
+    bool mouse;
     double free_at;     /* when the line has taken all */
     char farewell[256]; /* what the terminal is sent when there is no time for curses */
     int deaf;           /* how often in a row there was no waiting for keys */
@@ -185,7 +184,6 @@ static bool open_unseen(calc_error *error) {
 bool terminal_open(bool unseen, calc_error *error) {
     setlocale(LC_CTYPE, "");
     take_signals();
-    own.unicode = !strcmp(nl_langinfo(CODESET), "UTF-8");
     if (!(unseen ? open_unseen(error) : open_seen(error))) {
         terminal_close();
         return false;
@@ -214,10 +212,6 @@ void terminal_close(void) {
     own.guard = -1;
     give_signals_back();
     setlocale(LC_CTYPE, "C");
-}
-
-bool terminal_unicode(void) {
-    return own.unicode;
 }
 
 /* ---- slow lines -------------------------------------------------------------------------------- */

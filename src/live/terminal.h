@@ -16,8 +16,6 @@ bool terminal_there(void);
 /* unseen: a screen of the usual size that nobody sees. */
 bool terminal_open(bool unseen, calc_error *error);
 void terminal_close(void);
-/* Braille and other signs can be shown. */
-bool terminal_unicode(void);
 /* Sends what has been drawn. */
 void terminal_show(void);
 /* Milliseconds until the line has taken what was sent last: what is drawn before would only pile up. */

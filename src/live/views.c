@@ -11,6 +11,7 @@
 #include "live/state.h"
 #include "live/terminal.h"
 #include "text/characters.h"
+#include "text/typeset.h"
 
 /* ---- texts --------------------------------------------------------------------------------------- */
 
@@ -143,7 +144,7 @@ static void put_zone(const pane *p, int high, const zone *z, double dot) {
             const double r = hypot(x - mx + 0.5, y - my + 0.5) * dot;
             if (zone_at(p->shot, r) != z || on_edge(p->shot, r, 0.5 * dot))
                 continue;
-            if (!terminal_unicode())
+            if (!typeset_unicode())
                 put_label(p, x, y / p->cells.up, z->of, z->sign);
             else if ((x + 2 * (y % 2) * (z->every / 4) + (y % 2) * (z->every == 2)) % z->every == 0 &&
                      (z->every < 4 || y % 2 == 0))
@@ -159,7 +160,7 @@ static void draw_disc(const pane *p) {
     for (size_t i = 0; i < 3; i++)
         put_zone(p, high, upwards[i], dot);
     for (size_t i = 0; i < 3; i++) {
-        put_label(p, column, below, zones[i]->of, terminal_unicode() ? zones[i]->dots : zones[i]->sign);
+        put_label(p, column, below, zones[i]->of, typeset_unicode() ? zones[i]->dots : zones[i]->sign);
         put_label(p, column + 2, below, zones[i]->of, zones[i]->name);
         column += (int)strlen(zones[i]->name) + 4;
     }
@@ -315,7 +316,7 @@ static void draw_view(live *l, const view *v, const side *s, const scales *sc, r
     pane p = {.side = s, .shot = side_shown(l, s), .most = sc, .digits = *l->host->digits};
     if (p.shot->digits && p.shot->digits < p.digits)
         p.digits = p.shot->digits;
-    if (!canvas_make(&p.cells, at, terminal_unicode()))
+    if (!canvas_make(&p.cells, at))
         return;
     p.wide = at.cols * p.cells.across;
     p.high = at.rows * p.cells.up;

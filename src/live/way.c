@@ -53,7 +53,7 @@ static bool keep_shot(load_way *w, calc *c, calc_error *error) {
         return calc_no_memory(error);
     shot *to = &w->play[w->shots];
     walk_enter(&w->walk, c);
-    const bool ok = shot_take(c, w->shots ? to - 1 : NULL, to, error);
+    const bool ok = shot_take(c, to, error);
     walk_leave(&w->walk, c);
     if (w->walk.run.level)
         to->digits = CHORD_DIGITS;

@@ -86,7 +86,6 @@ bool plot_map_make(plot_panel *p, size_t nx, size_t ny, calc_error *error) {
 
 /* The first point, the last, both extremes of three coordinates, and a gap. */
 enum { PICKS = 9 };
-_Static_assert(PLOT_KEPT % (2 * PICKS) == 0, "a full series parts into buckets");
 
 static bool is_gap(const plot_series *s, size_t i) {
     return !isfinite(s->x[i]) || !isfinite(s->y[i]) || (s->y2 && !isfinite(s->y2[i]));
@@ -136,37 +135,37 @@ static size_t choose(const plot_series *s, size_t begin, size_t count, size_t pi
     return kept;
 }
 
-/* Moves the kept points of a stretch to `to`; with `pad`, PICKS of them, the last repeated. */
-static size_t squeeze(plot_series *s, size_t begin, size_t count, size_t to, bool pad) {
-    size_t pick[PICKS], n = choose(s, begin, count, pick), kept = n;
-    for (size_t i = 0; i < n; i++)
-        move_point(s, to + i, pick[i]);
-    for (; pad && kept < PICKS; kept++)
-        move_point(s, to + kept, to + n - 1);
-    return kept;
+/* Moves what is kept of the points from begin to end, about `goal` of them, to `to`; returns where they end.
+ */
+static size_t squeeze(plot_series *s, size_t begin, size_t end, size_t goal, size_t to) {
+    const size_t count = end - begin, buckets = goal / 4 ? goal / 4 : 1; /* 4: what a zigzag keeps */
+    for (size_t i = 0; i < buckets && count; i++) {
+        size_t pick[PICKS];
+        const size_t from = begin + count / buckets * i + count % buckets * i / buckets,
+                     until = begin + count / buckets * (i + 1) + count % buckets * (i + 1) / buckets;
+        const size_t kept = choose(s, from, until - from, pick);
+        for (size_t j = 0; j < kept; j++)
+            move_point(s, to++, pick[j]);
+    }
+    return to;
+}
+
+/* Points that stand for others already keep their part of all that came: the series stays spread evenly. */
+static void make_room(plot_series *s) {
+    enum { GOAL = PLOT_KEPT / 4 }; /* of 16 points of a full series PICKS stay at most */
+    const size_t fresh = s->count - s->thinned,
+                 old = (size_t)((double)GOAL * (1 - (double)fresh / (double)s->came)),
+                 to = squeeze(s, 0, s->thinned, old, 0);
+    s->count = squeeze(s, s->thinned, s->count, GOAL - old, to);
+    s->thinned = s->count;
 }
 
 void plot_thin(plot_series *s, size_t goal) {
-    size_t buckets = goal / 4 ? goal / 4 : 1, to = 0; /* 4: what a zigzag keeps */
-    if (s->count <= goal)
-        return;
-    for (size_t i = 0; i < buckets; i++) {
-        size_t begin = s->count / buckets * i + s->count % buckets * i / buckets,
-               end = s->count / buckets * (i + 1) + s->count % buckets * (i + 1) / buckets;
-        to += squeeze(s, begin, end - begin, to, false);
-    }
-    s->count = to;
-}
-
-/* A full series becomes buckets of PICKS points, each standing for s->bucket points that came; from then on
- * points come into a last bucket, and when room is out again pairs of buckets become one. */
-static void make_room(plot_series *s) {
-    size_t each = 2 * PICKS, to = 0;
-    for (size_t i = 0; i < s->count; i += each)
-        to += squeeze(s, i, each, to, true);
-    s->count = to;
-    s->bucket = s->bucket ? 2 * s->bucket : each;
-    s->filling = s->pending = 0;
+    if (s->thinned)
+        make_room(s);
+    if (s->count > goal)
+        s->count = squeeze(s, 0, s->count, goal, 0);
+    s->thinned = 0;
 }
 
 static bool grow(plot_series *s, bool band) {
@@ -184,31 +183,17 @@ static bool grow(plot_series *s, bool band) {
     return true;
 }
 
-/* Counts a point into the last bucket, which holds its picks so far and the points since. */
-static void fill_bucket(plot_series *s) {
-    s->filling++;
-    s->pending++;
-    bool whole = s->filling == s->bucket;
-    if (!whole && s->pending < 2 * PICKS)
-        return;
-    s->count -= s->pending;
-    s->count += squeeze(s, s->count, s->pending, s->count, true);
-    s->pending = whole ? 0 : PICKS;
-    s->filling = whole ? 0 : s->filling;
-}
-
 static bool add(plot_series *s, double x, double y, const double *y2) {
     if (s->count == s->room && s->room < PLOT_KEPT && !grow(s, y2 != NULL))
         return false;
-    if (s->bucket ? !s->filling && s->count + 2 * PICKS > PLOT_KEPT : s->count == PLOT_KEPT)
+    if (s->count == PLOT_KEPT)
         make_room(s);
     s->x[s->count] = x;
     s->y[s->count] = y;
     if (y2)
         s->y2[s->count] = *y2;
     s->count++;
-    if (s->bucket)
-        fill_bucket(s);
+    s->came++;
     return true;
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures: numbers, texts and looks in; a picture in a file or text in the terminal out. gnuplot draws them,
- * but for dots in a terminal.
- * Nothing here knows a scene or a quantity.
+/* Figures: numbers, texts and looks in; a picture in a file, which gnuplot draws, or text in the terminal
+ * out. Nothing here knows a scene or a quantity.
  *
  *     plot_figure f;
  *     plot_figure_init(&f);
@@ -20,7 +19,7 @@
 enum {
     PLOT_PANELS = 6,     /* side by side */
     PLOT_CURVES = 64,    /* series of a panel */
-    PLOT_KEPT = 294912,  /* points a series holds; beyond, it thins itself and keeps the extremes */
+    PLOT_KEPT = 300000,  /* points a series holds; beyond, it thins itself and keeps the extremes */
     PLOT_WRITTEN = 1000, /* points of a curve that go into a picture, about */
     PLOT_MARKS = 8000,   /* and of marks, which no line joins: few of many would stand in clumps */
     PLOT_GRID = 500,     /* points of a map along an axis */
@@ -70,9 +69,7 @@ typedef struct plot_series {
     char *title;        /* in the key; NULL: not there */
     double *x, *y, *y2; /* y2 of bands only */
     size_t count, room;
-    /* thinning: points that a bucket stands for (0: all are held), that came into the last one, and that it
-     * holds */
-    size_t bucket, filling, pending;
+    size_t came, thinned; /* points in all; the first of those held, which stand for others too */
 } plot_series;
 
 /* z over a grid, as contours with their values. */

@@ -8,7 +8,7 @@
 
 #include "plot/script.h"
 #include "text/characters.h"
-#include "text/unit.h"
+#include "text/unit_text.h"
 
 enum { THIN_SPACE = 0x2009 };
 
@@ -130,24 +130,23 @@ static void puts_text(writer *w, const char *text) {
 
 /* ---- names -------------------------------------------------------------------------------------- */
 
+/* Those that are no letter with its number. */
 typedef struct glyph {
     const char *name, *base, *sub;
 } glyph;
 
 static const glyph glyphs[] = {
-    {"FN", "F", "N"},     {"Fx", "F", "x"},        {"FA", "F", "A"},          {"FNA", "F", "N,A"},
-    {"dz", "δ", "z"},     {"dx", "δ", "x"},        {"dxA", "δ", "x,A"},       {"dxmax", "δ", "x,max"},
-    {"drig", "δ", "rig"}, {"drigA", "δ", "rig,A"}, {"K_rig", "K", "rig"},     {"d0", "δ", "0"},
-    {"F0", "F", "0"},     {"dz0", "δ", "z,0"},     {"dx0max", "δ", "x,0max"}, {"dW", "ΔW", ""},
-    {"dWd", "ΔW", ""},    {"W1D", "W", "1D"},      {"w1D", "w", "1D"},        {"u1D", "u", "1D"},
-    {"s1D", "s", "1D"},   {"qz1D", "q", "z,1D"},   {"qx1D", "q", "x,1D"},     {"qx", "q", "x"},
-    {"uz", "u", "z"},     {"ux", "u", "x"},        {"cN", "c", "N"},          {"cT", "c", "T"},
-    {"hN", "h", "N"},     {"hT", "h", "T"},        {"kn", "k", "n"},          {"kt", "k", "t"},
-    {"a0", "a", "0"},     {"c0", "c", "0"},        {"r0", "r", "0"},          {"E0", "E", "0"},
-    {"E0_2", "E", "0,2"}, {"nu", "ν", ""},         {"nu_2", "ν", "2"},        {"mu", "μ", ""},
-    {"kappa", "κ", ""},   {"eta", "η", ""},        {"beta_k", "β", "k"},      {"phase", "φ", ""},
-    {"Ksec", "K", "sec"}, {"Kp", "K′", ""},        {"Kpp", "K″", ""},         {"pi", "π", ""},
-    {"time", "t", ""}};
+    {"FN", "F", "N"},      {"Fx", "F", "x"},          {"FA", "F", "A"},      {"FNA", "F", "N,A"},
+    {"dz", "δ", "z"},      {"dx", "δ", "x"},          {"dxA", "δ", "x,A"},   {"dxmax", "δ", "x,max"},
+    {"drig", "δ", "rig"},  {"drigA", "δ", "rig,A"},   {"K_rig", "K", "rig"}, {"d0", "δ", "0"},
+    {"dz0", "δ", "z,0"},   {"dx0max", "δ", "x,0max"}, {"dW", "ΔW", ""},      {"dWd", "ΔW", ""},
+    {"W1D", "W", "1D"},    {"w1D", "w", "1D"},        {"u1D", "u", "1D"},    {"s1D", "s", "1D"},
+    {"qz1D", "q", "z,1D"}, {"qx1D", "q", "x,1D"},     {"qx", "q", "x"},      {"uz", "u", "z"},
+    {"ux", "u", "x"},      {"cN", "c", "N"},          {"cT", "c", "T"},      {"hN", "h", "N"},
+    {"hT", "h", "T"},      {"kn", "k", "n"},          {"kt", "k", "t"},      {"E0_2", "E", "0,2"},
+    {"nu", "ν", ""},       {"nu_2", "ν", "2"},        {"mu", "μ", ""},       {"kappa", "κ", ""},
+    {"eta", "η", ""},      {"beta_k", "β", "k"},      {"phase", "φ", ""},    {"Ksec", "K", "sec"},
+    {"Kp", "K′", ""},      {"Kpp", "K″", ""},         {"pi", "π", ""},       {"time", "t", ""}};
 
 /* Functions and words that stand upright. */
 static const struct {
@@ -205,22 +204,15 @@ static void put_name(writer *w, const char *name, size_t n) {
             upright(w, words[i].shown, strlen(words[i].shown));
             return;
         }
-    const char *line = memchr(name, '_', n);
-    if (line == name + 1 && n > 2 && n < 16) { /* F_A */
-        char index[16];
-        snprintf(index, sizeof index, "%.*s", (int)(n - 2), name + 2);
+    char index[16];
+    const bool line = n > 2 && name[1] == '_'; /* F_A */
+    size_t digits = 1;
+    while (digits < n && isdigit((unsigned char)name[digits]))
+        digits++;
+    if ((line || digits == n) && n < sizeof index) { /* x, x1 */
+        snprintf(index, sizeof index, "%.*s", (int)(n - 1 - line), name + 1 + line);
         italic(w, name, 1);
         subscript(w, index);
-        return;
-    }
-    char digits[8];
-    size_t d = 1;
-    while (d < n && isdigit((unsigned char)name[d]))
-        d++;
-    if (d == n && n < sizeof digits) { /* x, x1 */
-        snprintf(digits, sizeof digits, "%.*s", (int)(n - 1), name + 1);
-        italic(w, name, 1);
-        subscript(w, digits);
     } else {
         upright(w, name, n);
     }
@@ -241,17 +233,8 @@ static size_t name_length(const char *p, const char *end) {
 
 /* 12, 0.5, 1e-6 */
 static size_t number_length(const char *p, const char *end) {
-    size_t n = 0;
-    while (p + n < end && (isdigit((unsigned char)p[n]) || p[n] == '.'))
-        n++;
-    if (n && p + n < end && (p[n] == 'e' || p[n] == 'E')) {
-        size_t sign = n + 1 + (p + n + 1 < end && (p[n + 1] == '+' || p[n + 1] == '-')), m = sign;
-        while (p + m < end && isdigit((unsigned char)p[m]))
-            m++;
-        if (m > sign)
-            n = m;
-    }
-    return n;
+    double unused;
+    return lex_decimal(p, (size_t)(end - p), '.', 0, &unused);
 }
 
 /* Exponents: of gnuplot's and TeX's markup, or small figures. */
@@ -317,22 +300,10 @@ static void put_unit(writer *w, const char *p, const char *end) {
 
 /* Bytes of a unit such as N/mm^2 that follows a number. */
 static size_t unit_length(const char *p, const char *end) {
+    lexer lx;
     unit unused;
-    size_t total = 0;
-    for (;;) {
-        const char *q = p + total + (total > 0);
-        const size_t n = name_length(q, end);
-        if (n == 0 || !unit_lookup(q, n, &unused))
-            return total;
-        total = (size_t)(q - p) + n;
-        if (p + total < end && p[total] == '^') {
-            size_t sign = p + total + 1 < end && p[total + 1] == '-';
-            size_t e = number_length(p + total + 1 + sign, end);
-            total += e ? 1 + sign + e : 0;
-        }
-        if (p + total >= end || !strchr("*/", p[total]))
-            return total;
-    }
+    lex_start(&lx, p, (size_t)(end - p), error_quiet());
+    return unit_parse(&lx, &unused) ? lx.last : 0;
 }
 
 static void put_operator(writer *w, char c, const char *rest, const char *end) {

@@ -14,17 +14,10 @@
 #include "statement/record.h"
 #include "statement/scripts.h"
 #include "statement/target.h"
-#include "text/file.h"
+#include "text/words.h"
 
 const char *script_name(size_t i) {
     return scripts[i].name;
-}
-
-static const script *script_find(const char *name) {
-    const script *s = scripts;
-    while (s->name && strcmp(s->name, name) != 0)
-        s++;
-    return s->name ? s : NULL;
 }
 
 bool show_demos(shell *sh, FILE *to) {
@@ -266,9 +259,9 @@ static bool write_lesson(lesson *l, FILE *to) {
 
 /* NULL with the error, which is at the place. */
 static const script *built_in(const char *name, const span *at, calc_error *error) {
-    const script *s = script_find(name);
-    if (s)
-        return s;
+    size_t row;
+    if (word_among(script_name, name, strlen(name), &row))
+        return &scripts[row];
     const char *near = suggest(name, script_name);
     calc_raise(error, at->at, at->len,
                near ? "there is no demo '%s': did you mean %s?"

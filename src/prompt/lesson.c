@@ -18,7 +18,7 @@ enum {
 #define REFUSED "# refused"
 
 typedef struct reading {
-    shell *sh, trial;
+    shell *sh, *trial; /* NULL: lines alone are wanted */
     source from;
     lesson_text *out;
     bool transcript; /* lines without a prompt are answers */
@@ -26,9 +26,13 @@ typedef struct reading {
     calc_error *error;
 } reading;
 
+static void drop_lines(lesson_text *t) {
+    while (t->count > 0)
+        free(t->line[--t->count]);
+}
+
 void lesson_free(lesson_text *t) {
-    for (size_t i = 0; i < t->count; i++)
-        free(t->line[i]);
+    drop_lines(t);
     free(t->line);
     free(t->title);
 }
@@ -64,11 +68,11 @@ static bool check_statements(reading *r, const char *text, size_t number) {
     r->statements++;
     for (size_t i = 0, next; i < len && text[i] != '#' && ok; i = next + (next < len && text[next] == ';')) {
         next = shell_statement_end(text, i, len);
-        ok = shell_statement(&r->trial, text + i, next - i, mistake);
+        ok = shell_statement(r->trial, text + i, next - i, mistake);
         if (shell_stop || mistake->stop)
             return shell_stop ? calc_interrupted(r->error) : calc_no_memory(r->error);
         if (!ok && !meant) {
-            calc_word(&r->trial.calc, mistake);
+            calc_word(&r->trial->calc, mistake);
             if (!mistake->raised) /* it has been told where it was */
                 calc_raise(mistake, 0, 0, "the file that it runs fails");
             mistake->at += i;
@@ -76,11 +80,11 @@ static bool check_statements(reading *r, const char *text, size_t number) {
         }
     }
     error_clear(mistake);
-    if (r->trial.quit)
+    if (r->trial->quit)
         calc_raise(mistake, 0, len, "a lesson does not end the session");
     else if (ok && meant)
         calc_raise(mistake, 0, len, "this is not refused");
-    r->trial.quit = false;
+    r->trial->quit = false;
     return !mistake->raised || tell_mistake(r, text, number, mistake);
 }
 
@@ -112,8 +116,10 @@ static bool take_line(reading *r, file_in *in) {
     size_t len = in->length;
     const bool prompt = begins_with_prompt(in->line, len);
     const size_t before = prompt ? (size_t)(strip_prompt(in->line, &len) - in->line) : 0;
+    if (!r->trial && prompt && !r->transcript) /* what comes before is none of it */
+        drop_lines(r->out);
     r->transcript = r->transcript || prompt;
-    if (r->transcript && !prompt && r->out->title)
+    if (r->transcript && !prompt && (r->out->title || !r->trial))
         return true;
     if (file_in_rest(in, r->error) != FILE_GOT_LINE)
         return false;
@@ -125,6 +131,8 @@ static bool take_line(reading *r, file_in *in) {
     while (len > 0 && line[len - 1] == ' ')
         len--;
     line[len] = 0;
+    if (!r->trial)
+        return add_line(r, line + strspn(line, " "));
     const size_t number = (size_t)in->number;
     if (!check_line(r, line, len, number))
         return true;
@@ -144,6 +152,8 @@ static bool read_lines(reading *r, file_in *in) {
         return calc_interrupted(r->error);
     if (!ok || got == FILE_GOT_ERROR)
         return false;
+    if (!r->trial)
+        return true;
     if (r->mistakes)
         return calc_fail(r->error, 0, 0, "%zu mistake%s in %s: it is not played", r->mistakes,
                          r->mistakes == 1         ? ""
@@ -156,26 +166,41 @@ static bool read_lines(reading *r, file_in *in) {
                                       in->name);
 }
 
+static bool read_file(reading *r, const char *path) {
+    file_in in;
+    *r->out = (lesson_text){.line = calloc(1, sizeof *r->out->line), .room = 1};
+    if (!r->out->line)
+        return calc_no_memory(r->error);
+    if (!file_in_open(&in, path, &shell_stop, r->error))
+        return false;
+    const bool ok = read_lines(r, &in);
+    file_in_close(&in);
+    return ok;
+}
+
+bool lesson_lines(const char *path, lesson_text *out, calc_error *error) {
+    return read_file(&(reading){.out = out, .error = error}, path);
+}
+
 bool lesson_read(shell *sh, const char *path, lesson_text *out, calc_error *error) {
     enum { NESTING = 4 };
     static int nesting; /* a lesson may play others */
-    file_in in;
-    reading *r = calloc(1, sizeof *r);
+    reading r = {.sh = sh, .out = out, .from = {path, true}, .error = error};
     FILE *nowhere = shell_nowhere(error);
     *out = (lesson_text){.title = NULL};
-    bool ok = nowhere && (r || calc_no_memory(error)) &&
-              (nesting < NESTING || calc_fail(error, 0, 0, "lessons are nested more than %d deep", NESTING));
-    ok = ok && file_in_open(&in, path, &shell_stop, error);
-    if (ok) {
-        *r = (reading){.sh = sh, .out = out, .from = {path, true}, .error = error};
-        shell_init(&r->trial, nowhere, nowhere);
-        r->trial.replaying = true; /* nothing is drawn, asked or recorded */
-        nesting++;
-        ok = read_lines(r, &in);
-        nesting--;
-        shell_free(&r->trial);
-        file_in_close(&in);
-    }
-    free(r);
+    if (!nowhere)
+        return false;
+    if (nesting == NESTING)
+        return calc_fail(error, 0, 0, "lessons are nested more than %d deep", NESTING);
+    r.trial = calloc(1, sizeof *r.trial);
+    if (!r.trial)
+        return calc_no_memory(error);
+    shell_init(r.trial, nowhere, nowhere);
+    r.trial->replaying = true; /* nothing is drawn, asked or recorded */
+    nesting++;
+    const bool ok = read_file(&r, path);
+    nesting--;
+    shell_free(r.trial);
+    free(r.trial);
     return ok;
 }

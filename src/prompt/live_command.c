@@ -5,7 +5,7 @@
 
 #include "help/complete.h"
 #include "live/live.h"
-#include "prompt/show.h"
+#include "prompt/lesson.h"
 #include "statement/command.h"
 #include "statement/progress.h"
 #include "statement/record.h"
@@ -64,7 +64,7 @@ static bool show_screen(shell *sh, const char *screen, calc_error *error) {
     return text_end(&t, true);
 }
 
-bool shell_live(shell *sh, const char *script, calc_error *error) {
+static bool run_live(shell *sh, const char *const *script, calc_error *error) {
     const settings before = sh->set;
     const live_host host = {.self = sh,
                             .calc = &sh->calc,
@@ -95,12 +95,13 @@ bool shell_live(shell *sh, const char *script, calc_error *error) {
     return ok;
 }
 
-static bool can_read(const char *name, calc_error *error) {
-    file_in in;
-    if (!file_in_open(&in, name, &shell_stop, error))
-        return false;
-    file_in_close(&in);
-    return true;
+bool shell_live(shell *sh, const char *path, calc_error *error) {
+    lesson_text script = {.title = NULL};
+    bool ok = !path || lesson_lines(path, &script, error);
+    if (!sh->replaying) /* else the transcript goes on with the statements that were run on the screen */
+        ok = ok && run_live(sh, path ? (const char *const *)script.line : NULL, error);
+    lesson_free(&script);
+    return ok;
 }
 
 bool do_live(shell *sh, lexer *lx, said *all) {
@@ -108,7 +109,5 @@ bool do_live(shell *sh, lexer *lx, said *all) {
     const bool script = all->count > 0;
     if (script)
         hole_file(lx, &all->list[0].hole[0], name);
-    if (sh->replaying) /* the transcript goes on with the statements that were run on the screen */
-        return !script || can_read(name, lx->error);
     return shell_live(sh, script ? name : NULL, lx->error);
 }

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "commands/figures.h"
-#include "help/manual.h"
 #include "prompt/show.h"
 #include "statement/command.h"
 #include "statement/output.h"
@@ -143,13 +142,6 @@ static int out_of_memory(void) {
     return EXIT_ERROR;
 }
 
-static int take_manual(const char *text) {
-    const int status = manual_write(stdout, text, usage, FRET_VERSION);
-    return status == EXIT_USAGE ? bad_usage("--manual is 1, 5 or bash, not", text)
-           : status == EXIT_OK  ? EXIT_OK
-                                : out_of_memory();
-}
-
 enum {
     IN_ORDER = 1, /* a FILE: getopt gives it where it stands, as it does -f and -c */
     OPT_REPLAY = 256,
@@ -162,24 +154,21 @@ enum {
     OPT_NO_RC,
     OPT_COLOR,
     OPT_VERSION,
-    OPT_HELP,
-    OPT_MANUAL
+    OPT_HELP
 };
 
-static const struct option options[] = {
-    {"replay", required_argument, NULL, OPT_REPLAY},
-    {"live", no_argument, &live, OPT_LIVE},
-    {"tolerance", required_argument, NULL, OPT_TOLERANCE},
-    {"format", required_argument, NULL, OPT_FORMAT},
-    {"part", required_argument, NULL, OPT_PART},
-    {"keep-going", no_argument, &keep_going, OPT_KEEP},
-    {"quiet", no_argument, &quiet, OPT_QUIET},
-    {"no-rc", no_argument, &no_rc, OPT_NO_RC},
-    {"color", required_argument, NULL, OPT_COLOR},
-    {"version", no_argument, NULL, OPT_VERSION},
-    {"help", no_argument, NULL, OPT_HELP},
-    {"manual", required_argument, NULL, OPT_MANUAL}, /* for `make install` */
-    {NULL, 0, NULL, 0}};
+static const struct option options[] = {{"replay", required_argument, NULL, OPT_REPLAY},
+                                        {"live", no_argument, &live, OPT_LIVE},
+                                        {"tolerance", required_argument, NULL, OPT_TOLERANCE},
+                                        {"format", required_argument, NULL, OPT_FORMAT},
+                                        {"part", required_argument, NULL, OPT_PART},
+                                        {"keep-going", no_argument, &keep_going, OPT_KEEP},
+                                        {"quiet", no_argument, &quiet, OPT_QUIET},
+                                        {"no-rc", no_argument, &no_rc, OPT_NO_RC},
+                                        {"color", required_argument, NULL, OPT_COLOR},
+                                        {"version", no_argument, NULL, OPT_VERSION},
+                                        {"help", no_argument, NULL, OPT_HELP},
+                                        {NULL, 0, NULL, 0}};
 
 /* The option getopt stopped at: C libraries differ in where argv stands then. */
 static const char *option_word(char **argv) {
@@ -217,9 +206,6 @@ static int take_option(int opt, wishes *w, shell *sh, char **argv) {
         return take_part(sh, optarg);
     case OPT_COLOR:
         return take_color(w, optarg);
-    case OPT_MANUAL:
-        w->done = true;
-        return take_manual(optarg);
     case OPT_VERSION:
         printf("fret %s%s\n", FRET_VERSION, study_library);
         w->done = true;

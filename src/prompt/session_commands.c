@@ -92,7 +92,7 @@ bool do_record(shell *sh, lexer *lx, said *all) {
     if (said_of(all, "off", 0))
         return record_end(sh, true) || lex_fail(lx, "nothing is being recorded");
     hole_file(lx, &all->list[0].hole[0], name);
-    if (!file_ends(name, ".html") && !is_statements(lx, &all->list[0].hole[0])) /* else it is a page */
+    if (!record_as_page(name) && !is_statements(lx, &all->list[0].hole[0]))
         return false;
     char *text = beginning(sh);
     if (!text)

@@ -102,7 +102,7 @@ static const geometry geometries[] = {
      .kind = FRET_GAP_FLAT,
      .required = INPUT_BIT(IN_B),
      .takes = "b:=1 mm",
-     .meaning = "f = 0, r < b: a rigid punch (Sneddon 1965; Johnson, 3.8)",
+     .meaning = "f = 0, r < b: a rigid punch (Sneddon 1965; Johnson, Contact Mechanics, ch. 3)",
      .keywords = "punch cylinder Boussinesq Sneddon",
      .example = "    fret> material steel; second rigid; geometry flat b=1 mm; press FN=1 kN\n"
                 "    fret> a, dz, p(0 m), FN/(2*Estar*b)\n"

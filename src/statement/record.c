@@ -155,13 +155,17 @@ static void put_statements(struct recorder *r, const char *text) {
 
 /* ---- a recording ------------------------------------------------------------------------------- */
 
+bool record_as_page(const char *path) {
+    return file_ends(path, ".html");
+}
+
 bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error) {
     bool over = false;
     if (sh->replaying)
         return true;
     if (record_alone(sh))
         return calc_fail(error, 0, 0, "what is played goes on a page already");
-    const bool html = file_ends(path, ".html");
+    const bool html = record_as_page(path);
     struct recorder *r = make_recorder(sh, error);
     if (!r)
         return false;

@@ -30,7 +30,9 @@ static inline bool record_shows(const shell *sh) {
     return sh->record && sh->record->out == stdout;
 }
 
-/* Begins a transcript, or a page where the file ends in .html: these statements, for a replay begins without
+/* A page, as .html asks for, or a transcript? */
+bool record_as_page(const char *path);
+/* Begins it with these statements, for a replay begins without
  * a scene, then whatever comes; what has been recorded so far ends. Nothing is recorded in a replay. What
  * cannot be written any more is told at once, and the session goes on. The statements end in a mark: what is
  * noted or warned of there was said before. */

@@ -8,8 +8,7 @@
 #include "statement/shell.h"
 
 /* Text of words, in which what does not show is escaped; answers, likewise, which are objects for programs
- * already; or a picture of gnuplot, which knows what it sends
- * to a terminal; or pictures that move, which no pager can show. */
+ * already; or a picture, with the colours of a terminal; or pictures that move, which no pager can show. */
 typedef enum text_kind { TEXT_WORDS, TEXT_ANSWERS, TEXT_PICTURE, TEXT_MOTION } text_kind;
 
 /* Text on its way out: as it is, as one object for programs, or at a terminal by the pager. */

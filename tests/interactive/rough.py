@@ -156,7 +156,7 @@ def memory(tests):
             if not (done.returncode == 0 and done.stdout == right.stdout or done.returncode == 1 and "out of memory" in done.stderr):
                 wrong.append("%d: %s" % (number, tests.report(done)))
         tests.check("memory for " + " ".join(args), right.returncode == 0 and count > 0 and not wrong, "\n".join(wrong[:3]))
-    tests.each([lambda i=i, args=args: batch(i, args) for i, args in enumerate((["--manual=1"], ["--manual=5"], ["--version"], ["-c", "1 + 1"]))])
+    tests.each([lambda i=i, args=args: batch(i, args) for i, args in enumerate((["-c", "help plot"], ["-c", "help files"], ["--version"], ["-c", "1 + 1"]))])
 
     def at_prompt(number):
         """What it says, and whether there was an end to it."""

@@ -23,7 +23,7 @@ STATEMENTS = (
     ("minimize", "minimize x^2 over x = 1 .. 2", "value value minimize note"), ("fit", "fit mu for loss = dW(F) to rows.csv", "value fit"), ("loop", "loop loop.csv", "note measured loop"),
     ("uncertainty", "uncertainty dW(20 N) with mu +- 0.02, E0 +- 5 % samples 50", "value uncertainty"),
     ("export", "export jenkins 5 to m.json", "note value value export"), ("explain", "explain dW", "explain"), ("explain", "explain mu", "explain"),
-    ("explain", "explain a/c conditioning", "explain*"), ("explain", "explain mismatch", "explain"),
+    ("explain", "explain a/c conditioning", "explain*"),
     ("accuracy", "accuracy within 0.01", "accuracy row* accuracy"), ("show", "show", "text"), ("show", "show settings", "text"), ("set", "set", "text"),
     ("set", "set timing on; 1; set timing off", "value note note"), ("source", "source s.fret", "value"), ("save", "save o.fret", "note"),
     ("record", "record r.txt; record off", "note"), ("replay", "replay t.txt", "text"), ("live", "live", "error"), ("compare", "compare k = 0, 0.5; compare off", "note"), ("demo", "demo sticking", "text* any*"),

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Conditioning in words: what study/influence finds, for `explain`. */
+#include "help/conditioning.h"
+
+#include "statement/output.h"
+
+static const char *const not_shown[] = {"no effect", "condition number below 0.01",
+                                        "not smooth here, or hidden by rounding", "left out after 3 seconds",
+                                        "0 has no last digit"};
+
+static const char *argument_of(const cause *c) {
+    return c->kind == CAUSE_ARGUMENT ? "argument " : "";
+}
+
+static void put_shown(answer *out, const cause *c, const char *name) {
+    char head[400], text[160];
+    format_value(out->set, c->v, text, sizeof text);
+    snprintf(head, sizeof head, "%s %s %s", name, c->increment ? "+=" : "=", text);
+    answer_words(out, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, c->digit, c->change,
+                 c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
+    answer_number(out, "last digit", (double)c->digit);
+    answer_number(out, "moves", (double)c->change);
+    answer_number(out, "condition number", (double)(c->change / c->digit));
+    answer_flag(out, "at the end of its range", c->refused);
+}
+
+/* For readers: the causes of a kind in a line. */
+static void put_others(answer *out, const influence_study *study, influence kind) {
+    const char *before = "";
+    for (size_t i = 0; i < study->count; i++) {
+        const cause *c = &study->cause[i];
+        if (c->influence != kind)
+            continue;
+        if (*before)
+            answer_words(out, "%s%s%s", before, argument_of(c), c->name);
+        else
+            answer_words(out, "    %s: %s%s", not_shown[kind], argument_of(c), c->name);
+        before = ", ";
+    }
+    if (*before)
+        answer_words(out, "\n");
+}
+
+void conditioning_tell(answer *out, const char *name, const influence_study *study) {
+    char moves[100], of[180];
+    bool headed = false;
+    snprintf(moves, sizeof moves, "moves %s by", name);
+    answer_items(out, "conditioning");
+    for (size_t i = 0; i < study->count; i++) {
+        const cause *c = &study->cause[i];
+        const bool shown = c->influence == INFLUENCE_SHOWN;
+        snprintf(of, sizeof of, "%s%s", argument_of(c), c->name);
+        if (shown && !headed)
+            answer_words(out, "    %-20s  last digit  %14s  condition number\n", "conditioning", moves);
+        headed = headed || shown;
+        answer_item(out);
+        answer_string(out, "of", of);
+        answer_number(out, "value", (double)c->v.v);
+        if (shown)
+            put_shown(out, c, of);
+        else
+            answer_string(out, "not shown", not_shown[c->influence]);
+        answer_up(out);
+    }
+    answer_up(out);
+    for (influence kind = INFLUENCE_SHOWN; kind-- > INFLUENCE_NONE;)
+        put_others(out, study, kind);
+}
