@@ -8,7 +8,7 @@
 #include "language/trial.h"
 #include "number/array.h"
 #include "text/characters.h"
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 enum {
     DEPTH_LIMIT = 200,    /* of nesting: the parser recurses */

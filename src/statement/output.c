@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "text/characters.h"
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 /* ---- numbers ----------------------------------------------------------------------------------- */
 

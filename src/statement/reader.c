@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "text/lines.h"
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 /* ---- at the cursor ----------------------------------------------------------------------------- */
 

@@ -18,8 +18,8 @@ struct recorder {
     bool apart;                /* what is written now is on the page in another way */
     struct recorder *outer;    /* goes on after a page that has the session alone */
     FILE *outer_out, *outer_err;
-    bool escape;               /* within a colour, which a transcript does without */
-    bool lost;                 /* the file cannot be written any more */
+    bool escape; /* within a colour, which a transcript does without */
+    bool lost;   /* the file cannot be written any more */
 };
 
 /* Does the recorder pass on to standard output? */
