@@ -9,7 +9,7 @@
 #include "commands/expressions.h"
 #include "commands/figures.h"
 #include "commands/panel.h"
-#include "language/along.h"
+#include "language/trial.h"
 #include "number/array.h"
 #include "statement/answer.h"
 #include "statement/progress.h"
