@@ -61,7 +61,8 @@ typedef struct assignment {
     definition *d; /* live, or a function */
 } assignment;
 
-static bool is_list(const lexer *lx, token_kind *then) {
+/* Is it NAME(X, ...) = or NAME(X, ...) :=? */
+static bool is_function(const lexer *lx) {
     lexer scan = *lx;
     scan.error = error_quiet();
     for (lex_next(&scan); scan.kind == T_OPEN || scan.kind == T_COMMA;) {
@@ -72,17 +73,12 @@ static bool is_list(const lexer *lx, token_kind *then) {
     }
     if (scan.kind != T_CLOSE)
         return false;
-    *then = lex_peek(&scan);
-    return *then == T_ASSIGN || *then == T_DEFINE;
+    const token_kind then = lex_peek(&scan);
+    return then == T_ASSIGN || then == T_DEFINE;
 }
 
 bool assign_at(const lexer *lx) {
-    if (lx->kind != T_NAME)
-        return false;
-    token_kind next = lex_peek(lx);
-    if (next == T_OPEN)
-        return is_list(lx, &next);
-    return next == T_ASSIGN || next == T_INCREMENT || next == T_DEFINE;
+    return lex_assigns(lx) || (lx->kind == T_NAME && lex_peek(lx) == T_OPEN && is_function(lx));
 }
 
 /* What has been typed, as the command that does it. */
@@ -234,7 +230,6 @@ static bool read_assignments(calc *c, lexer *lx, assignment *all, size_t *count)
 /* ---- what they do ------------------------------------------------------------------------------ */
 
 typedef struct assigned {
-    calc *c;
     const assignment *all;
     size_t count;
     const assignment *but; /* not this one */
@@ -276,7 +271,7 @@ static bool press_with(scene *s, assigned job, const assignment *FN, calc_error 
     press.normal_value = (double)force;
     ok = ok && scene_load(s, &press, NULL, error);
     if (ok && FN->d) {
-        job = (assigned){job.c, FN, 1, NULL};
+        job = (assigned){FN, 1, NULL};
         ok = scene_edit(s, put_assigned, &job, error);
     }
     return ok;
@@ -389,14 +384,8 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
     return !a->d || name_holds(c, lx, a);
 }
 
-static void nothing(inputs *in, void *context) {
-    (void)in, (void)context;
-}
-
-static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
-    size_t inputs_count = 0;
-    for (size_t i = 0; i < count; i++)
-        inputs_count += all[i].q != NULL;
+/* of_scene: inputs are among them. */
+static bool put_all(calc *c, lexer *lx, assignment *all, size_t count, bool of_scene) {
     if (!power_holds(c, lx, all, count))
         return false;
     for (size_t i = 0; i < count; i++) { /* += of an input */
@@ -412,10 +401,10 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (!all[i].q && !put_name(c, lx, &all[i]))
             return false;
-    assigned job = {c, all, count, NULL};
+    assigned job = {all, count, NULL};
     scene *s = &c->scene;
-    if (inputs_count == 0) /* what is bound may have moved with the names */
-        return s->in.bindings == 0 || scene_edit(s, nothing, NULL, lx->error);
+    if (!of_scene && !s->in.bindings) /* else what is bound may have moved with the names */
+        return true;
     const assignment *FN = s->end.steps ? NULL : of_input(all, count, IN_FN);
     if (FN)
         return press_with(s, job, FN, lx->error);
@@ -435,7 +424,7 @@ static bool put_undoable(calc *c, lexer *lx, assignment *all, size_t count) {
     scene_mark *before = of_scene ? undo_mark(c) : NULL;
     if (of_scene && !before)
         return calc_no_memory(lx->error);
-    bool ok = put_all(c, lx, all, count);
+    bool ok = put_all(c, lx, all, count, of_scene);
     if (of_scene && ok)
         undo_scene(c, before);
     else if (of_scene)

@@ -317,6 +317,11 @@ token_kind lex_peek(const lexer *lx) {
     return letter(c) ? T_NAME : digit(c) ? T_NUMBER : (token_kind)(unsigned char)c;
 }
 
+bool lex_assigns(const lexer *lx) {
+    const token_kind next = lx->kind == T_NAME ? lex_peek(lx) : T_END;
+    return next == T_ASSIGN || next == T_INCREMENT || next == T_DEFINE;
+}
+
 bool lex_filename(lexer *lx, char *buf, size_t size) {
     size_t at = lx->at, n = 0;
     bool quoted = at < lx->end && lx->text[at] == '"';

@@ -58,6 +58,8 @@ void lex_word(const lexer *lx, char word[LEX_NAME]);
 bool lex_whole(lexer *lx, const char *what, char word[LEX_NAME]);
 /* The kind of the token after the cursor. */
 token_kind lex_peek(const lexer *lx);
+/* Is the cursor on NAME =, NAME += or NAME :=? */
+bool lex_assigns(const lexer *lx);
 /* A file name: a string, or all up to white space. False: none there. */
 bool lex_filename(lexer *lx, char *buf, size_t size);
 
