@@ -283,38 +283,36 @@ static bool amplitude_is_left(const calc_error *error, const assignment *all, si
            error->status.code == FRET_GROSS_SLIP && !strcmp(error->status.quantity, "FA");
 }
 
-/* A live definition may wait for what it needs, but not for itself; nor can its dimensions be mended later.
- */
-static bool definition_fails(calc *c, lexer *lx, const assignment *a, calc_error *error) {
-    if (!error->circle && !error->strange)
-        return false;
-    calc_word(c, error);
-    calc_fail(lx->error, a->value_at, a->value_len, "%s", error->text);
-    return true;
-}
-
-static bool binding_holds(calc *c, lexer *lx, const assignment *a) {
-    const input in = quantity_input(a->q);
+/* Tried as it stands, where nothing bound has its value yet: a circle through what inputs are bound to shows
+ * only so. It may wait for what it needs, but not for itself; nor can its dimensions be mended later. */
+static bool definition_holds(calc *c, lexer *lx, const assignment *a) {
     calc_error error;
-    long double unused;
+    long double number;
     value v;
     scene probe, *outer = c->now;
+    if (a->d->parameters)
+        return true;
     error_clear(&error);
-    scene_clone(&probe, &c->scene);
-    inputs_bind(&probe.in, in, counted_hold(&a->d->base));
-    scene_forget(&probe, false); /* nor is what it was bound to before */
+    scene_clone(&probe, outer);
+    if (a->q)
+        inputs_bind(&probe.in, quantity_input(a->q), counted_hold(&a->d->base));
+    scene_forget(&probe, false);
     c->now = &probe;
-    const bool ok = scene_get(&probe, in, &unused, &error) || error.strange;
+    const bool ok = a->q ? scene_get(&probe, quantity_input(a->q), &number, &error)
+                         : definition_value(c, a->d, &v, &error);
     c->now = outer;
-    if (ok && definition_value(c, a->d, &v, error_quiet()))
+    if (a->q && (ok || error.strange) && definition_value(c, a->d, &v, error_quiet()))
         (void)value_dim(lx, a->q->name, a->value_at, a->value_len, v, quantity_dim(a->q, &c->scene));
     scene_free(&probe);
-    return !lx->error->raised && !definition_fails(c, lx, a, &error);
+    if (!error.circle && !error.strange)
+        return !lx->error->raised;
+    calc_word(c, &error);
+    return calc_fail(lx->error, a->value_at, a->value_len, "%s", error.text);
 }
 
 static bool bindings_hold(calc *c, lexer *lx, const assignment *all, size_t count) {
     for (size_t i = 0; i < count; i++)
-        if (all[i].d && all[i].q && !binding_holds(c, lx, &all[i]))
+        if (all[i].d && all[i].q && !definition_holds(c, lx, &all[i]))
             return false;
     return true;
 }
@@ -346,23 +344,6 @@ static void note_new_name(calc *c, const char *text, size_t len) {
         snprintf(c->note, sizeof c->note, "new variable %.*s; did you mean %s?", LEX_SHOWN(len), text, near);
 }
 
-/* Tried as it stands: a circle through what inputs are bound to shows only so. */
-static bool name_holds(calc *c, lexer *lx, const assignment *a) {
-    calc_error error;
-    value unused;
-    error_clear(&error);
-    if (a->d->parameters)
-        return true;
-    scene probe, *outer = c->now; /* where nothing bound has its value yet */
-    scene_clone(&probe, outer);
-    probe.settled = 0;
-    c->now = &probe;
-    bool ok = definition_value(c, a->d, &unused, &error) || !definition_fails(c, lx, a, &error);
-    c->now = outer;
-    scene_free(&probe);
-    return ok;
-}
-
 static bool put_name(calc *c, lexer *lx, const assignment *a) {
     size_t i = a->own;
     char way[CALC_ERROR_TEXT / 2];
@@ -381,7 +362,7 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
     if (!undo_name(c, i))
         return calc_no_memory(lx->error);
     names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);
-    return !a->d || name_holds(c, lx, a);
+    return !a->d || definition_holds(c, lx, a);
 }
 
 /* of_scene: inputs are among them. */
