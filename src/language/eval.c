@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The values of expressions. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -24,20 +23,7 @@ static bool run_nodes(machine *m, value *out);
 /* ---- errors ------------------------------------------------------------------------------------ */
 
 /* In a dry run only dimensions can be wrong. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-static bool
-bad_value(machine *m, const expr_node *n, const char *format, ...) {
-    if (m->dry)
-        return true;
-    va_list args;
-    va_start(args, format);
-    char text[256];
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    return calc_fail(m->error, n->at, n->len, "%s", text);
-}
+#define bad_value(m, n, ...) ((m)->dry || calc_fail((m)->error, (n)->at, (n)->len, __VA_ARGS__))
 
 static bool dims_differ(machine *m, const expr_node *n, const char *verb, const expr_node *a, dim da,
                         const char *link, const expr_node *b, dim db) {

@@ -306,18 +306,16 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
     snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + lx->at);
     lx->len = len;
     if (!row->noun) { /* one of few */
-        for (size_t i = 0; row->words(i); i++)
-            snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s %s",
-                     !i                  ? ""
-                     : row->words(i + 1) ? ", "
-                                         : " or ",
-                     h->of->name, row->words(i));
+        for (size_t i = 0; row->words(i); i++) {
+            snprintf(word, sizeof word, "%s %s", h->of->name, row->words(i));
+            list_word(list, sizeof list, word, !row->words(i + 1));
+        }
         return lex_fail(lx, "expected %s", list);
     }
     for (size_t i = 0; i < LISTED && row->words(i); i++)
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", row->words(i));
+        list_word(list, sizeof list, row->words(i), false);
     if (row->words(LISTED))
-        snprintf(list + strlen(list), sizeof list - strlen(list), ", ...");
+        list_word(list, sizeof list, "...", false);
     if (!len)
         return lex_fail(lx, "which %s? one of %s", row->noun, list);
     const char *lead = lead_from(word), *near = lead ? lead : suggest(word, row->words);

@@ -4,7 +4,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,15 +21,8 @@ static bool blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-void lex_raise(lexer *lx, const char *format, ...) {
-    char text[CALC_ERROR_TEXT];
-    va_list args;
-    if (lx->error->raised)
-        return;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    calc_raise(lx->error, lx->at, lx->len + (lx->part && lx->kind == T_END && lx->len == 0), "%s", text);
+size_t lex_width(const lexer *lx) {
+    return lx->len + (lx->part && lx->kind == T_END && lx->len == 0);
 }
 
 void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {

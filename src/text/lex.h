@@ -74,11 +74,8 @@ bool lex_one_value(lexer *lx);
  * without a point, of which two stand for a range, and an exponent. */
 size_t lex_decimal(const char *text, size_t len, char point, int shift, double *out);
 
-/* Records an error at the cursor. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-void lex_raise(lexer *lx, const char *format, ...);
-#define lex_fail(...) (lex_raise(__VA_ARGS__), calc_refused())
+/* Records an error at the cursor, which is so wide; false. */
+#define lex_fail(lx, ...) calc_fail((lx)->error, (lx)->at, lex_width(lx), __VA_ARGS__)
+size_t lex_width(const lexer *lx);
 
 #endif

@@ -163,17 +163,10 @@ static const struct named *find_named(dim d) {
     return NULL;
 }
 
-/* snprintf would do, in 40 ns */
-static void put_text(const char *text, char *buf, size_t size) {
-    size_t n = strlen(text) < size ? strlen(text) : size - 1;
-    memcpy(buf, text, n);
-    buf[n] = 0;
-}
-
 void dim_unit(dim d, char *buf, size_t size) {
     const struct named *row = find_named(d);
     if (row) {
-        put_text(row->unit, buf, size);
+        snprintf(buf, size, "%s", row->unit);
         return;
     }
     const struct {
@@ -200,7 +193,7 @@ void dim_describe(dim d, char *buf, size_t size) {
     const struct named *row = find_named(d);
     char unit_text[96];
     if (row) {
-        put_text(row->phrase, buf, size);
+        snprintf(buf, size, "%s", row->phrase);
         return;
     }
     dim_unit(d, unit_text, sizeof unit_text);
@@ -214,7 +207,7 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
     } steps[] = {{"G", 1e9L}, {"M", 1e6L}, {"k", 1e3L}, {"", 1}, {"m", 1e-3L}, {"u", 1e-6L}, {"n", 1e-9L}};
     enum { STEPS = sizeof steps / sizeof *steps };
     if (dim_is_angle(d)) {
-        put_text("deg", buf, size);
+        snprintf(buf, size, "deg");
         return 3.14159265358979323846264338327950288L / 180;
     }
     dim_unit(d, buf, size);
@@ -231,8 +224,7 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
         j++;
     if (j == STEPS || fabsl(value) >= 1e12L)
         return 1;
-    put_text(steps[j].name, buf, size);
-    put_text(row->unit, buf + strlen(buf), size - strlen(buf));
+    snprintf(buf, size, "%s%s", steps[j].name, row->unit);
     return steps[j].scale;
 }
 
