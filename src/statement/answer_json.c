@@ -129,19 +129,10 @@ static void put_json_row(answer *a, const long double *si) {
     end_line(a);
 }
 
-static void put_json_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
-    open_event(a, "event", event);
-    begin_part(a, "columns", '{');
-    for (size_t i = 0; i < count; i++)
-        put_text(a, heads[i].name, heads[i].unit);
-    end_part(a);
-    end_line(a);
-}
-
-static void put_json_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
+static void put_json_cells(answer *a, const answer_cell *cells) {
     begin_object(a);
-    for (size_t i = 0; i < count; i++)
-        put_member(a, heads[i].name, &cells[i]);
+    for (size_t i = 0; i < a->count; i++)
+        put_member(a, a->columns[i].name, &cells[i]);
     end_line(a);
 }
 
@@ -157,6 +148,5 @@ const answer_form answer_as_json = {
     .up = end_part,
     .columns = put_json_columns,
     .row = put_json_row,
-    .heads = put_json_heads,
     .cells = put_json_cells,
 };

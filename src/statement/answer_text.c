@@ -32,7 +32,7 @@ static void put_beside(answer *a, const column *c, const estimate *e) {
 static void put_quantity(answer *a, const char *name, value v) {
     char text[160];
     const quantity *q = quantity_find(name, strlen(name));
-    format_row(a->set, v, q ? q->unit : NULL, text, sizeof text);
+    format_column(&(column){.d = v.d, .row = q ? q->unit : NULL}, a->set->digits, v.v, text, sizeof text);
     if (a->layout == LAYOUT_PAGE)
         fprintf(a->to, "    %s = %s\n", name, text);
     else

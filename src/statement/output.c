@@ -58,11 +58,7 @@ long double column_unit(const column *c, long double v, int digits, char unit_te
 }
 
 void format_value(const settings *set, value v, char *buf, size_t size) {
-    format_row(set, v, NULL, buf, size);
-}
-
-void format_row(const settings *set, value v, const char *row, char *buf, size_t size) {
-    format_column(&(column){.d = v.d, .row = row}, set->digits, v.v, buf, size);
+    format_column(&(column){.d = v.d}, set->digits, v.v, buf, size);
 }
 
 void format_column(const column *c, int digits, long double si, char *buf, size_t size) {
@@ -106,7 +102,7 @@ void format_exact(value v, char *buf, size_t size) {
     enum { LEAST = 6, MOST = 17 };
     const double want = (double)v.v;
     for (int digits = LEAST; digits <= MOST; digits++) {
-        format_row(&(settings){.digits = digits}, v, NULL, buf, size);
+        format_value(&(settings){.digits = digits}, v, buf, size);
         if (read_back(buf) == want)
             return;
     }

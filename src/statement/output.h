@@ -38,9 +38,8 @@ void print_number(FILE *to, int width, int digits, double v);
 double round_up(double v);
 /* The unit that readers are shown a column in: its scale. v: what it is to suit. */
 long double column_unit(const column *c, long double v, int digits, char unit_text[COLUMN_UNIT]);
-/* A value with a unit chosen for it, as text; or in the unit of a row, if it has one. */
+/* A value with a unit chosen for it, as text. */
 void format_value(const settings *set, value v, char *buf, size_t size);
-void format_row(const settings *set, value v, const char *row, char *buf, size_t size);
 enum { COLUMN_TEXT = NUMBER_TEXT + COLUMN_UNIT };
 void format_column(const column *c, int digits, long double si, char *buf, size_t size);
 /* A value and its standard error; where the interval is another one, how far down and up that goes. */
