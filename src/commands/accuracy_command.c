@@ -121,8 +121,7 @@ enum { SHORT = 40 };
 /* For readers. */
 #define WORDS_OF_ROW "%-18s %12s %*s %9s %10s %10s\n"
 
-static void say_row(answer *out, const accuracy_study *study, const accuracy_row *row, long double scale,
-                    const answer_head heads[HEADS]) {
+static void say_row(answer *out, const accuracy_study *study, const accuracy_row *row, long double scale) {
     const double ratio = row->seconds / fastest(study);
     char parameter[SHORT], number[NUMBER_TEXT], error[SHORT], t[SHORT], times[SHORT];
     describe_size(row, parameter, sizeof parameter);
@@ -138,7 +137,7 @@ static void say_row(answer *out, const accuracy_study *study, const accuracy_row
         [HEAD_BOUND] = {CELL_FLAG, .v = {.v = row->below}},
         [HEAD_SECONDS] = {CELL_NUMBER, .v = {.v = row->seconds}, .digits = 3},
         [HEAD_RATIO] = {CELL_NUMBER, .v = {.v = ratio}, .digits = 3}};
-    answer_cells(out, heads, cells, HEADS);
+    answer_cells(out, cells);
     answer_words(out, WORDS_OF_ROW, families[row->family].name, parameter, out->set->digits + 7, number,
                  error, t, times);
 }
@@ -146,18 +145,21 @@ static void say_row(answer *out, const accuracy_study *study, const accuracy_row
 static void say_table(answer *out, const accuracy_study *study, long double scale, const char *unit_text) {
     char dW[COLUMN_UNIT + 8];
     snprintf(dW, sizeof dW, "dW [%s]", unit_text);
-    static const answer_head heads[HEADS] = {[HEAD_MODEL] = {"model", "", NULL},
-                                             [HEAD_PARAMETER] = {"parameter", "", NULL},
-                                             [HEAD_VALUE] = {"value", "J", NULL},
-                                             [HEAD_ERROR] = {"error", "", NULL},
-                                             [HEAD_BOUND] = {"bound", "", "error is a bound"},
-                                             [HEAD_SECONDS] = {"seconds", "s", "seconds"},
-                                             [HEAD_RATIO] = {"ratio", "", NULL}};
-    answer_heads(out, "accuracy", heads, HEADS);
+    const int format = out->set->format;
+    const column columns[HEADS] = {
+        [HEAD_MODEL] = {.name = "model"},
+        [HEAD_PARAMETER] = {.name = "parameter"},
+        [HEAD_VALUE] = {.name = "value", .unit = "J", .d = DIM_ENERGY},
+        [HEAD_ERROR] = {.name = "error"},
+        [HEAD_BOUND] = {.name = format == FORMAT_CSV ? "error is a bound" : "bound"},
+        [HEAD_SECONDS] = {.name = "seconds", .d = DIM_TIME},
+        [HEAD_RATIO] = {.name = "ratio"}};
+    if (format != FORMAT_TEXT)
+        answer_columns(out, "accuracy", columns, HEADS);
     answer_words(out, WORDS_OF_ROW, "model", "parameter", out->set->digits + 7, dW, "error", "time/cycle",
                  "x fastest");
     for (size_t i = 0; i < study->count; i++)
-        say_row(out, study, &study->row[i], scale, heads);
+        say_row(out, study, &study->row[i], scale);
 }
 
 static void say_study(shell *sh, const accuracy_study *study) {

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "scene/quantity.h"
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 /* ---- using ------------------------------------------------------------------------------------- */
 

@@ -7,7 +7,6 @@
 
 #include "commands/range.h"
 #include "commands/tables.h"
-#include "language/along.h"
 #include "language/trial.h"
 #include "scene/functions.h"
 #include "statement/command.h"

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 static bool read_unit(lexer *lx, column *c) {
     const size_t at = lx->at;

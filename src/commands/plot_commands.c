@@ -9,7 +9,7 @@
 #include "commands/expressions.h"
 #include "commands/figures.h"
 #include "commands/panel.h"
-#include "language/along.h"
+#include "language/trial.h"
 #include "number/array.h"
 #include "statement/answer.h"
 #include "statement/progress.h"
@@ -53,7 +53,7 @@ static char *caption_of(shell *sh, int columns) {
     file_text kept, wrapped;
     if (!file_text_open(&kept))
         return NULL;
-    const bool ok = sh->write_scene(&sh->calc, &sh->set, kept.to, false);
+    const bool ok = sh->write_scene(sh, kept.to, false);
     fputs("fret " FRET_VERSION "\n", kept.to);
     if (!file_text_close(&kept))
         return NULL;

@@ -53,7 +53,7 @@ static void explain_value(const page *p, const char *name, size_t len, value v, 
         calc_raise_memory(p->error);
         return;
     }
-    format_row(&p->sh->set, v, row, text, sizeof text);
+    format_column(&(column){.d = v.d, .row = row}, p->sh->set.digits, v.v, text, sizeof text);
     dim_unit(v.d, unit_text, sizeof unit_text);
     answer_words(p->out, "    %s = %s\n", whole, text);
     answer_string(p->out, "expression", whole);

@@ -20,6 +20,8 @@ typedef struct side {
 /* ---- life -------------------------------------------------------------------------------------- */
 
 static void side_free(side *s) {
+    if (!s)
+        return;
     beside_end(&s->beside);
     trace_end(&s->along);
     trace_end(&s->once);
@@ -28,8 +30,10 @@ static void side_free(side *s) {
 }
 
 void beside_end(beside *b) {
-    while (b->count)
-        side_free(b->side[--b->count]);
+    for (size_t i = 0; i < SIDES; i++) {
+        side_free(b->side[i]);
+        b->side[i] = NULL;
+    }
 }
 
 static bool same_changes(const side *s, const knob_value by[], size_t count) {
@@ -42,34 +46,22 @@ static bool same_changes(const side *s, const knob_value by[], size_t count) {
     return same;
 }
 
-static side *side_make(beside *b, const scene *changed, const knob_value by[], size_t count) {
-    side *s = calloc(1, sizeof *s);
+/* The oldest makes room. */
+static side *side_find(beside *b, const scene *changed, const knob_value by[], size_t count) {
+    for (size_t i = 0; i < SIDES && b->side[i]; i++)
+        if (same_changes(b->side[i], by, count))
+            return b->side[i];
+    side *s = calloc(1, sizeof *s), **at = &b->side[b->made % SIDES];
     if (!s)
         return NULL;
-    if (b->count == SIDES)
-        side_free(b->side[--b->count]);
+    side_free(*at);
     scene_clone(&s->scene, changed);
     s->scene.now = NULL;
     memcpy(s->by, by, count * sizeof *by);
     s->count = count;
     s->beside.looks = b->looks;
-    b->side[b->count++] = s;
-    return s;
-}
-
-/* To the front. */
-static side *side_find(beside *b, const scene *changed, const knob_value by[], size_t count) {
-    size_t i = 0;
-    while (i < b->count && !same_changes(b->side[i], by, count))
-        i++;
-    if (i == b->count) {
-        if (!side_make(b, changed, by, count))
-            return NULL;
-        i = b->count - 1;
-    }
-    side *s = b->side[i];
-    memmove(b->side + 1, b->side, i * sizeof *b->side);
-    return b->side[0] = s;
+    b->made++;
+    return *at = s;
 }
 
 /* ---- running along ----------------------------------------------------------------------------- */

@@ -9,8 +9,8 @@
 enum { SIDES = 16 };
 typedef struct beside {
     watch looks;              /* of that run: watch_times */
-    struct side *side[SIDES]; /* the one that was asked last comes first */
-    size_t count;
+    struct side *side[SIDES]; /* those made last */
+    size_t made;
 } beside;
 
 /* What expressions are to see: the scene with these changes, given without them having been run, at this

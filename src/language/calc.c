@@ -61,7 +61,8 @@ typedef struct assignment {
     definition *d; /* live, or a function */
 } assignment;
 
-static bool is_list(const lexer *lx, token_kind *then) {
+/* Is it NAME(X, ...) = or NAME(X, ...) :=? */
+static bool is_function(const lexer *lx) {
     lexer scan = *lx;
     scan.error = error_quiet();
     for (lex_next(&scan); scan.kind == T_OPEN || scan.kind == T_COMMA;) {
@@ -72,17 +73,12 @@ static bool is_list(const lexer *lx, token_kind *then) {
     }
     if (scan.kind != T_CLOSE)
         return false;
-    *then = lex_peek(&scan);
-    return *then == T_ASSIGN || *then == T_DEFINE;
+    const token_kind then = lex_peek(&scan);
+    return then == T_ASSIGN || then == T_DEFINE;
 }
 
 bool assign_at(const lexer *lx) {
-    if (lx->kind != T_NAME)
-        return false;
-    token_kind next = lex_peek(lx);
-    if (next == T_OPEN)
-        return is_list(lx, &next);
-    return next == T_ASSIGN || next == T_INCREMENT || next == T_DEFINE;
+    return lex_assigns(lx) || (lx->kind == T_NAME && lex_peek(lx) == T_OPEN && is_function(lx));
 }
 
 /* What has been typed, as the command that does it. */
@@ -234,7 +230,6 @@ static bool read_assignments(calc *c, lexer *lx, assignment *all, size_t *count)
 /* ---- what they do ------------------------------------------------------------------------------ */
 
 typedef struct assigned {
-    calc *c;
     const assignment *all;
     size_t count;
     const assignment *but; /* not this one */
@@ -276,7 +271,7 @@ static bool press_with(scene *s, assigned job, const assignment *FN, calc_error 
     press.normal_value = (double)force;
     ok = ok && scene_load(s, &press, NULL, error);
     if (ok && FN->d) {
-        job = (assigned){job.c, FN, 1, NULL};
+        job = (assigned){FN, 1, NULL};
         ok = scene_edit(s, put_assigned, &job, error);
     }
     return ok;
@@ -288,38 +283,36 @@ static bool amplitude_is_left(const calc_error *error, const assignment *all, si
            error->status.code == FRET_GROSS_SLIP && !strcmp(error->status.quantity, "FA");
 }
 
-/* A live definition may wait for what it needs, but not for itself; nor can its dimensions be mended later.
- */
-static bool definition_fails(calc *c, lexer *lx, const assignment *a, calc_error *error) {
-    if (!error->circle && !error->strange)
-        return false;
-    calc_word(c, error);
-    calc_fail(lx->error, a->value_at, a->value_len, "%s", error->text);
-    return true;
-}
-
-static bool binding_holds(calc *c, lexer *lx, const assignment *a) {
-    const input in = quantity_input(a->q);
+/* Tried as it stands, where nothing bound has its value yet: a circle through what inputs are bound to shows
+ * only so. It may wait for what it needs, but not for itself; nor can its dimensions be mended later. */
+static bool definition_holds(calc *c, lexer *lx, const assignment *a) {
     calc_error error;
-    long double unused;
+    long double number;
     value v;
     scene probe, *outer = c->now;
+    if (a->d->parameters)
+        return true;
     error_clear(&error);
-    scene_clone(&probe, &c->scene);
-    inputs_bind(&probe.in, in, counted_hold(&a->d->base));
-    scene_forget(&probe, false); /* nor is what it was bound to before */
+    scene_clone(&probe, outer);
+    if (a->q)
+        inputs_bind(&probe.in, quantity_input(a->q), counted_hold(&a->d->base));
+    scene_forget(&probe, false);
     c->now = &probe;
-    const bool ok = scene_get(&probe, in, &unused, &error) || error.strange;
+    const bool ok = a->q ? scene_get(&probe, quantity_input(a->q), &number, &error)
+                         : definition_value(c, a->d, &v, &error);
     c->now = outer;
-    if (ok && definition_value(c, a->d, &v, error_quiet()))
+    if (a->q && (ok || error.strange) && definition_value(c, a->d, &v, error_quiet()))
         (void)value_dim(lx, a->q->name, a->value_at, a->value_len, v, quantity_dim(a->q, &c->scene));
     scene_free(&probe);
-    return !lx->error->raised && !definition_fails(c, lx, a, &error);
+    if (!error.circle && !error.strange)
+        return !lx->error->raised;
+    calc_word(c, &error);
+    return calc_fail(lx->error, a->value_at, a->value_len, "%s", error.text);
 }
 
 static bool bindings_hold(calc *c, lexer *lx, const assignment *all, size_t count) {
     for (size_t i = 0; i < count; i++)
-        if (all[i].d && all[i].q && !binding_holds(c, lx, &all[i]))
+        if (all[i].d && all[i].q && !definition_holds(c, lx, &all[i]))
             return false;
     return true;
 }
@@ -351,23 +344,6 @@ static void note_new_name(calc *c, const char *text, size_t len) {
         snprintf(c->note, sizeof c->note, "new variable %.*s; did you mean %s?", LEX_SHOWN(len), text, near);
 }
 
-/* Tried as it stands: a circle through what inputs are bound to shows only so. */
-static bool name_holds(calc *c, lexer *lx, const assignment *a) {
-    calc_error error;
-    value unused;
-    error_clear(&error);
-    if (a->d->parameters)
-        return true;
-    scene probe, *outer = c->now; /* where nothing bound has its value yet */
-    scene_clone(&probe, outer);
-    probe.settled = 0;
-    c->now = &probe;
-    bool ok = definition_value(c, a->d, &unused, &error) || !definition_fails(c, lx, a, &error);
-    c->now = outer;
-    scene_free(&probe);
-    return ok;
-}
-
 static bool put_name(calc *c, lexer *lx, const assignment *a) {
     size_t i = a->own;
     char way[CALC_ERROR_TEXT / 2];
@@ -386,17 +362,11 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
     if (!undo_name(c, i))
         return calc_no_memory(lx->error);
     names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);
-    return !a->d || name_holds(c, lx, a);
+    return !a->d || definition_holds(c, lx, a);
 }
 
-static void nothing(inputs *in, void *context) {
-    (void)in, (void)context;
-}
-
-static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
-    size_t inputs_count = 0;
-    for (size_t i = 0; i < count; i++)
-        inputs_count += all[i].q != NULL;
+/* of_scene: inputs are among them. */
+static bool put_all(calc *c, lexer *lx, assignment *all, size_t count, bool of_scene) {
     if (!power_holds(c, lx, all, count))
         return false;
     for (size_t i = 0; i < count; i++) { /* += of an input */
@@ -412,10 +382,10 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (!all[i].q && !put_name(c, lx, &all[i]))
             return false;
-    assigned job = {c, all, count, NULL};
+    assigned job = {all, count, NULL};
     scene *s = &c->scene;
-    if (inputs_count == 0) /* what is bound may have moved with the names */
-        return s->in.bindings == 0 || scene_edit(s, nothing, NULL, lx->error);
+    if (!of_scene && !s->in.bindings) /* else what is bound may have moved with the names */
+        return true;
     const assignment *FN = s->end.steps ? NULL : of_input(all, count, IN_FN);
     if (FN)
         return press_with(s, job, FN, lx->error);
@@ -435,7 +405,7 @@ static bool put_undoable(calc *c, lexer *lx, assignment *all, size_t count) {
     scene_mark *before = of_scene ? undo_mark(c) : NULL;
     if (of_scene && !before)
         return calc_no_memory(lx->error);
-    bool ok = put_all(c, lx, all, count);
+    bool ok = put_all(c, lx, all, count, of_scene);
     if (of_scene && ok)
         undo_scene(c, before);
     else if (of_scene)

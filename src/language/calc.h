@@ -34,7 +34,7 @@ typedef struct calc {
     undo undo;
     value ans; /* the last value printed */
     bool has_ans;
-    unsigned cores;                 /* that studies may keep busy; 0: all there are */
+    int cores;                      /* that studies may keep busy; 0: all there are */
     char note[CALC_NOTE];           /* something to be told that is no error; empty: nothing */
     expr scratch;                   /* storage of expr_value */
     const definition *chain[CHAIN]; /* being evaluated */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The values of expressions. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -24,20 +23,7 @@ static bool run_nodes(machine *m, value *out);
 /* ---- errors ------------------------------------------------------------------------------------ */
 
 /* In a dry run only dimensions can be wrong. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-static bool
-bad_value(machine *m, const expr_node *n, const char *format, ...) {
-    if (m->dry)
-        return true;
-    va_list args;
-    va_start(args, format);
-    char text[256];
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    return calc_fail(m->error, n->at, n->len, "%s", text);
-}
+#define bad_value(m, n, ...) ((m)->dry || calc_fail((m)->error, (n)->at, (n)->len, __VA_ARGS__))
 
 static bool dims_differ(machine *m, const expr_node *n, const char *verb, const expr_node *a, dim da,
                         const char *link, const expr_node *b, dim db) {
@@ -60,27 +46,6 @@ static bool dim_wrong(machine *m, const expr_node *n, dim d, const char *wants) 
 
 /* ---- operators and elementary functions -------------------------------------------------------- */
 
-/* The numbers alone; where they are not defined, they are not finite. */
-static long double real_value(const expr_node *n, long double a, long double b) {
-    if (n->kind == N_NEGATE)
-        return -a;
-    if (n->kind == N_BUILTIN)
-        return builtin_row(n->index)->f2 ? builtin_row(n->index)->f2(a, b) : builtin_row(n->index)->f(a);
-    switch (n->op) {
-    case '+':
-        return a + b;
-    case '-':
-        return a - b;
-    case '*':
-    case 'U':
-        return a * b;
-    case '/':
-        return a / b;
-    default:
-        return powl(a, b);
-    }
-}
-
 static bool is_bare_zero(const expr_node *n, value v) {
     return n->kind == N_NUMBER && v.v == 0 && dim_equal(v.d, DIM_NONE);
 }
@@ -88,10 +53,10 @@ static bool is_bare_zero(const expr_node *n, value v) {
 static bool binary(machine *m, const expr_node *n, value *out) {
     const expr_node *l = &m->e->nodes[n->left], *r = &m->e->nodes[n->right];
     value a = l->v, b = r->v;
-    out->v = real_value(n, a.v, b.v);
     switch (n->op) {
     case '+':
     case '-':
+        out->v = n->op == '+' ? a.v + b.v : a.v - b.v;
         if (!dim_equal(a.d, b.d)) {
             if (is_bare_zero(r, b))
                 b.d = a.d;
@@ -104,6 +69,7 @@ static bool binary(machine *m, const expr_node *n, value *out) {
         out->d = a.d.rad != 0 ? a.d : b.d;
         break;
     case '*':
+        out->v = a.v * b.v;
         out->d = dim_product(a.d, b.d);
         break;
     case 'U':
@@ -113,6 +79,7 @@ static bool binary(machine *m, const expr_node *n, value *out) {
         *out = n->op == '?' && m->over ? (value){a.v / b.v, dim_power(b.d, -1)} : (value){a.v * b.v, b.d};
         break;
     case '/':
+        out->v = a.v / b.v;
         if (b.v == 0 && !bad_value(m, r, "division by zero"))
             return false;
         out->d = dim_product(a.d, dim_power(b.d, -1));
@@ -120,6 +87,7 @@ static bool binary(machine *m, const expr_node *n, value *out) {
     default:
         if (!dim_equal(b.d, DIM_NONE))
             return dim_wrong(m, r, b.d, "the exponent must be a number");
+        out->v = powl(a.v, b.v);
         out->d = dim_power(a.d, (double)b.v);
         if (a.v < 0 && b.v != floorl(b.v))
             return bad_value(m, n, "a negative number has no real power %Lg", b.v);
@@ -135,7 +103,7 @@ static bool call_builtin(machine *m, const expr_node *n, value *out) {
     const expr_node *l = &m->e->nodes[n->left], *r = &m->e->nodes[n->right];
     value a = l->v, b = r->v;
     char wants[64];
-    *out = (value){real_value(n, a.v, b.v), DIM_NONE};
+    *out = (value){function->f2 ? function->f2(a.v, b.v) : function->f(a.v), DIM_NONE};
     switch (function->d) {
     case DIM_SHARED:
         out->d = a.d;
@@ -442,7 +410,7 @@ static bool eval(machine *m, const expr_node *n, value *out) {
         return m->c->has_ans || calc_fail(m->error, n->at, n->len, "nothing has been printed yet");
     case N_NEGATE:
         out->d = m->e->nodes[n->left].v.d;
-        out->v = real_value(n, m->e->nodes[n->left].v.v, 0);
+        out->v = -m->e->nodes[n->left].v.v;
         return true;
     case N_QUANTITY:
         *out = (value){1, quantity_dim(n->q, m->c->now)};

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "language/along.h"
 #include "number/integral.h"
 #include "number/real.h"
 

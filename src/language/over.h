@@ -4,7 +4,7 @@
 #ifndef LANGUAGE_OVER_H
 #define LANGUAGE_OVER_H
 
-#include "language/along.h"
+#include "language/trial.h"
 
 typedef struct over {
     trial *t;

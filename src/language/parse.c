@@ -8,7 +8,7 @@
 #include "language/trial.h"
 #include "number/array.h"
 #include "text/characters.h"
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 enum {
     DEPTH_LIMIT = 200,    /* of nesting: the parser recurses */
@@ -29,29 +29,11 @@ typedef struct parser {
     const definition *within; /* its parameters are names */
     int depth;
     const struct bound *bound; /* names of the ranges around it */
+    size_t plain;              /* there is no `at` before */
     bool bare;                 /* a unit behind the number at the cursor belongs to more than that */
 } parser;
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
-
-/* How many values a node takes from the nodes before it. */
-static size_t operands(const expr_node *n) {
-    switch ((node_kind)n->kind) {
-    case N_BINARY:
-        return 2;
-    case N_BUILTIN:
-        return builtin_row(n->index)->f2 ? 2 : 1;
-    case N_NEGATE:
-        return 1;
-    default:
-        return 0;
-    }
-}
-
-/* Does it take them from a list? */
-static bool is_listed(const expr_node *n) {
-    return n->kind == N_CALL || n->kind == N_APPLY;
-}
 
 static bool add_node(parser *p, const expr_node *node, size_t *index) {
     expr *e = p->e;
@@ -95,41 +77,6 @@ void expr_free(expr *e) {
 static bool parse_sum(parser *p, size_t *out);
 static bool parse_whole(parser *p);
 
-/* The nodes from `first` on become an expression of their own. */
-static bool split_tail(parser *p, size_t first, expr *body) {
-    expr *e = p->e;
-    const size_t count = e->count - first;
-    size_t arguments = e->argument_count;
-    for (size_t i = first; i < e->count; i++)
-        if (is_listed(&e->nodes[i]) && e->nodes[i].left < arguments)
-            arguments = e->nodes[i].left;
-    *body = (expr){.count = count,
-                   .room = count,
-                   .argument_count = e->argument_count - arguments,
-                   .argument_room = e->argument_count - arguments,
-                   .text = e->text,
-                   .unclear = e->unclear};
-    body->nodes = malloc(count * sizeof *body->nodes);
-    body->arguments = body->argument_count ? malloc(body->argument_count * sizeof *body->arguments) : NULL;
-    if (!body->nodes || (body->argument_count && !body->arguments))
-        return calc_no_memory(p->lx->error);
-    memcpy(body->nodes, e->nodes + first, count * sizeof *body->nodes);
-    for (size_t i = 0; i < body->argument_count; i++)
-        body->arguments[i] = e->arguments[arguments + i] - first;
-    for (size_t i = 0; i < count; i++) {
-        expr_node *n = &body->nodes[i];
-        if (is_listed(n)) {
-            n->left -= arguments;
-        } else if (operands(n)) {
-            n->left -= first;
-            n->right -= operands(n) > 1 ? first : 0;
-        }
-    }
-    e->count = first;
-    e->argument_count = arguments;
-    return true;
-}
-
 static bool unknown_name(parser *p) {
     lexer *lx = p->lx;
     char word[LEX_NAME];
@@ -148,6 +95,26 @@ static bool unknown_name(parser *p) {
         if (p->c->names.row[i].known && same > 1 && !strncmp(p->c->names.row[i].text, word, same))
             near = p->c->names.row[i].text;
     return lex_fail(lx, near ? "unknown name '%s': did you mean %s?" : "unknown name '%s'", word, near);
+}
+
+/* The word, or the other one, behind an operand within this parenthesis. any: it is there, or within one
+ * inside. */
+static bool find_word(const lexer *lx, const char *word, const char *other, lexer *out, bool *any) {
+    int depth = 0;
+    *any = false;
+    *out = *lx;
+    out->error = error_quiet();
+    for (bool operand = false; out->kind != T_END && depth >= 0; lex_next(out)) {
+        const bool is = operand && (lex_is(out, word) || lex_is(out, other));
+        depth += (out->kind == T_OPEN) - (out->kind == T_CLOSE);
+        *any = *any || is;
+        if (is && depth == 0)
+            break;
+        operand =
+            out->kind == T_NAME || out->kind == T_NUMBER || out->kind == T_CLOSE || out->kind == T_PERCENT;
+    }
+    out->error = lx->error;
+    return out->kind != T_END && depth == 0;
 }
 
 /* An expression of its own within this one. */
@@ -193,30 +160,33 @@ static bool parse_change(parser *p, expr_at *at) {
     return parse_inner(p, &at->change[at->count++].value, p->bound);
 }
 
-/* The cursor is after `at`; what it applies to are the nodes from `first` on, in the text from `begin`. */
-static bool parse_at(parser *p, size_t first, size_t begin, size_t *out) {
-    lexer *lx = p->lx;
-    expr_node node = {.kind = N_AT, .at = begin};
-    expr_at *at = node.changed = add_changed(p);
-    if (!at || !split_tail(p, first, &at->body))
-        return false;
-    size_t end = lx->last - strlen("at");
-    while (lx->text[end - 1] == ' ' || lx->text[end - 1] == '\t')
-        end--;
-    at->body.at = begin;
-    at->body.len = end - begin;
+/* The cursor is on `at`; what it applies to begins there. */
+static bool parse_at(parser *p, expr_at *at, size_t begin, size_t *out) {
+    lexer *lx = p->lx, ahead;
+    expr_node node = {.kind = N_AT, .at = begin, .changed = at};
     do {
-        if (at->count)
-            lex_next(lx);
+        lex_next(lx);
         if (!parse_change(p, at))
             return false;
-        lexer ahead = *lx;
+        ahead = *lx;
         if (lx->kind == T_COMMA)
             lex_next(&ahead);
-        if (lx->kind != T_COMMA || !at_change(&ahead))
-            break;
-    } while (true);
+    } while (lx->kind == T_COMMA && at_change(&ahead));
     return add_node(p, &node, out);
+}
+
+/* `at ...` at the cursor: all that has been parsed is what is meant in a changed scene. */
+static bool read_at(parser *p) {
+    expr *e = p->e;
+    size_t root;
+    if (!lex_is(p->lx, "at"))
+        return !p->lx->error->raised;
+    expr_at *at = calloc(1, sizeof *at);
+    if (!at)
+        return calc_no_memory(p->lx->error);
+    at->body = *e;
+    *e = (expr){.ats = at, .text = e->text, .at = e->at, .len = e->len};
+    return parse_at(p, at, e->at, &root) && !p->lx->error->raised;
 }
 
 /* ---- names ------------------------------------------------------------------------------------- */
@@ -486,19 +456,6 @@ static bool parse_number(parser *p, size_t *out) {
 
 /* ---- (integral EXPR for NAME = LO .. HI) ------------------------------------------------------- */
 
-/* The `for` or `along` within this parenthesis. */
-static bool find_range(const lexer *lx, lexer *out) {
-    int depth = 0;
-    *out = *lx;
-    out->error = error_quiet();
-    while (out->kind != T_END && depth >= 0 && (depth > 0 || !(lex_is(out, "for") || lex_is(out, "along")))) {
-        lex_next(out);
-        depth += (out->kind == T_OPEN) - (out->kind == T_CLOSE);
-    }
-    out->error = lx->error;
-    return out->kind != T_END && depth == 0;
-}
-
 /* The name that goes over the range, and, as long as the expression is parsed, is known. */
 static bool read_bound(parser *p, lexer *lx, knob *out) {
     unsigned j;
@@ -513,8 +470,7 @@ static bool read_bound(parser *p, lexer *lx, knob *out) {
 
 static bool parse_body_of(parser *p, expr *e, const bound *names) {
     parser inner = {.c = p->c, .lx = p->lx, .e = e, .within = p->within, .depth = p->depth, .bound = names};
-    size_t root;
-    return parse_whole(&inner) && (!lex_accept(p->lx, "at") || parse_at(&inner, 0, e->at, &root));
+    return parse_whole(&inner) && read_at(&inner);
 }
 
 /* EXPR for NAME: the cursor is on EXPR, the range begins at `range`. */
@@ -559,9 +515,10 @@ static bool parse_over(parser *p, size_t word, size_t *out) {
     expr_node node = {.kind = N_OVER, .at = lx->at, .index = word};
     expr_at *at = node.changed = add_changed(p);
     const char *usage = builtin_row(word)->summary;
+    bool inner;
     if (!at)
         return false;
-    if (!find_range(lx, &range))
+    if (!find_word(lx, "for", "along", &range, &inner))
         return calc_fail(lx->error, lx->at, lx->len, "expected a range behind the expression: %s", usage);
     const size_t begins = range.at;
     at->along = lex_is(&range, "along");
@@ -587,18 +544,24 @@ static bool parse_over(parser *p, size_t word, size_t *out) {
 /* ---- parentheses ------------------------------------------------------------------------------- */
 
 static bool parse_parenthesis(parser *p, size_t *out) {
-    lexer *lx = p->lx;
-    const size_t first = p->e->count;
+    lexer *lx = p->lx, ahead;
     size_t word;
     lex_next(lx);
     if (lx->kind == T_NAME && builtin_find(lx->text + lx->at, lx->len, &word) && builtin_row(word) &&
         builtin_row(word)->d == DIM_RANGE)
         return parse_over(p, word, out);
     const size_t begin = lx->at;
-    if (!parse_sum(p, out))
+    bool changes = false;
+    const bool changed = begin >= p->plain && find_word(lx, "at", "at", &ahead, &changes);
+    if (begin >= p->plain && !changes)
+        p->plain = ahead.at;
+    if (changed) {
+        expr_at *at = add_changed(p);
+        if (!at || !parse_inner(p, &at->body, p->bound) || (lex_is(lx, "at") && !parse_at(p, at, begin, out)))
+            return false;
+    } else if (!parse_sum(p, out)) {
         return false;
-    if (lex_accept(lx, "at") && !parse_at(p, first, begin, out))
-        return false;
+    }
     if (lx->kind != T_CLOSE)
         return lex_one_value(lx) && lex_fail(lx, "expected )");
     lex_next(lx);
@@ -738,10 +701,7 @@ bool expr_parse(calc *c, lexer *lx, expr *e) {
 
 bool expr_read_at(calc *c, lexer *lx, expr *e) {
     parser p = {.c = c, .lx = lx, .e = e};
-    size_t root;
-    if (!lex_accept(lx, "at"))
-        return !lx->error->raised;
-    return parse_at(&p, 0, e->at, &root) && !lx->error->raised;
+    return read_at(&p);
 }
 
 bool expr_parse_at(calc *c, lexer *lx, expr *e) {

@@ -4,7 +4,7 @@
 #ifndef LANGUAGE_TRIAL_H
 #define LANGUAGE_TRIAL_H
 
-#include "language/calc.h"
+#include "language/beside.h"
 
 /* Expressions see the trial's scene from trial_open to trial_close. */
 typedef struct trial {
@@ -44,5 +44,27 @@ bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_err
 
 /* Which load the states come from. */
 typedef enum along_what { ALONG_PROGRAM, ALONG_CYCLE, ALONG_LOAD } along_what;
+
+/* A trial along its load: expressions see it at one instant after the other. */
+typedef struct trial_along {
+    trial *t;
+    scene_trace trace;
+    instant now;
+    beside beside;
+    double first, last; /* times that count */
+} trial_along;
+/* At `points`+1 instants, evenly in time; turns: at the turning points too. from: the mark where a load tried
+ * on it (ALONG_LOAD, scene_append) begins. False: it need not be ended. */
+bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from, size_t points, bool turns,
+                       calc_error *error);
+/* The same between two times of its load. */
+bool trial_along_between(trial_along *a, trial *t, double first, double last, size_t points, bool turns,
+                         calc_error *error);
+/* The times that `what` goes from and to. */
+bool trial_along_span(trial *t, along_what what, load_mark from, double *first, double *last,
+                      calc_error *error);
+/* On to the next instant; false: the end, or the error. */
+bool trial_along_next(trial_along *a, calc_error *error);
+void trial_along_end(trial_along *a);
 
 #endif

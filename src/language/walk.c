@@ -30,7 +30,7 @@ bool walk_same_item(const load_item *a, const load_item *b) {
 }
 
 /* Items at the beginning of the scene's load that are those of the walk. */
-static load_mark same_items(const walk *w, const scene *s, size_t last_cycle) {
+static size_t same_items(const walk *w, const scene *s, size_t last_cycle) {
     const load_mark end = w->scene.end;
     load_mark at = {0, 0};
     while (at.steps < end.steps && at.steps < s->end.steps) {
@@ -41,48 +41,33 @@ static load_mark same_items(const walk *w, const scene *s, size_t last_cycle) {
         at.steps++;
         at.cycles += mine.step.kind == LOAD_CYCLE;
     }
-    return at;
+    return at.steps;
 }
 
 /* ---- following --------------------------------------------------------------------------------- */
 
-/* The items of s from the mark on, with their values. */
-static bool take_items(walk *w, const scene *s, size_t last_cycle, load_mark at, calc_error *error) {
-    scene *own = &w->scene;
-    while (at.steps < s->end.steps) {
-        const load_item item = program_item(s->program, at, last_cycle, &s->in);
-        const bool cycle = item.step.kind == LOAD_CYCLE;
-        if (!program_append(own->program, &own->end, &item.step, cycle ? &item.extra : NULL))
-            return calc_no_memory(error);
-        at = own->end;
-    }
-    own->answers.reach_ready = false;
-    return true;
-}
-
-static void put_inputs(walk *w, const inputs *in) {
-    inputs own;
-    inputs_copy(&own, in);
-    inputs_drop(&w->scene.in);
-    w->scene.in = own;
-}
-
-static bool begin(walk *w, calc *c, size_t last_cycle, calc_error *error) {
-    program *own = program_make();
+/* The inputs of s, and its load as a program of its own, whatever becomes of that one. all: what follows from
+ * these inputs is known; else their contact, where it is the same. */
+static bool take_scene(walk *w, const scene *s, size_t last_cycle, bool all, calc_error *error) {
+    program *own = program_copy(s->program, s->end);
     scene before = w->scene;
-    engine_end(&w->run.engine);
-    *w = (walk){.begun = own != NULL};
-    if (own) {
-        scene_clone(&w->scene, c->now);
-        scene_take_contact(&w->scene, &before);
-        counted_drop(&w->scene.program->base);
-        w->scene.program = own;
-        w->scene.end = (load_mark){0, 0};
-    }
-    scene_free(&before);
     if (!own)
         return calc_no_memory(error);
-    return take_items(w, c->now, last_cycle, (load_mark){0, 0}, error);
+    if (last_cycle != NO_CYCLE)
+        program_freeze(own, last_cycle, s->end.cycles - 1, &s->in);
+    scene_clone(&w->scene, s);
+    counted_drop(&w->scene.program->base);
+    w->scene.program = own;
+    if (all) {
+        w->scene.answers = before.answers;
+        w->scene.answers.reach_ready = false;
+        before.answers = (answers){.normal = NULL};
+    } else {
+        scene_take_contact(&w->scene, &before);
+    }
+    scene_free(&before);
+    w->begun = true;
+    return true;
 }
 
 static bool make_run(walk *w, calc_error *error) {
@@ -92,7 +77,7 @@ static bool make_run(walk *w, calc_error *error) {
     return calc_status(error, &st);
 }
 
-/* A swinging load may want another contact than the one before it. */
+/* Is there a run of this contact? A swinging load may want another one than that before it. */
 static bool stands(const walk *w) {
     return w->run.engine.contact && fret_contact_normal(w->run.engine.contact) == w->load.normal;
 }
@@ -104,17 +89,16 @@ bool walk_follow(walk *w, calc *c, bool *anew, calc_error *error) {
         return calc_missing(error, IN_FN);
     if (!scene_reach(s, &reach, error)) /* definitions have their values */
         return false;
-    const size_t last_cycle = reach->last_cycle;
-    *anew = !w->begun || !same_bodies(&w->scene.in, &s->in) ||
-            same_items(w, s, last_cycle).steps < w->scene.end.steps;
-    if (*anew ? !begin(w, c, last_cycle, error) : !take_items(w, s, last_cycle, w->scene.end, error))
+    const bool goes_on = w->begun && same_bodies(&w->scene.in, &s->in) &&
+                         same_items(w, s, reach->last_cycle) == w->scene.end.steps;
+    if (!goes_on)
+        engine_end(&w->run.engine);
+    if (!take_scene(w, s, reach->last_cycle, goes_on, error))
         return false;
-    put_inputs(w, &s->in);
     if (!scene_load_of(&w->scene, &w->load, error))
         return false;
     w->load.last_cycle = NO_CYCLE;
-    if (!*anew && !stands(w))
-        *anew = true;
+    *anew = !stands(w);
     if (*anew && !make_run(w, error))
         return false;
     w->run.level = w->scene.answers.reach.swings ? LEVELS - 1 : 0;

@@ -65,7 +65,7 @@ bool do_save(shell *sh, lexer *lx, said *all) {
     if (!history)
         fputs("# fret " FRET_VERSION "\n", t.to);
     return target_close(sh, lx, &t,
-                        (history ? typed_write(sh, t.to) : scene_write(&sh->calc, &sh->set, t.to, true)) ||
+                        (history ? typed_write(sh, t.to) : scene_write(sh, t.to, true)) ||
                             calc_no_memory(lx->error));
 }
 
@@ -77,8 +77,8 @@ static char *beginning(shell *sh) {
     file_text kept;
     if (!file_text_open(&kept))
         return NULL;
-    const bool whole = scene_write(&sh->calc, &sh->set, kept.to, true);
-    settings_write(&sh->calc, &sh->set, kept.to);
+    const bool whole = scene_write(sh, kept.to, true);
+    settings_write(sh, kept.to);
     if (!file_text_close(&kept))
         return NULL;
     if (whole)

@@ -314,11 +314,12 @@ static void settle(calc *c) {
             scene_get(&c->scene, i, &unused, error_quiet());
 }
 
-bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
+bool scene_write(shell *sh, FILE *to, bool whole) {
+    calc *c = &sh->calc;
     writer w = {c, to, false};
     settle(c);
     if (whole && !c->scene.automatic)
-        setting_show(setting_find("model"), c, set, to);
+        setting_show(setting_find("model"), sh, to);
     write_material(&w);
     write_second(&w);
     write_geometry(&w);
@@ -342,12 +343,12 @@ bool scene_write(calc *c, const settings *set, FILE *to, bool whole) {
 
 /* At the prompt a long load is shortened; a script's output may be read back. */
 static bool show_scene(shell *sh, FILE *to) {
-    return scene_write(&sh->calc, &sh->set, to, !sh->interactive);
+    return scene_write(sh, to, !sh->interactive);
 }
 
 bool show_settings(shell *sh, FILE *to) {
     for (size_t i = 0; setting_row(i); i++)
-        setting_show(i, &sh->calc, &sh->set, to);
+        setting_show(i, sh, to);
     return true;
 }
 

@@ -8,7 +8,7 @@
 /* The scene and the user's names as statements that make them again in a session without a scene: inputs and
  * load to the last digit. whole: every step of the load, and the model; else the middle of a long load is
  * left out, and a comment says so. */
-bool scene_write(calc *c, const settings *set, FILE *to, bool whole);
+bool scene_write(shell *sh, FILE *to, bool whole);
 
 /* What `show` can show: i = 0, 1, ... until NULL. */
 const char *show_name(size_t i);

@@ -145,14 +145,7 @@ void answer_gap(answer *a) {
     a->gap = true;
 }
 
-/* ---- tables of words and rough numbers --------------------------------------------------------- */
-
-void answer_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
-    if (a->form->heads)
-        a->form->heads(a, event, heads, count);
-}
-
-void answer_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
+void answer_cells(answer *a, const answer_cell *cells) {
     if (a->form->cells)
-        a->form->cells(a, heads, cells, count);
+        a->form->cells(a, cells);
 }

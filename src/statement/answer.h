@@ -39,14 +39,7 @@ typedef struct answer {
     long double scale[COLUMNS];
 } answer;
 
-/* ---- tables of words and rough numbers ---- */
-
-typedef struct answer_head {
-    const char *name;
-    const char *unit; /* of the numbers; "": none */
-    const char *csv;  /* what CSV calls it; NULL: name and unit */
-} answer_head;
-
+/* Of a table of words and rough numbers. */
 typedef struct answer_cell {
     enum {
         CELL_WORDS,
@@ -135,10 +128,8 @@ bool answer_shows_next(const answer *a);
 /* A blank line before the next row, in text. */
 void answer_gap(answer *a);
 
-/* ---- tables of words and rough numbers, for programs: readers have answer_words ---- */
-
-void answer_heads(answer *a, const char *event, const answer_head *heads, size_t count);
-void answer_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count);
+/* A row of words and rough numbers, for programs: readers have answer_words in place of such a table. */
+void answer_cells(answer *a, const answer_cell *cells);
 
 /* ---- forms: what text, CSV and JSON each do with what is answered; for no command ---- */
 
@@ -157,8 +148,7 @@ typedef struct answer_form {
     void (*up)(answer *a);
     bool (*columns)(answer *a, const char *event);
     void (*row)(answer *a, const long double *si);
-    void (*heads)(answer *a, const char *event, const answer_head *heads, size_t count);
-    void (*cells)(answer *a, const answer_head *heads, const answer_cell *cells, size_t count);
+    void (*cells)(answer *a, const answer_cell *cells);
     void (*end)(answer *a, bool ok);
 } answer_form;
 

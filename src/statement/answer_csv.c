@@ -40,19 +40,8 @@ static void put_csv_row(answer *a, const long double *si) {
     put_csv_cells(a->to, a->columns, si, a->count);
 }
 
-static void put_csv_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
-    (void)event;
-    for (size_t i = 0; i < count; i++) {
-        const answer_head *h = &heads[i];
-        const bool has_unit = !h->csv && *h->unit;
-        fprintf(a->to, has_unit ? "%s%s [%s]" : "%s%s", i ? "," : "", h->csv ? h->csv : h->name, h->unit);
-    }
-    putc('\n', a->to);
-}
-
-static void put_mixed(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
-    (void)heads;
-    for (size_t i = 0; i < count; i++) {
+static void put_mixed(answer *a, const answer_cell *cells) {
+    for (size_t i = 0; i < a->count; i++) {
         const answer_cell *c = &cells[i];
         const char *quote = c->words && strchr(c->words, ',') ? "\"" : "";
         if (i)
@@ -131,7 +120,6 @@ const answer_form answer_as_csv = {
     .share = put_share,
     .columns = put_csv_columns,
     .row = put_csv_row,
-    .heads = put_csv_heads,
     .cells = put_mixed,
     .end = put_waiting,
 };

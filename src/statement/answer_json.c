@@ -8,24 +8,12 @@
 
 /* ---- strings and numbers ----------------------------------------------------------------------- */
 
-/* Length of the printable ASCII that begins there and stands for itself in JSON: most names are that. */
-static size_t plain_length(const char *text) {
-    size_t n = 0;
-    while (text[n] >= ' ' && text[n] < 0x7f && text[n] != '"' && text[n] != '\\')
-        n++;
-    return n;
-}
-
 /* Quotation marks included; bytes that are no UTF-8 become U+FFFD. */
 static void put_string(FILE *to, const char *text) {
     putc('"', to);
-    size_t plain = plain_length(text);
-    fwrite(text, 1, plain, to);
-    text += plain;
-    size_t left = strlen(text);
-    while (left > 0) {
+    for (size_t left = strlen(text), n; left > 0; text += n, left -= n) {
         unsigned code;
-        size_t n = character_at(text, left, &code);
+        n = character_at(text, left, &code);
         if (n == 0) {
             fputs("\\ufffd", to);
             n = 1;
@@ -36,8 +24,6 @@ static void put_string(FILE *to, const char *text) {
         } else {
             fwrite(text, 1, n, to);
         }
-        text += n;
-        left -= n;
     }
     putc('"', to);
 }
@@ -143,19 +129,10 @@ static void put_json_row(answer *a, const long double *si) {
     end_line(a);
 }
 
-static void put_json_heads(answer *a, const char *event, const answer_head *heads, size_t count) {
-    open_event(a, "event", event);
-    begin_part(a, "columns", '{');
-    for (size_t i = 0; i < count; i++)
-        put_text(a, heads[i].name, heads[i].unit);
-    end_part(a);
-    end_line(a);
-}
-
-static void put_json_cells(answer *a, const answer_head *heads, const answer_cell *cells, size_t count) {
+static void put_json_cells(answer *a, const answer_cell *cells) {
     begin_object(a);
-    for (size_t i = 0; i < count; i++)
-        put_member(a, heads[i].name, &cells[i]);
+    for (size_t i = 0; i < a->count; i++)
+        put_member(a, a->columns[i].name, &cells[i]);
     end_line(a);
 }
 
@@ -171,6 +148,5 @@ const answer_form answer_as_json = {
     .up = end_part,
     .columns = put_json_columns,
     .row = put_json_row,
-    .heads = put_json_heads,
     .cells = put_json_cells,
 };

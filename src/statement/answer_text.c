@@ -32,7 +32,7 @@ static void put_beside(answer *a, const column *c, const estimate *e) {
 static void put_quantity(answer *a, const char *name, value v) {
     char text[160];
     const quantity *q = quantity_find(name, strlen(name));
-    format_row(a->set, v, q ? q->unit : NULL, text, sizeof text);
+    format_column(&(column){.d = v.d, .row = q ? q->unit : NULL}, a->set->digits, v.v, text, sizeof text);
     if (a->layout == LAYOUT_PAGE)
         fprintf(a->to, "    %s = %s\n", name, text);
     else
@@ -66,26 +66,18 @@ static void end_group(answer *a) {
 
 /* ---- tables ------------------------------------------------------------------------------------ */
 
-/* The unit of a text column: the one that was asked for, or one that suits what is held. */
-static void choose_unit(answer *a, size_t i, char unit_text[COLUMN_UNIT]) {
-    column c = a->columns[i];
-    column_suit(&c, a->held + i, a->rows, a->count + 1, a->set->digits);
-    a->scale[i] = c.scale;
-    snprintf(unit_text, COLUMN_UNIT, "%s", c.unit);
-}
-
 /* As wide as a number with its digits, or as the name. */
 static void text_head(answer *a) {
     for (size_t i = 0; i < a->count; i++) {
-        char unit_text[COLUMN_UNIT];
-        const column *c = &a->columns[i];
-        choose_unit(a, i, unit_text);
-        const size_t unit_width = text_columns(unit_text, strlen(unit_text)),
-                     head = text_columns(c->name, strlen(c->name)) + (*unit_text ? unit_width + 3 : 0);
+        column c = a->columns[i]; /* in the unit that was asked for, or one that suits what is held */
+        column_suit(&c, a->held + i, a->rows, a->count + 1, a->set->digits);
+        a->scale[i] = c.scale;
+        const size_t unit_width = text_columns(c.unit, strlen(c.unit)),
+                     head = text_columns(c.name, strlen(c.name)) + (*c.unit ? unit_width + 3 : 0);
         const size_t number = (size_t)a->set->digits + 7;
         a->width[i] = (int)(head > number ? head : number);
         fprintf(a->to, "%s%*s", i ? "  " : "", a->width[i] - (int)head, "");
-        fprintf(a->to, *unit_text ? "%s [%s]" : "%s", c->name, unit_text);
+        fprintf(a->to, *c.unit ? "%s [%s]" : "%s", c.name, c.unit);
     }
     putc('\n', a->to);
 }

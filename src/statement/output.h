@@ -30,17 +30,16 @@ void column_suit(column *c, const long double *v, size_t count, size_t stride, i
 bool columns_distinct(column *c, size_t count);
 void columns_free(column *c, size_t count);
 
-/* %.*g, faster. */
-size_t number_text(char text[NUMBER_TEXT], int digits, double v);
+/* %.*g, but for -0, which is 0. */
+void number_text(char text[NUMBER_TEXT], int digits, double v);
 /* The same in a field of `width`, to the right. */
 void print_number(FILE *to, int width, int digits, double v);
 /* A positive number rounded up to one digit, as bounds are told. */
 double round_up(double v);
 /* The unit that readers are shown a column in: its scale. v: what it is to suit. */
 long double column_unit(const column *c, long double v, int digits, char unit_text[COLUMN_UNIT]);
-/* A value with a unit chosen for it, as text; or in the unit of a row, if it has one. */
+/* A value with a unit chosen for it, as text. */
 void format_value(const settings *set, value v, char *buf, size_t size);
-void format_row(const settings *set, value v, const char *row, char *buf, size_t size);
 enum { COLUMN_TEXT = NUMBER_TEXT + COLUMN_UNIT };
 void format_column(const column *c, int digits, long double si, char *buf, size_t size);
 /* A value and its standard error; where the interval is another one, how far down and up that goes. */

@@ -6,28 +6,17 @@
 #include <string.h>
 
 #include "text/lines.h"
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 /* ---- at the cursor ----------------------------------------------------------------------------- */
 
-bool at_argument(const lexer *lx) {
-    if (lx->kind != T_NAME)
-        return false;
-    token_kind next = lex_peek(lx);
-    return next == T_ASSIGN || next == T_INCREMENT || next == T_DEFINE;
-}
-
 bool stray_unit(lexer *lx) {
-    char word[LEX_NAME];
     unit known;
     if (lx->kind != T_NAME || lx->text[lx->last - 1] < '0' || lx->text[lx->last - 1] > '9' ||
-        argument_word(lx) || at_argument(lx) || quantity_find(lx->text + lx->at, lx->len) ||
+        argument_word(lx) || lex_assigns(lx) || quantity_find(lx->text + lx->at, lx->len) ||
         unit_lookup(lx->text + lx->at, lx->len, &known))
         return false;
-    lex_word(lx, word);
-    const char *near = unit_suggest(word);
-    lex_fail(lx, near ? "unknown unit '%s': did you mean %s?" : "unknown unit '%s'; try: help units", word,
-             near);
+    unit_parse(lx, &known); /* an error: it is none */
     return true;
 }
 
@@ -263,7 +252,8 @@ static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d)
 
 static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i);
 
-static bool read_argument(shell *sh, lexer *lx, said *s, token_kind how) {
+static bool read_argument(shell *sh, lexer *lx, said *s) {
+    const token_kind how = lex_peek(lx);
     const grammar *f = s->by;
     const clause *a = f->clause, *end = a + f->count;
     dim d;
@@ -316,18 +306,16 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
     snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + lx->at);
     lx->len = len;
     if (!row->noun) { /* one of few */
-        for (size_t i = 0; row->words(i); i++)
-            snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s %s",
-                     !i                  ? ""
-                     : row->words(i + 1) ? ", "
-                                         : " or ",
-                     h->of->name, row->words(i));
+        for (size_t i = 0; row->words(i); i++) {
+            snprintf(word, sizeof word, "%s %s", h->of->name, row->words(i));
+            list_word(list, sizeof list, word, !row->words(i + 1));
+        }
         return lex_fail(lx, "expected %s", list);
     }
     for (size_t i = 0; i < LISTED && row->words(i); i++)
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", row->words(i));
+        list_word(list, sizeof list, row->words(i), false);
     if (row->words(LISTED))
-        snprintf(list + strlen(list), sizeof list - strlen(list), ", ...");
+        list_word(list, sizeof list, "...", false);
     if (!len)
         return lex_fail(lx, "which %s? one of %s", row->noun, list);
     const char *lead = lead_from(word), *near = lead ? lead : suggest(word, row->words);
@@ -392,7 +380,7 @@ static bool is_unit(const lexer *lx, const grammar *f) {
 static bool begins_argument(const lexer *lx, const grammar *f) {
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
         if (a->argument && lex_is(lx, a->name))
-            return at_argument(lx);
+            return lex_assigns(lx);
     return false;
 }
 
@@ -499,7 +487,7 @@ static bool lacks_end(lexer *lx, const clause *a, const span *part) {
 
 /* `mu=0.3` for `0.3`. */
 static bool skip_name(lexer *lx, const grammar *f, const hole_row *row) {
-    if (!at_argument(lx) || !lex_is(lx, row->noun))
+    if (!lex_assigns(lx) || !lex_is(lx, row->noun))
         return true;
     if (lex_peek(lx) != T_ASSIGN)
         return not_taken(lx, f, row->noun, lex_peek(lx));
@@ -680,7 +668,7 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
     if (!row || said_cut(lx) || begins_clause(lx, clause_named(lx, s->by), row->kind) ||
         (a->optional && lx->kind == T_END && !lx->error->raised))
         return true;
-    if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || at_argument(lx)))
+    if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || lex_assigns(lx)))
         return true;
     do {
         heard *h = add_heard(lx, s, a);
@@ -702,10 +690,9 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
         return false;
     f = out->by;
     while (lx->kind == T_NAME || clause_named(lx, f)) {
-        const token_kind how = lx->kind == T_NAME ? lex_peek(lx) : T_END;
         const clause *a;
-        if ((how == T_ASSIGN || how == T_INCREMENT || how == T_DEFINE) && !lacks_name(lx, f)) {
-            if (!read_argument(sh, lx, out, how))
+        if (lex_assigns(lx) && !lacks_name(lx, f)) {
+            if (!read_argument(sh, lx, out))
                 return false;
         } else if (!(a = clause_named(lx, f))) {
             break;

@@ -11,8 +11,6 @@
 
 /* ---- at the cursor ---- */
 
-/* Is the cursor on NAME =, NAME += or NAME :=? */
-bool at_argument(const lexer *lx);
 /* Nothing may follow. */
 bool at_end(lexer *lx);
 /* A name right after a number was meant as a unit: an error; else false. */

@@ -49,25 +49,14 @@ static ssize_t write_log(void *cookie, const char *bytes, size_t n) {
     return (ssize_t)n;
 }
 
-static void write_held(struct recorder *r) {
-    if (r->held_count > 0 && r->page.to)
-        handout_put(&r->page, PAGE_ANSWER, r->held, r->held_count);
-    else if (r->held_count > 0)
-        add_to_log(r, r->held, r->held_count);
-    r->held_count = 0;
-}
-
-/* To the transcript, line by line. */
-static void put_bytes(struct recorder *r, const char *bytes, size_t n) {
-    for (size_t i = 0; i < n; i++) {
-        r->held[r->held_count++] = bytes[i];
-        if (bytes[i] == '\n' || r->held_count == HELD)
-            write_held(r);
-    }
-}
-
-static void put_text(struct recorder *r, const char *text) {
-    put_bytes(r, text, strlen(text));
+/* To the page, or to the transcript, line by line. */
+static ssize_t write_kept(void *cookie, const char *bytes, size_t n) {
+    struct recorder *r = cookie;
+    if (r->page.to)
+        handout_put(&r->page, PAGE_ANSWER, bytes, n);
+    else
+        add_to_log(r, bytes, n);
+    return (ssize_t)n;
 }
 
 /* Without colours. */
@@ -78,7 +67,7 @@ static void keep_bytes(struct recorder *r, const char *bytes, size_t n) {
         else if (bytes[i] == '\033')
             r->escape = true;
         else
-            put_bytes(r, bytes + i, 1);
+            putc(bytes[i], r->kept);
     }
 }
 
@@ -102,13 +91,13 @@ static ssize_t write_err(void *cookie, const char *bytes, size_t n) {
 }
 
 static bool free_recorder(struct recorder *r) {
+    FILE *const streams[] = {r->both_out, r->both_err, r->kept}; /* each writes to those behind it */
+    for (size_t i = 0; i < sizeof streams / sizeof *streams; i++)
+        if (streams[i])
+            fclose(streams[i]);
     const bool ok = handout_end(&r->page);
     if (r->to_log)
         fclose(r->to_log);
-    if (r->both_out)
-        fclose(r->both_out);
-    if (r->both_err)
-        fclose(r->both_err);
     file_log_close(&r->log);
     free(r);
     return ok;
@@ -118,9 +107,11 @@ static struct recorder *make_recorder(shell *sh, calc_error *error) {
     struct recorder *r = calloc(1, sizeof *r);
     if (r) {
         *r = (struct recorder){.sh = sh, .log.fd = -1};
+        r->kept = file_stream(r, write_kept);
         r->both_out = file_stream(r, write_out);
         r->both_err = file_stream(r, write_err);
-        if (r->both_out && r->both_err) {
+        if (r->kept && r->both_out && r->both_err) {
+            setvbuf(r->kept, NULL, _IOLBF, BUFSIZ);
             setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
             setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
             return r;
@@ -142,13 +133,10 @@ static void take_over(shell *sh, struct recorder *r) {
 static void put_statements(struct recorder *r, const char *text) {
     while (*text) {
         const size_t n = strcspn(text, "\n");
-        if (*text != '#' && r->page.to) {
+        if (*text != '#' && r->page.to)
             handout_put(&r->page, PAGE_STATEMENT, text, n + (text[n] == '\n'));
-        } else if (*text != '#') {
-            put_text(r, "fret> ");
-            put_bytes(r, text, n);
-            put_text(r, RECORD_GIVEN "\n");
-        }
+        else if (*text != '#')
+            fprintf(r->kept, "fret> %.*s" RECORD_GIVEN "\n", (int)n, text);
         text += n + (text[n] == '\n');
     }
 }
@@ -186,7 +174,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     if (html)
         handout_begin(&r->page, r->to_log, "fret");
     else
-        put_text(r, "# fret " FRET_VERSION "\n");
+        fputs("# fret " FRET_VERSION "\n", r->kept);
     put_statements(r, beginning);
     return true;
 }
@@ -200,7 +188,7 @@ bool record_end(shell *sh, bool tells) {
     sh->out = r->out;
     sh->err = r->err;
     sh->record = recording = NULL;
-    write_held(r);
+    fflush(r->kept);
     if (r->page.to && !handout_end(&r->page))
         shell_error(sh, "out of memory: the page is without its answers");
     const file_report report = {.direct = !r->log.regular, .size = (unsigned long long)r->log.length};
@@ -246,9 +234,9 @@ void record_line(shell *sh, const char *text, size_t len) {
     for (size_t i = 0, n; i <= len && len > 0; i += n + 1, prompt = "....> ") {
         const char *end = memchr(text + i, '\n', len - i);
         n = end ? (size_t)(end - text) - i : len - i;
-        put_text(r, prompt);
-        put_bytes(r, text + i, n);
-        put_text(r, end ? "\\\n" : "\n");
+        fputs(prompt, r->kept);
+        fwrite(text + i, 1, n, r->kept);
+        fputs(end ? "\\\n" : "\n", r->kept);
     }
 }
 
@@ -296,7 +284,7 @@ bool record_page_end(shell *sh, calc_error *error) {
     struct recorder *r = sh->record;
     fflush(sh->out);
     fflush(sh->err);
-    write_held(r);
+    fflush(r->kept);
     sh->out = r->outer_out;
     sh->err = r->outer_err;
     sh->record = recording = r->outer;
@@ -322,7 +310,7 @@ static void set_apart(shell *sh, bool apart) {
         return;
     fflush(sh->out);
     fflush(sh->err);
-    write_held(r);
+    fflush(r->kept);
     r->apart = apart;
 }
 

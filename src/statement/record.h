@@ -7,20 +7,17 @@
 #include "statement/shell.h"
 
 /* A recorder, and the session's own streams below it. */
-enum { HELD = 1024 };
-
 struct recorder {
     shell *sh;
     file_log log;
     FILE *out, *err;           /* of the session; NULL: a page has it alone */
     FILE *both_out, *both_err; /* with the file */
+    FILE *kept;                /* what is recorded, without colours: on the page, or in the file */
     handout page;              /* of HTML, where it is no transcript */
     FILE *to_log;              /* of a page that grows with the session; or NULL */
     bool apart;                /* what is written now is on the page in another way */
     struct recorder *outer;    /* goes on after a page that has the session alone */
     FILE *outer_out, *outer_err;
-    char held[HELD]; /* of the line that is being written */
-    size_t held_count;
     bool escape; /* within a colour, which a transcript does without */
     bool lost;   /* the file cannot be written any more */
 };

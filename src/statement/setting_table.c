@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- those that are no int of the settings ----------------------------------------------------- */
+/* ---- those that are no int --------------------------------------------------------------------- */
 
 static const char *const papers[] = {
     [PAPER_USUAL] = "auto", [PAPER_SLIDE] = "slide", [PAPER_COLUMN] = "column"};
@@ -56,8 +56,8 @@ static bool set_plot(shell *sh, lexer *lx, const said *all) {
     return true;
 }
 
-static void show_plot(const calc *c, const settings *set, FILE *to) {
-    (void)c;
+static void show_plot(const shell *sh, FILE *to) {
+    const settings *set = &sh->set;
     if (set->plot_width)
         fprintf(to, "%dx%d", set->plot_width, set->plot_height);
     else
@@ -82,41 +82,20 @@ static bool set_model(shell *sh, lexer *lx, const said *all) {
     return true;
 }
 
-static void show_model(const calc *c, const settings *set, FILE *to) {
-    const scene *s = &c->scene;
-    (void)set;
+static void show_model(const shell *sh, FILE *to) {
+    const scene *s = &sh->calc.scene;
     fputs(s->automatic ? "auto" : models[s->model].name, to);
     if (!s->automatic && models[s->model].count)
         fprintf(to, " %u", s->springs);
 }
 
-/* A number of cores is the calculator's. */
-static bool set_cores(shell *sh, lexer *lx, const said *all) {
-    const heard *h = &all->list[0];
-    (void)lx;
-    sh->calc.cores = h->of->holes ? h->count : 0;
-    return true;
-}
-
-static void show_cores(const calc *c, const settings *set, FILE *to) {
-    (void)set;
-    if (c->cores)
-        fprintf(to, "%u", c->cores);
-    else
-        fputs("auto", to);
-}
-
-static bool has_cores(const calc *c, const settings *set) {
-    (void)set;
-    return c->cores > 0;
-}
-
-static bool has_plot(const calc *c, const settings *set) {
-    (void)c;
+static bool has_plot(const shell *sh) {
+    const settings *set = &sh->set;
     return set->plot_width > 0 || set->plot_terminal || set->plot_caption || set->plot_paper;
 }
 
-const settings settings_initial = {.digits = 6};
+enum { DIGITS = 6 };
+const settings settings_initial = {.digits = DIGITS};
 
 /* ---- the table --------------------------------------------------------------------------------- */
 
@@ -131,21 +110,22 @@ static const setting rows[] = {
                 "    fret> set format json\n"
                 "    fret> 1 mm\n"
                 "    {\"name\":\"1 mm\",\"value\":0.001,\"unit\":\"m\"}\n",
-     .at = offsetof(settings, format)},
+     .at = offsetof(shell, set.format)},
     {.name = "digits",
      .takes = "N:17",
      .summary = "significant digits of numbers as text, 1 to 17",
      .example = "    fret> set digits 12\n"
                 "    fret> pi\n"
                 "    pi = 3.14159265359\n",
-     .at = offsetof(settings, digits)},
+     .at = offsetof(shell, set.digits),
+     .initial = DIGITS},
     {.name = "report",
      .takes = "auto | off | on",
      .summary = "what press, step and cycle tell of themselves; auto: at the prompt",
      .example = "    fret> set report on\n"
                 "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
                 "      FN = 100 N, a = 186.626 um, dz = 3.48291 um\n",
-     .at = offsetof(settings, report)},
+     .at = offsetof(shell, set.report)},
     {.name = "timing",
      .takes = "off | on",
      .summary = "the time of each statement, and the models that answered",
@@ -153,12 +133,12 @@ static const setting rows[] = {
                 "    fret> pi\n"
                 "    pi = 3.14159\n"
                 "    time: 0.000241 ms\n",
-     .at = offsetof(settings, timing)},
+     .at = offsetof(shell, set.timing)},
     {.name = "pager",
      .takes = "auto | off | on",
      .summary = "show text by $PAGER; auto: what the terminal is too low for",
      .example = "    fret> set pager off\n",
-     .at = offsetof(settings, pager)},
+     .at = offsetof(shell, set.pager)},
     {.name = "model",
      .takes = "auto | closed | memory | springs N:10000000",
      .summary = "what answers for tangential loads; auto: the cheapest exact one",
@@ -185,9 +165,7 @@ static const setting rows[] = {
      .summary =
          "processes that long tables, maps, fits and samples are shared among; auto: one for each core",
      .example = "    fret> set cores 1\n",
-     .apply = set_cores,
-     .show = show_cores,
-     .differs = has_cores},
+     .at = offsetof(shell, calc.cores)},
 };
 enum { SETTINGS = sizeof rows / sizeof *rows };
 
@@ -212,8 +190,13 @@ const grammar *setting_form(size_t i) {
     return i < SETTINGS ? grammar_made("set", rows[i].name, rows[i].takes, rows[i].summary) : NULL;
 }
 
-static int *held(settings *set, const setting *row) {
-    return (int *)(void *)((char *)set + row->at);
+static int *held(const shell *sh, const setting *row) {
+    return (int *)(void *)((char *)sh + row->at);
+}
+
+/* Of a row that takes a number its first word stands for 0. */
+static int first_word(const grammar *f) {
+    return *f->clause->name ? 0 : 1;
 }
 
 bool setting_apply(shell *sh, lexer *lx, const said *all) {
@@ -221,7 +204,7 @@ bool setting_apply(shell *sh, lexer *lx, const said *all) {
     const heard *h = &all->list[0];
     if (row->apply)
         return row->apply(sh, lx, all);
-    *held(&sh->set, row) = h->of->holes ? (int)h->count : (int)(h->of - all->by->clause);
+    *held(sh, row) = h->of->holes ? (int)h->count : (int)(h->of - all->by->clause) - first_word(all->by);
     return true;
 }
 
@@ -233,24 +216,22 @@ bool setting_format(settings *set, const char *word) {
     return a != NULL;
 }
 
-void setting_show(size_t i, const calc *c, const settings *set, FILE *to) {
+void setting_show(size_t i, const shell *sh, FILE *to) {
     const setting *row = &rows[i];
-    const clause *words = setting_form(i)->clause;
-    settings own = *set;
+    const grammar *f = setting_form(i);
+    const int is = row->show ? 0 : *held(sh, row);
     fprintf(to, "set %s ", row->name);
     if (row->show)
-        row->show(c, set, to);
-    else if (*words->name)
-        fputs(words[*held(&own, row)].name, to);
+        row->show(sh, to);
+    else if (first_word(f) && is)
+        fprintf(to, "%d", is);
     else
-        fprintf(to, "%d", *held(&own, row));
+        fputs(f->clause[is + first_word(f)].name, to);
     fputc('\n', to);
 }
 
-void settings_write(const calc *c, const settings *set, FILE *to) {
-    settings own = *set, initial = settings_initial;
+void settings_write(const shell *sh, FILE *to) {
     for (size_t i = 0; i < SETTINGS; i++)
-        if (rows[i].show ? rows[i].differs && rows[i].differs(c, set)
-                         : *held(&own, &rows[i]) != *held(&initial, &rows[i]))
-            setting_show(i, c, set, to);
+        if (rows[i].show ? rows[i].differs && rows[i].differs(sh) : *held(sh, &rows[i]) != rows[i].initial)
+            setting_show(i, sh, to);
 }

@@ -10,11 +10,12 @@ typedef struct setting {
     const char *takes; /* what may follow, see grammar.h */
     const char *summary;
     const char *example; /* of `help`: a transcript, indented by four */
-    size_t at;           /* an int of settings that holds the number, or which word */
+    size_t at;           /* an int of the shell that holds the number, or which word */
+    int initial;         /* of it */
     /* where it is neither */
     bool (*apply)(shell *sh, lexer *lx, const said *all);
-    void (*show)(const calc *c, const settings *set, FILE *to);
-    bool (*differs)(const calc *c, const settings *set); /* from how it begins; NULL: not to be written */
+    void (*show)(const shell *sh, FILE *to);
+    bool (*differs)(const shell *sh); /* from how it begins; NULL: not to be written */
 } setting;
 
 extern const settings settings_initial;
@@ -30,7 +31,7 @@ bool setting_apply(shell *sh, lexer *lx, const said *all);
 /* By its word. */
 bool setting_format(settings *set, const char *word);
 /* The settings that are not as they begin, but for the model, which belongs to the scene. */
-void settings_write(const calc *c, const settings *set, FILE *to);
-void setting_show(size_t i, const calc *c, const settings *set, FILE *to);
+void settings_write(const shell *sh, FILE *to);
+void setting_show(size_t i, const shell *sh, FILE *to);
 
 #endif

@@ -49,7 +49,7 @@ typedef struct shell {
     bool widest_known;       /* the press from which on it is too wide: */
     fret_press widest;
     /* The scene as statements, handed down by who can write it: see show.h. */
-    bool (*write_scene)(calc *c, const settings *set, FILE *to, bool whole);
+    bool (*write_scene)(struct shell *sh, FILE *to, bool whole);
     side_by_side compared;  /* by live */
     int nesting;            /* of `source` and `replay` */
     struct fitted *fitted;  /* the last fit, for its figure; or NULL */

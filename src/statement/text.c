@@ -41,17 +41,12 @@ static bool pager_needed(const char *text) {
     return rows > size.ws_row;
 }
 
-static bool exists(const char *name) {
-    char command[64];
-    snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1", name);
-    return system(command) == 0;
-}
-
+/* A command of the shell. */
 static const char *pager_program(void) {
     const char *wanted = getenv("PAGER");
     if (wanted)
         return *wanted && strcmp(wanted, "cat") ? wanted : NULL;
-    return exists("less") ? "less" : exists("more") ? "more" : NULL;
+    return "for i in less more; do command -v $i >/dev/null 2>&1 && exec $i; done; exit 1";
 }
 
 /* Shows it; false: there is no pager, or it failed. */

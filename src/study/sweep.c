@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "language/along.h"
+#include "language/trial.h"
 #include "study/refine.h"
 
 typedef struct state {

@@ -32,11 +32,11 @@ static bool all_at(state *s, const long double x[], value v[UNCERTAIN_VALUES]) {
 /* ---- first order ------------------------------------------------------------------------------- */
 
 /* An error that ends all stays as it is. */
-static bool no_value(const state *s, calc_error *error, const char *beside) {
+static bool no_value(const state *s, calc_error *error, const char *name) {
     if (!error->raised) {
         *error = s->p.none;
-        if (beside)
-            calc_append(s->of->c, error, " (close beside the present %s, for the derivative)", beside);
+        if (name)
+            calc_append(s->of->c, error, " (close beside the present %s, for the derivative)", name);
     }
     return false;
 }

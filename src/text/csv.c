@@ -12,7 +12,7 @@
 #include "text/characters.h"
 #include "text/encoding.h"
 #include "text/field.h"
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 static const unit plain_unit = {{0, 0, 0, 0}, 0, 1};
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 bool field_is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';

@@ -4,7 +4,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,15 +21,8 @@ static bool blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-void lex_raise(lexer *lx, const char *format, ...) {
-    char text[CALC_ERROR_TEXT];
-    va_list args;
-    if (lx->error->raised)
-        return;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    calc_raise(lx->error, lx->at, lx->len + (lx->part && lx->kind == T_END && lx->len == 0), "%s", text);
+size_t lex_width(const lexer *lx) {
+    return lx->len + (lx->part && lx->kind == T_END && lx->len == 0);
 }
 
 void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {
@@ -315,6 +307,11 @@ token_kind lex_peek(const lexer *lx) {
     if (c == '=')
         return d == '=' ? T_END : T_ASSIGN;
     return letter(c) ? T_NAME : digit(c) ? T_NUMBER : (token_kind)(unsigned char)c;
+}
+
+bool lex_assigns(const lexer *lx) {
+    const token_kind next = lx->kind == T_NAME ? lex_peek(lx) : T_END;
+    return next == T_ASSIGN || next == T_INCREMENT || next == T_DEFINE;
 }
 
 bool lex_filename(lexer *lx, char *buf, size_t size) {

@@ -58,6 +58,8 @@ void lex_word(const lexer *lx, char word[LEX_NAME]);
 bool lex_whole(lexer *lx, const char *what, char word[LEX_NAME]);
 /* The kind of the token after the cursor. */
 token_kind lex_peek(const lexer *lx);
+/* Is the cursor on NAME =, NAME += or NAME :=? */
+bool lex_assigns(const lexer *lx);
 /* A file name: a string, or all up to white space. False: none there. */
 bool lex_filename(lexer *lx, char *buf, size_t size);
 
@@ -72,11 +74,8 @@ bool lex_one_value(lexer *lx);
  * without a point, of which two stand for a range, and an exponent. */
 size_t lex_decimal(const char *text, size_t len, char point, int shift, double *out);
 
-/* Records an error at the cursor. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-void lex_raise(lexer *lx, const char *format, ...);
-#define lex_fail(...) (lex_raise(__VA_ARGS__), calc_refused())
+/* Records an error at the cursor, which is so wide; false. */
+#define lex_fail(lx, ...) calc_fail((lx)->error, (lx)->at, lex_width(lx), __VA_ARGS__)
+size_t lex_width(const lexer *lx);
 
 #endif

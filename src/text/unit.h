@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Dimensions and units. Force, length and time are the base dimensions of this field. */
+/* Dimensions and units, and reading them. Force, length and time are the base dimensions of this field. */
 #ifndef TEXT_UNIT_H
 #define TEXT_UNIT_H
 
+#include "text/lex.h"
 #include "text/words.h"
 
 /* Powers of newton, metre and second, of which a kilogram is N s^2/m; exponents are real, since A of a gap A
@@ -57,5 +58,17 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
 const char *unit_name(size_t i);
 const char *unit_meaning(size_t i);
 bool unit_prefixed(size_t i);
+
+/* ---- as they are written: N/mm^2, MPa*m^0.5 ---- */
+
+/* Is the cursor on a unit? */
+bool unit_at(const lexer *lx);
+/* Parses a unit expression at the cursor. */
+bool unit_parse(lexer *lx, unit *out);
+/* The unit of a column and nothing else, as its header has it: `in` is the inch, and a factor may stand
+ * before it. */
+bool unit_of_header(lexer *lx, unit *out);
+/* The decimal number at the beginning of a text, in this unit: rounded once. Its length; 0: there is none. */
+size_t unit_number(const char *text, size_t len, char point, const unit *u, double *out);
 
 #endif

@@ -269,7 +269,7 @@ static char *scene_text(shell *sh) {
     char *text = NULL;
     size_t n;
     FILE *to = open_memstream(&text, &n);
-    if (!to || !scene_write(&sh->calc, &sh->set, to, true) || fclose(to))
+    if (!to || !scene_write(sh, to, true) || fclose(to))
         abort();
     return text;
 }

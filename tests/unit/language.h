@@ -8,8 +8,8 @@
 #define unit calc_unit /* names that calc has too */
 #define value calc_value
 #define quantity calc_quantity
-#include "language/along.h"
 #include "language/calc.h"
+#include "language/trial.h"
 #include "language/walk.h"
 #include "scene/functions.h"
 #include "text/characters.h"
