@@ -8,7 +8,7 @@
 
 #include "plot/script.h"
 #include "text/characters.h"
-#include "text/unit_text.h"
+#include "text/unit.h"
 
 enum { THIN_SPACE = 0x2009 };
 

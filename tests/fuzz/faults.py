@@ -48,7 +48,7 @@ STATEMENTS = (
              "show commands", "show demos", "help", "help press", "help units", "apropos contact", "apropos radius",
              "table x^2, y for y = 1 .. 5 steps 4 to out.csv", "table a(y) for y = 1 N .. 9 N steps 300",
              "table y, x for y = 1 .. 9 steps 600", "save ~/out.fret", "table x for y = 1 .. 2 steps 1 to /dev/stdout", "demo", "demo pressing", "1" + "+1" * 300, "explain kappa",
-             "0." + "0" * 120 + "1 + 1", "source script.fret", "explain kn", "set format json; explain kn",
+             "0." + "0" * 120 + "1 + 1", "source script.fret", "explain Estar", "set format json; explain Estar",
              "demo ./lesson.txt", "demo ./lesson.txt to out.html", "record log.html", "exit")),
     (LOADED, ("step Fx=5 N", "step Fx+=1 N FN=110 N", "step dx=0.1 um steps 20", "cycle dxA=0.1 um times 2",
               "cycle FA=20 N FNA=10 N phase=90 deg", "cycle FA:=0.5*mu*FN", "follow follow.csv", "FA = 10 N", "mu = 0.3",
