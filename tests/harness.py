@@ -223,7 +223,7 @@ def read_transcript(text):
 
 
 def draws(statement):
-    """A plot in the terminal, whose characters depend on its size."""
+    """A plot in the terminal: its exact characters are gnuplot's affair."""
     return re.search(r"(^|;)\s*plot\b", statement) and " to " not in statement and not statement.startswith("set")
 
 

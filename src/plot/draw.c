@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a figure to its target: what gnuplot draws to where it belongs, the rest to the terminal. */
+/* From a figure to its target: the script, gnuplot, and what it drew to where it belongs. */
 #include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "plot/script.h"
@@ -43,42 +45,140 @@ static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error 
     return any || calc_fail(error, 0, 0, "gnuplot drew nothing");
 }
 
-/* Has gnuplot draw it. */
-static bool draw_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, const plot_target *target,
-                         calc_error *error) {
-    plot_run r;
-    if (!plot_run_open(&r, error))
-        return false;
-    bool ok = plot_write_picture(r.script, reel, kind, target, error);
-    if (fflush(r.script) || ferror(r.script))
-        ok = calc_errno(error, errno, "cannot write a script for gnuplot");
-    ok = ok && plot_run_gnuplot(&r, target, error) && copy(&r, to, kind, error);
-    plot_run_close(&r);
-    return ok;
+typedef struct scripted {
+    const plot_reel *reel;
+    const plot_target *target;
+    const plot_kind *kind;
+    const plot_pages *pages; /* NULL: a picture */
+} scripted;
+
+static bool write_script(FILE *to, const scripted *s, calc_error *error) {
+    return s->pages ? plot_write_pages(to, s->reel, s->target, s->pages, error)
+                    : plot_write_picture(to, s->reel, s->kind, s->target, error);
 }
 
-static bool to_file(const plot_reel *reel, const plot_target *t, file_report *report, calc_error *error) {
-    const plot_kind *kind = plot_kind_of(t->file, error);
+/* Writes the script and has it drawn. */
+static bool have_drawn(const plot_run *r, const scripted *s, calc_error *error) {
+    const bool ok = write_script(r->script, s, error);
+    if (fflush(r->script) || ferror(r->script))
+        return calc_errno(error, errno, "cannot write a script for gnuplot");
+    return ok && plot_run_gnuplot(r, s->target, error);
+}
+
+static bool to_file(const scripted *s, file_report *report, calc_error *error) {
     file_out out;
-    if (!kind || !file_out_open(&out, t->file, t->stop, error))
+    plot_run r;
+    const plot_target *t = s->target;
+    if (!file_out_open(&out, t->file, t->stop, error))
         return false;
-    const bool ok = (kind->terminal ? draw_picture : plot_write_picture)(out.to, reel, kind, t, error);
+    bool ok;
+    if (s->kind->terminal) {
+        ok = plot_run_open(&r, error);
+        if (ok) {
+            ok = have_drawn(&r, s, error) && copy(&r, out.to, s->kind, error);
+            plot_run_close(&r);
+        }
+    } else {
+        ok = write_script(out.to, s, error);
+    }
     return file_out_close(&out, ok, report, error) && ok;
 }
 
-/* ---- the terminal ------------------------------------------------------------------------------- */
+/* ---- text --------------------------------------------------------------------------------------- */
+
+/* The next page of what gnuplot drew, which form feeds part: the number of its lines. Blanks at their ends
+ * are not worth their bytes; what follows the last one sets colours back. */
+static size_t print_page(FILE *from, FILE *out, const char *end) {
+    char *page = NULL;
+    size_t room = 0, lines = 0;
+    if (getdelim(&page, &room, '\f', from) > 0) {
+        char *line = page;
+        for (char *stop; (stop = strchr(line, '\n')); line = stop + 1) {
+            const char *last = stop;
+            while (last > line && last[-1] == ' ')
+                last--;
+            fwrite(line, 1, (size_t)(last - line), out);
+            fputs(end, out);
+            lines++;
+        }
+        fwrite(line, 1, strcspn(line, "\f"), out);
+    }
+    free(page);
+    return lines;
+}
+
+static size_t lost_read(const plot_run *r, calc_error *error) {
+    if (!feof(r->out)) /* an error, or no memory for a page */
+        calc_raise_errno(error, ferror(r->out) ? EIO : ENOMEM, "cannot read what gnuplot drew");
+    calc_raise(error, 0, 0, "gnuplot drew nothing"); /* the first error stays */
+    return 0;
+}
+
+/* A frame of pages that gnuplot drew; NULL: as it is drawn here. The number of lines; 0 with the error. */
+static size_t print_frame(const plot_run *r, const scripted *w, size_t n, const char *end,
+                          calc_error *error) {
+    if (!r)
+        return plot_print_frame(w->reel, n, w->target, w->pages, end, error);
+    size_t lines = 0;
+    for (size_t i = 0; i < (w->pages->beside ? 1 : w->reel->frame[n].count); i++) {
+        const size_t more = print_page(r->out, w->target->out, end);
+        lines += more;
+        if (!more)
+            return lost_read(r, error);
+    }
+    return lines;
+}
+
+/* Frames one after another in place: the cursor goes back up, each line is written over. */
+static bool play(const plot_run *r, const scripted *w, calc_error *error) {
+    const plot_target *t = w->target;
+    const size_t frames = w->reel->count;
+    size_t lines = 0;
+    for (size_t n = 0; n < frames; n++) {
+        if (lines)
+            fprintf(t->out, "\033[%zuA", lines);
+        lines = print_frame(r, w, n, t->moving ? "\033[K\n" : "\n", error);
+        if (!lines)
+            return false;
+        if (fflush(t->out))
+            return calc_errno(error, errno, "cannot write");
+        for (int ms = (int)(1000 * w->reel->seconds); ms > 0 && n + 1 < frames; ms -= 10) {
+            if (plot_stopped(t))
+                return calc_interrupted(error);
+            poll(NULL, 0, ms < 10 ? ms : 10);
+        }
+    }
+    return true;
+}
+
+/* What gnuplot drew to the terminal. */
+static bool show_drawn(const plot_run *r, const scripted *s, calc_error *error) {
+    if (s->kind) {
+        const bool ok = copy(r, s->target->out, s->kind, error);
+        fputc('\n', s->target->out);
+        return ok;
+    }
+    for (int c; (c = getc(r->out)) != '\f' && c != EOF;) /* before the first page */
+        continue;
+    return play(r, s, error);
+}
 
 static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error *error) {
+    plot_run r;
     const plot_reel last = {reel->frame + reel->count - 1, 1, reel->extent, 0};
-    const plot_kind *kind = NULL;
     reel = t->moving ? reel : &last;
+    plot_pages pages = plot_pages_for(t, &reel->frame[0], reel->count > 1);
+    scripted s = {.reel = reel, .target = t, .pages = &pages};
+    if (pages.braille)
+        return play(NULL, &s, error);
     if (reel->count == 1) /* pictures that follow each other would scroll away */
-        kind = t->terminal == PLOT_SIXEL ? &sixel : t->terminal == PLOT_PAGE ? &in_page : NULL;
-    if (!kind)
-        return plot_print(reel, t, error);
-    const bool ok = draw_picture(t->out, reel, kind, t, error);
-    if (ok)
-        fputc('\n', t->out);
+        s.kind = t->terminal == PLOT_SIXEL ? &sixel : t->terminal == PLOT_PAGE ? &in_page : NULL;
+    if (s.kind)
+        s.pages = NULL;
+    if (!plot_run_open(&r, error))
+        return false;
+    const bool ok = have_drawn(&r, &s, error) && show_drawn(&r, &s, error);
+    plot_run_close(&r);
     return ok;
 }
 
@@ -118,5 +218,9 @@ bool plot_draw(plot_figure *frame, size_t frames, const plot_target *t, file_rep
     if (!settle(frame, frames, extent, error))
         return false;
     const plot_reel reel = {frame, frames, extent, frames > 1 ? SECONDS : 0};
-    return t->file ? to_file(&reel, t, report, error) : to_terminal(&reel, t, error);
+    if (!t->file)
+        return to_terminal(&reel, t, error);
+    scripted s = {.reel = &reel, .target = t};
+    s.kind = plot_kind_of(t->file, error);
+    return s.kind && to_file(&s, report, error);
 }

@@ -133,7 +133,7 @@ static void message(const plot_run *r, char *text, size_t size) {
 }
 
 static const char missing[] =
-    "pictures need gnuplot, which is not installed (Debian: apt-get install gnuplot-nox)";
+    "plots need gnuplot, which is not installed (Debian: apt-get install gnuplot-nox)";
 
 bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error) {
     pid_t pid;

@@ -14,7 +14,7 @@ enum { LEAST_ROWS = 8 };
 plot_pages plot_pages_for(const plot_target *t, const plot_figure *f, bool one_screen) {
     int w = t->columns ? t->columns : 79, h = t->rows ? t->rows : 24, n = (int)f->count;
     bool beside = n == 1 || (w / n >= 50 && plot_columns(f) == f->count);
-    plot_pages p = {beside ? w / n : w, beside || !one_screen ? h : h / n, beside};
+    plot_pages p = {beside ? w / n : w, beside || !one_screen ? h : h / n, beside, t->terminal == PLOT_BLOCK};
     p.columns = p.columns < 30 ? 30 : p.columns;
     p.rows = p.rows < LEAST_ROWS ? LEAST_ROWS : p.rows;
     return p;
@@ -28,7 +28,7 @@ double page_cell(const page_ruler *r, double v) {
     return (a->flip ? 1 - t : t) * r->cells;
 }
 
-static double value_at(const page_ruler *r, double cell) {
+double page_value(const page_ruler *r, double cell) {
     const plot_axis *a = &r->axis;
     double t = a->flip ? 1 - cell / r->cells : cell / r->cells;
     return a->log ? a->lo * pow(a->hi / a->lo, t) : a->lo + (a->hi - a->lo) * t;
@@ -213,7 +213,7 @@ static double within(const double *list, size_t n, double v) {
 /* How many levels lie below z at a cell; -1: no value. */
 static int band_at(const plot_page *g, int c, int r) {
     const plot_map *m = &g->panel->map;
-    const double x = within(m->x, m->nx, value_at(&g->x, c)), y = within(m->y, m->ny, value_at(&g->y, r));
+    const double x = within(m->x, m->nx, page_value(&g->x, c)), y = within(m->y, m->ny, page_value(&g->y, r));
     size_t i = find(m->x, x), j = find(m->y, y);
     double u = (x - m->x[i]) / (m->x[i + 1] - m->x[i]), v = (y - m->y[j]) / (m->y[j + 1] - m->y[j]);
     const double *z = m->z + j * m->nx + i;
@@ -403,7 +403,7 @@ bool page_make(plot_page *g, const plot_panel *panel, const plot_extents *extent
     plot_axis x, y;
     *g = (plot_page){.panel = panel,
                      .form = target->unicode ? PLOT_UNICODE : PLOT_ASCII,
-                     .braille = target->terminal == PLOT_BLOCK,
+                     .braille = pages->braille,
                      .columns = pages->columns,
                      .rows = panel->below ? (pages->rows + LEAST_ROWS) / 2 : pages->rows};
     if (!plot_axes(panel, extent, false, &x, &y, error))

@@ -1,19 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A page of text: where the frame of a panel, its tics, its texts and its key lie, and which cells its curves
- * touch. sheet.c draws it. */
+ * touch. sheet.c draws it, dumb.c has it drawn. */
 #ifndef PLOT_PAGE_H
 #define PLOT_PAGE_H
 
-#include "plot/cells.h"
 #include "plot/script.h"
-
-/* Panels on pages of text. */
-typedef struct plot_pages {
-    int columns, rows; /* of a panel */
-    bool beside;       /* panels side by side, else one below the other */
-} plot_pages;
-
-plot_pages plot_pages_for(const plot_target *target, const plot_figure *f, bool one_screen);
 
 enum {
     PAGE_TICS = 24,
@@ -35,8 +26,9 @@ typedef struct page_ruler {
     char text[PAGE_TICS][PAGE_TIC];
 } page_ruler;
 
-/* In cells from the lower or left end. */
+/* In cells from the lower or left end, and back. */
 double page_cell(const page_ruler *r, double v);
+double page_value(const page_ruler *r, double cell);
 
 /* Of the key. */
 typedef struct page_entry {

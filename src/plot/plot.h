@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures: numbers, texts and looks in; a picture in a file, which gnuplot draws, or text in the terminal
- * out. Nothing here knows a scene or a quantity.
+/* Figures: numbers, texts and looks in; a picture in a file or text in the terminal out. gnuplot draws them,
+ * but for dots in a terminal.
+ * Nothing here knows a scene or a quantity.
  *
  *     plot_figure f;
  *     plot_figure_init(&f);

@@ -3,6 +3,7 @@
 #ifndef PLOT_SCRIPT_H
 #define PLOT_SCRIPT_H
 
+#include "plot/cells.h"
 #include "plot/plot.h"
 
 /* ---- axis.c: limits and tics -------------------------------------------------------------------- */
@@ -87,10 +88,23 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
                         calc_error *error);
 bool plot_stopped(const plot_target *target);
 
-/* ---- sheet.c: text ------------------------------------------------------------------------------- */
+/* ---- text: page.c, dumb.c, sheet.c --------------------------------------------------------------- */
 
-/* Frames one after another in place, in characters or braille. */
-bool plot_print(const plot_reel *reel, const plot_target *target, calc_error *error);
+/* Panels on pages of text. */
+typedef struct plot_pages {
+    int columns, rows; /* of a panel */
+    bool beside;       /* panels side by side, else one below the other */
+    bool braille;
+} plot_pages;
+
+plot_pages plot_pages_for(const plot_target *target, const plot_figure *f, bool one_screen);
+/* A page of gnuplot for each panel of each frame; not of braille. */
+bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
+                      calc_error *error);
+/* Draws frame n and prints it, each line with the end given: of braille. The number of lines; 0 with the
+ * error. */
+size_t plot_print_frame(const plot_reel *reel, size_t n, const plot_target *target, const plot_pages *pages,
+                        const char *end, calc_error *error);
 
 /* ---- gnuplot.c: running it ---------------------------------------------------------------------- */
 

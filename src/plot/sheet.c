@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pages drawn on cells, panels side by side on one sheet, and printed with the terminal's colours. Writes to
  * the terminal only. */
-#include <errno.h>
 #include <math.h>
-#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -125,16 +123,13 @@ static int draw_panels(const plot_cells *sheet, const plot_reel *reel, size_t n,
     return rows;
 }
 
-/* Draws frame n and prints it, each line with the end given. The number of lines; 0 with the error. */
-static size_t print_frame(const plot_reel *reel, size_t n, const plot_target *target, const plot_pages *pages,
-                          const char *end, calc_error *error) {
+size_t plot_print_frame(const plot_reel *reel, size_t n, const plot_target *target, const plot_pages *pages,
+                        const char *end, calc_error *error) {
     const size_t panels = reel->frame[n].count, abreast = pages->beside ? panels : 1;
-    const bool braille = target->terminal == PLOT_BLOCK;
     size_t lines = 0;
     for (size_t i = 0; i < panels; i += abreast) {
         plot_cells sheet;
-        if (!plot_cells_make(&sheet, (int)abreast * pages->columns, pages->rows, braille ? 2 : 1,
-                             braille ? 4 : 1)) {
+        if (!plot_cells_make(&sheet, (int)abreast * pages->columns, pages->rows, 2, 4)) {
             calc_no_memory(error);
             return 0;
         }
@@ -148,25 +143,4 @@ static size_t print_frame(const plot_reel *reel, size_t n, const plot_target *ta
         lines += (size_t)rows;
     }
     return lines;
-}
-
-/* The cursor goes back up, each line is written over. */
-bool plot_print(const plot_reel *reel, const plot_target *target, calc_error *error) {
-    const plot_pages pages = plot_pages_for(target, &reel->frame[0], reel->count > 1);
-    size_t lines = 0;
-    for (size_t n = 0; n < reel->count; n++) {
-        if (lines)
-            fprintf(target->out, "\033[%zuA", lines);
-        lines = print_frame(reel, n, target, &pages, target->moving ? "\033[K\n" : "\n", error);
-        if (!lines)
-            return false;
-        if (fflush(target->out))
-            return calc_errno(error, errno, "cannot write");
-        for (int ms = (int)(1000 * reel->seconds); ms > 0 && n + 1 < reel->count; ms -= 10) {
-            if (plot_stopped(target))
-                return calc_interrupted(error);
-            poll(NULL, 0, ms < 10 ? ms : 10);
-        }
-    }
-    return true;
 }

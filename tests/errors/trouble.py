@@ -201,10 +201,11 @@ def gnuplot(tests):
     plot = SCENE + "step Fx=20 N\nplot loop"
     empty = os.path.join(tests.dir, "empty")
     os.makedirs(empty, exist_ok=True)
-    expect(tests, "no gnuplot is needed for the terminal", tests.run("-c", plot, env={"PATH": empty}), 0, "hysteresis loop")
+    expect(tests, "no gnuplot", tests.run("-c", plot, env={"PATH": empty}), 1, "",
+           "-c:3:1: error: plots need gnuplot, which is not installed")
     png = os.path.join(tests.dir, "x.png")
     expect(tests, "no gnuplot, to a file", tests.run("-c", plot + " to " + png, env={"PATH": empty}), 1, "",
-           "-c:3:1: error: pictures need gnuplot, which is not installed")
+           "plots need gnuplot")
     expect(tests, "no gnuplot is needed for a script", tests.run("-c", plot + " to x.gp", env={"PATH": empty}), 0)
     path = tests.env["PATH"]
     for name, script, err in (("fails", "echo 'something is wrong' >&2; exit 1", "something is wrong"),
@@ -215,11 +216,16 @@ def gnuplot(tests):
                               ("fails with words", "echo 'an underline of a line without place' >&2; exit 1", "an underline of a line without place"),
                               ("fails with words and a colon", "echo 'an outline of: it' >&2; exit 1", "an outline of: it"),
                               ("fails with words of a place", "echo 'a line without place' >&2; exit 1", "gnuplot failed: a line without place"),
-                              ("is found too late", "exit 127", "pictures need gnuplot, which is not installed"),
+                              ("is found too late", "exit 127", "plots need gnuplot, which is not installed"),
                               ("fails with bytes", "printf '\\033[31m\\377' >&2; exit 1", "?[31m?")):
         with fake_gnuplot(tests, script) as fake:
             env = {"PATH": fake + ":" + path}
             expect(tests, "gnuplot %s, to a file" % name, tests.run("-c", plot + " to " + png, env=env), 1, "", err)
+            expect(tests, "gnuplot " + name, tests.run("-c", plot, env=env), 1, "", err)
+    with fake_gnuplot(tests, r"printf '\fa\nb\n'") as fake:
+        done = tests.run("-c", SCENE + "step Fx=20 N\nset plot 60x18; plot loop | pressure", env={"PATH": fake + ":" + path})
+        tests.check("gnuplot draws one page of two", done.returncode == 1 and done.stdout == "a\nb\n" and "gnuplot drew nothing" in done.stderr,
+                    tests.report(done))
     html = os.path.join(tests.dir, "x.html")
     with fake_gnuplot(tests, "echo hello") as fake:
         done = tests.run("-c", plot + " to " + html, env={"PATH": fake + ":" + path})
@@ -228,26 +234,26 @@ def gnuplot(tests):
     os.unlink(html)
     for env in ({"TMPDIR": ""}, {}):
         bare = {name: value for name, value in tests.env.items() if name != "TMPDIR"}
-        done = subprocess.run([tests.fret, "-c", plot + " to " + png], capture_output=True, text=True, env={**bare, **env}, cwd=tests.dir, timeout=120, check=False)
-        tests.check("a picture without TMPDIR", done.returncode == 0 and "wrote " in done.stderr, done.stdout + done.stderr)
-        os.unlink(png)
+        done = subprocess.run([tests.fret, "-c", plot], capture_output=True, text=True, env={**bare, **env}, cwd=tests.dir, timeout=120, check=False)
+        tests.check("a picture without TMPDIR", done.returncode == 0 and "hysteresis loop" in done.stdout, done.stdout + done.stderr)
     with fake_gnuplot(tests, "echo $$ >'%s/started'\nexec sleep 300\n" % tests.dir) as fake:
-        started = os.path.join(tests.dir, "started")
-        job = subprocess.Popen([tests.fret, "-c", plot + " to " + png], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               env={**tests.env, "PATH": fake + ":" + path}, start_new_session=True)
-        for _ in range(1000):
-            if os.path.exists(started) and os.path.getsize(started):
-                break
-            time.sleep(0.01)
-        job.send_signal(signal.SIGINT)
-        finish(tests, "gnuplot hangs, interrupted", job)
-        with open(started, encoding="ascii") as f:
-            pid = int(f.read())
-        os.unlink(started)
-        time.sleep(0.05)
-        tests.check("the hanging gnuplot is gone", not os.path.exists("/proc/%d" % pid) or
-                    "Z" in open("/proc/%d/stat" % pid, encoding="ascii").read())
-    expect(tests, "no place for temporary files", tests.run("-c", plot + " to " + png, env={"TMPDIR": "/nonexistent"}), 1, "",
+        for where in ("", " to " + png):
+            started = os.path.join(tests.dir, "started")
+            job = subprocess.Popen([tests.fret, "-c", plot + where], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   env={**tests.env, "PATH": fake + ":" + path}, start_new_session=True)
+            for _ in range(1000):
+                if os.path.exists(started) and os.path.getsize(started):
+                    break
+                time.sleep(0.01)
+            job.send_signal(signal.SIGINT)
+            finish(tests, "gnuplot hangs%s, interrupted" % where, job)
+            with open(started, encoding="ascii") as f:
+                pid = int(f.read())
+            os.unlink(started)
+            time.sleep(0.05)
+            tests.check("the hanging gnuplot is gone", not os.path.exists("/proc/%d" % pid) or
+                        "Z" in open("/proc/%d/stat" % pid, encoding="ascii").read())
+    expect(tests, "no place for temporary files", tests.run("-c", plot, env={"TMPDIR": "/nonexistent"}), 1, "",
            "cannot make a temporary file in /nonexistent")
     left = [name for name in os.listdir(tests.dir) if name.startswith("x.png") or ".part" in name]
     tests.check("no half-written pictures", not left, " ".join(left))

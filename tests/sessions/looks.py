@@ -401,7 +401,7 @@ def formulas(tests):
 
 
 def gnuplots(tests):
-    """What some versions of gnuplot put around a picture: the cursor sent home."""
+    """What some versions of gnuplot put around a picture: the cursor sent home, colours that reach over lines."""
     where = os.path.join(tests.dir, "gnuplots")
     os.mkdir(where)
     path = os.path.join(where, "gnuplot")
@@ -416,6 +416,10 @@ def gnuplots(tests):
                          env={"PATH": where + ":" + os.environ["PATH"]}).stdout
     sixel = shown("\033[H\033Pq#1~-\033\\", "set plot terminal sixel", "plot loop")
     tests.check("the cursor stays where it is", sixel == "\033Pq#1~-\033\\\n", repr(sixel))
+    page = "\f\033[0;39m\n a\033[38;5;33mb  \nc \033[22;39md\n\033[0;39;49m"
+    lines = shown(page, "plot loop").splitlines()[-3:]
+    tests.check("what sets colours back stays, blanks at the ends of lines do not", lines ==
+                [" a\033[38;5;33mb", "c \033[22;39md", "\033[0;39;49m"], repr(lines))
 
 
 def bodies(tests):

@@ -7,8 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "plot/cells.h"
-#include "plot/page.h"
 #include "plot/script.h"
 #include "unit.h"
 
@@ -994,12 +992,13 @@ static ssize_t stop_at_once(void *cookie, const char *text, size_t size) {
     return (ssize_t)size;
 }
 
-static size_t written_after(const plot_reel *reel) {
-    const plot_target t = {.stop = &stop_now};
+static size_t written_after(const plot_reel *reel, const plot_pages *pages) {
+    const plot_target t = {.stop = &stop_now, .columns = 60, .rows = 20};
     size_t size = 0;
     FILE *to = fopencookie(&size, "w", (cookie_io_functions_t){.write = stop_at_once});
     stop_now = 0;
-    CHECK(!plot_write_picture(to, reel, plot_kind_of("a.png", &error), &t, fresh()));
+    CHECK(!(pages ? plot_write_pages(to, reel, &t, pages, fresh())
+                  : plot_write_picture(to, reel, plot_kind_of("a.png", &error), &t, fresh())));
     CHECK(error.stop && has(error.text, "interrupted"));
     fclose(to);
     return size;
@@ -1007,6 +1006,7 @@ static size_t written_after(const plot_reel *reel) {
 
 static void stopped(void) {
     enum { FRAMES = 30, POINTS = 900 };
+    const plot_pages pages = {.columns = 60, .rows = 20};
     plot_extents extent[PLOT_PANELS];
     plot_figure map, frame[FRAMES];
     plot_figure_init(&map);
@@ -1014,7 +1014,7 @@ static void stopped(void) {
     CHECK(plot_map_make(p, 200, 200, fresh()));
     fill_map(&p->map, steep);
     extent[0] = plot_settle(p);
-    CHECK(written_after(&(plot_reel){&map, 1, extent, 0}) < 20000); /* all of it: 1 MB */
+    CHECK(written_after(&(plot_reel){&map, 1, extent, 0}, NULL) < 20000); /* all of it: 1 MB */
     for (size_t i = 0; i < FRAMES; i++) {
         plot_figure_init(&frame[i]);
         p = plot_panel_add(&frame[i], fresh());
@@ -1024,7 +1024,8 @@ static void stopped(void) {
         extent[0] = i ? plot_extent_join(extent[0], plot_settle(p)) : plot_settle(p);
     }
     const plot_reel reel = {frame, FRAMES, extent, 0.1};
-    CHECK(written_after(&reel) < 60000);
+    CHECK(written_after(&reel, NULL) < 60000);
+    CHECK(written_after(&reel, &pages) < 60000);
     plot_figure_free(&map);
     for (size_t i = 0; i < FRAMES; i++)
         plot_figure_free(&frame[i]);
