@@ -273,7 +273,7 @@ static void complete_at(place *p, size_t begin, size_t start) {
 static bool find_statement(const char *line, size_t cursor, size_t *begin, size_t *quote) {
     *begin = 0;
     *quote = cursor;
-    for (size_t end; (end = statement_end(line, *begin, cursor)) < cursor; *begin = end + 1)
+    for (size_t end; (end = shell_statement_end(line, *begin, cursor)) < cursor; *begin = end + 1)
         if (line[end] == '#')
             return false;
     for (size_t i = *begin; i < cursor; i++)

@@ -98,7 +98,7 @@ static void quantity_help(FILE *to, size_t row) {
         snprintf(text, sizeof text, "%s%s%s%s%s%s", f->text, f->equation ? "  " : "",
                  f->equation ? f->equation : "", *when ? "  [" : "", when, *when ? "]" : "");
         fputs("    ", to);
-        print_wrapped(to, text, 4, 8);
+        help_wrapped(to, text, 4, 8);
     }
     dim_line(to, "", quantity_is_input(q) && quantity_input(q) == IN_A ? DIM_NONE : q->d, q->unit);
     if (quantity_is_input(q))
@@ -125,17 +125,17 @@ static void usage_help(FILE *to, const grammar *f) {
     const hole_row *row;
     char usage[GRAMMAR_USAGE], text[GRAMMAR_USAGE + 16];
     grammar_usage(f, usage);
-    print_wrapped(to, usage, 0, 6);
+    help_wrapped(to, usage, 0, 6);
     for (size_t h = 0; (row = hole_at(h)); h++) {
         if (row->kind != HOLE_CLAUSES || !strstr(f->takes, row->name))
             continue;
         grammar_clauses(row, usage);
         snprintf(text, sizeof text, "%s: %s", row->name, usage);
         fputs("      ", to);
-        print_wrapped(to, text, 6, 8);
+        help_wrapped(to, text, 6, 8);
     }
     fputs("  ", to);
-    print_wrapped(to, f->summary, 2, 2);
+    help_wrapped(to, f->summary, 2, 2);
 }
 
 /* What may follow the words that choose a row of their own. */
@@ -145,7 +145,7 @@ static void choices_help(FILE *to, const grammar *f) {
     for (size_t i = 0; row && row->form && (f = row->form(i)); i++) {
         grammar_usage(f, usage);
         fprintf(to, "%s    %s\n        ", i ? "" : "\n", usage);
-        print_wrapped(to, f->summary, 8, 8);
+        help_wrapped(to, f->summary, 8, 8);
     }
 }
 
@@ -219,7 +219,7 @@ static entry preset_entry(size_t i) {
 static void preset_help(FILE *to, size_t i) {
     const entry e = preset_entry(i);
     fprintf(to, "%s%s\n  %s\n  ", e.command, e.name, e.numbers);
-    print_wrapped(to, e.keywords, 2, 2);
+    help_wrapped(to, e.keywords, 2, 2);
 }
 
 static entry figure_entry(size_t i) {
@@ -238,7 +238,7 @@ static void figure_help(FILE *to, size_t i) {
     if (f->statement) {
         snprintf(text, sizeof text, "as: plot %s", f->statement);
         fputs("  ", to);
-        print_wrapped(to, text, 2, 6);
+        help_wrapped(to, text, 2, 6);
     }
 }
 
@@ -340,7 +340,7 @@ static size_t group_line(FILE *to, size_t i) {
         snprintf(names + n, sizeof names - n, "%s%s", n ? " " : "", c->name);
         c = command_row(++i);
     } while (c && !c->group);
-    print_wrapped(to, names, GROUP, GROUP);
+    help_wrapped(to, names, GROUP, GROUP);
     return i;
 }
 
@@ -359,7 +359,7 @@ static void overview(FILE *to) {
         const size_t n = strlen(names);
         snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "Topics: ", topic_name(i));
     }
-    print_wrapped(to, names, 0, 8);
+    help_wrapped(to, names, 0, 8);
     fputs("help NAME tells of any quantity, unit, geometry, setting or model, such as\n"
           "`help dW`; apropos WORD finds them by what they are about.\n\n"
           "Begin with `demo`, or:\n"

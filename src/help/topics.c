@@ -34,7 +34,7 @@ static void quantity_line(FILE *to, const quantity *q, bool call) {
     char name[LEX_NAME];
     snprintf(name, sizeof name, call ? "%s(%s)" : "%s", q->name, q->argument);
     fprintf(to, "    %-10s  ", name);
-    print_wrapped(to, q->title, 16, 16);
+    help_wrapped(to, q->title, 16, 16);
 }
 
 static void quantities(FILE *to) {
@@ -102,10 +102,10 @@ static void equation(FILE *to, const char *number, const char *text) {
             snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "in: ", q->name);
         }
     enum { INDENT = 6 };
-    print_wrapped(to, own, INDENT, INDENT);
+    help_wrapped(to, own, INDENT, INDENT);
     if (*names) {
         fprintf(to, "%*s", INDENT, "");
-        print_wrapped(to, names, INDENT, INDENT + 4);
+        help_wrapped(to, names, INDENT, INDENT + 4);
     }
 }
 
@@ -116,13 +116,13 @@ static const char reference[] = "J. Wilhayn, M. He\xc3\x9f: " TITLE
                                 ". Mathematics 2022, 10(19), 3641. https://doi.org/10.3390/math10193641";
 
 void help_cite(FILE *to) {
-    print_wrapped(to, reference, 0, 4);
+    help_wrapped(to, reference, 0, 4);
     fputs("fret " FRET_VERSION ": an interactive calculator for partial-slip contact.\n\n"
           "@article{math10193641,\n"
           "  author  = {Wilhayn, Josefine and He{\\ss}, Markus},\n"
           "  title   = {",
           to);
-    print_wrapped(to, TITLE "},", 13, 13);
+    help_wrapped(to, TITLE "},", 13, 13);
     fputs("  journal = {Mathematics},\n"
           "  year    = {2022},\n"
           "  volume  = {10},\n"
@@ -139,7 +139,7 @@ void help_cite(FILE *to) {
 }
 
 static void paper(FILE *to) {
-    print_wrapped(to, reference, 0, 4);
+    help_wrapped(to, reference, 0, 4);
     fputs("\nIts equations, and the quantities that they make; `cite` has it as BibTeX.\n"
           "`explain NAME` puts the numbers of the scene in; `demo fig04` to `demo fig13`\n"
           "and `demo s1` to `demo s3` draw the figures and videos.\n\n",
@@ -173,7 +173,7 @@ static void paper_line(FILE *to, const script *s) {
             snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", *text ? " " : "", *line + 2);
     }
     fputs("    ", to);
-    print_wrapped(to, text, 4, 8);
+    help_wrapped(to, text, 4, 8);
 }
 
 static void teaching(FILE *to) {
@@ -188,14 +188,14 @@ static void teaching(FILE *to) {
         if (!answer)
             continue;
         fprintf(to, "\n%-10s  ", s->name);
-        print_wrapped(to, s->title, 12, 12);
+        help_wrapped(to, s->title, 12, 12);
         for (const char *const *line = s->line; *line && *answer; line++)
             if (!strncmp(*line, "ask \"", 5)) {
                 snprintf(text, sizeof text, "%.*s", (int)strcspn(*line + 5, "\""), *line + 5);
                 fputs("    ", to);
-                print_wrapped(to, text, 4, 8);
+                help_wrapped(to, text, 4, 8);
                 fputs("        ", to);
-                print_wrapped(to, *answer++, 8, 12);
+                help_wrapped(to, *answer++, 8, 12);
             }
         paper_line(to, s);
     }

@@ -63,7 +63,7 @@ static bool check_statements(reading *r, const char *text, size_t number) {
     bool ok = true;
     r->statements++;
     for (size_t i = 0, next; i < len && text[i] != '#' && ok; i = next + (next < len && text[next] == ';')) {
-        next = statement_end(text, i, len);
+        next = shell_statement_end(text, i, len);
         ok = shell_statement(&r->trial, text + i, next - i, mistake);
         if (shell_stop || mistake->stop)
             return shell_stop ? calc_interrupted(r->error) : calc_no_memory(r->error);

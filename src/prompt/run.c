@@ -314,7 +314,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
     for (size_t i = 0; i < len && !sh->quit;) {
         if (text[i] == '#')
             break;
-        size_t end = statement_end(text, i, len);
+        size_t end = shell_statement_end(text, i, len);
         calc_error error;
         bool timed = sh->set.timing;
         double start = timed ? clock_wall() : 0;

@@ -118,7 +118,7 @@ void answer_words(answer *a, const char *format, ...) {
 
 void answer_line(answer *a, const char *text, size_t indent) {
     if (a->layout >= a->form->words)
-        print_wrapped(a->to, text, 0, indent);
+        help_wrapped(a->to, text, 0, indent);
 }
 
 /* ---- tables ------------------------------------------------------------------------------------ */

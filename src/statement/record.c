@@ -200,7 +200,7 @@ static size_t until_record(const char *text, size_t len) {
     enum { WORD = sizeof word - 1 };
     size_t kept = 0, end;
     for (size_t i = 0; i < len; i = end + 1) {
-        end = statement_end(text, i, len);
+        end = shell_statement_end(text, i, len);
         while (i < end && text[i] == ' ')
             i++;
         if (end - i >= WORD && !memcmp(text + i, word, WORD)) {

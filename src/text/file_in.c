@@ -283,7 +283,7 @@ file_got file_in_rest(file_in *in, calc_error *error) {
         char *line = in->line + begin;
         size_t left = in->length - begin;
         memset(line, ' ', (size_t)(strip_prompt(line, &left) - line));
-        const size_t at = begin + line_mark(line, in->length - begin);
+        const size_t at = begin + shell_mark(line, in->length - begin);
         if (at == in->length)
             return FILE_GOT_LINE;
         in->line[at] = ' ';

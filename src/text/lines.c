@@ -37,7 +37,7 @@ void list_word(char *buf, size_t size, const char *word, bool last) {
     snprintf(buf + n, size - n, "%s%s", !n ? "" : last ? " or " : ", ", word);
 }
 
-void print_wrapped(FILE *to, const char *text, size_t at, size_t indent) {
+void help_wrapped(FILE *to, const char *text, size_t at, size_t indent) {
     enum { WIDTH = 79 };
     for (size_t left = strlen(text); left > 0; at = indent) {
         const char *row = text;
@@ -55,7 +55,7 @@ static bool within_word(const char *text, size_t i, size_t len) {
     return i > 0 && i + 1 < len && !strchr(ends, text[i - 1]) && !strchr(ends, text[i + 1]);
 }
 
-size_t statement_end(const char *text, size_t i, size_t len) {
+size_t shell_statement_end(const char *text, size_t i, size_t len) {
     static const bool special[256] = {['"'] = true, ['\n'] = true, [';'] = true, ['#'] = true};
     bool quoted = false;
     for (; i < len; i++) {
@@ -72,15 +72,15 @@ size_t statement_end(const char *text, size_t i, size_t len) {
     return i;
 }
 
-size_t line_mark(const char *line, size_t len) {
+size_t shell_mark(const char *line, size_t len) {
     size_t n = len, end;
     while (n > 0 && line[n - 1] == '\r')
         n--;
     if (n == 0 || line[n - 1] != '\\')
         return len;
-    end = statement_end(line, 0, n);
+    end = shell_statement_end(line, 0, n);
     while (end < n && line[end] == ';')
-        end = statement_end(line, end + 1, n);
+        end = shell_statement_end(line, end + 1, n);
     return end == n ? n - 1 : len; /* else it is within a comment */
 }
 
@@ -102,7 +102,7 @@ size_t paste_lines(char *text, bool continued) {
             dropped += left > 0;
             continue;
         }
-        continued = line_mark(typed, left) < left;
+        continued = shell_mark(typed, left) < left;
         memmove(to, typed, left);
         to += left;
         *to++ = '\n';

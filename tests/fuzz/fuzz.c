@@ -300,7 +300,7 @@ static void run_statements(shell *sh, const char *text, size_t size) {
         const char *end = memchr(text + line, '\n', size - line);
         n = end ? (size_t)(end - (text + line)) : size - line;
         for (size_t i = 0, stop; i <= n && !sh->quit; i = stop + 1) {
-            stop = statement_end(text + line, i, n);
+            stop = shell_statement_end(text + line, i, n);
             const char *one = text + line + i;
             char *before = scene_text(sh);
             if (!run_statement(sh, one, stop - i) && !starts(one, stop - i, "source") &&
