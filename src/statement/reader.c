@@ -49,19 +49,13 @@ static const hole_row *first_hole(const clause *a) {
     return a->holes ? a->hole[0].row : NULL;
 }
 
-static bool is_awake(const shell *sh, const lexer *lx) {
-    const char *text = lx->text + lx->at;
-    size_t i;
-    return quantity_find(text, lx->len) || name_taken(text, lx->len) ||
-           names_find(&sh->calc.names, text, lx->len, &i);
-}
-
 bool names_wake(shell *sh, const lexer *lx, size_t before) {
     own_names *n = &sh->calc.names;
+    const char *text = lx->text + lx->at;
     size_t i;
-    if (is_awake(sh, lx))
+    if (quantity_find(text, lx->len) || name_taken(text, lx->len) || names_find(n, text, lx->len, &i))
         return true;
-    if (!names_add(n, lx->text + lx->at, lx->len, &i))
+    if (!names_add(n, text, lx->len, &i))
         return calc_no_memory(lx->error);
     n->row[i].woken = i < before;
     n->row[i].known = true;
@@ -97,7 +91,7 @@ bool said_wake(shell *sh, const lexer *lx, said *s) {
         if (!row || row->kind != HOLE_NAME)
             continue;
         const lexer name = hole_lexer(lx, &h->hole[0]);
-        if (name.len >= LEX_NAME || is_awake(sh, &name))
+        if (name.len >= LEX_NAME)
             continue;
         s->wakes = true;
         if (!names_wake(sh, &name, s->names))
@@ -139,11 +133,6 @@ void hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
 
 static const char *who(const grammar *f) {
     return f->shape ? f->shape : f->command;
-}
-
-static bool unknown_argument(lexer *lx, const grammar *f) {
-    return lex_fail(lx, "%s has no %s '%.*s'", who(f), f->shape ? "parameter" : "argument", LEX_WORD(lx)) ||
-           add_usage(lx->error, f);
 }
 
 static bool not_taken(lexer *lx, const grammar *f, const char *name, token_kind how) {
@@ -195,11 +184,7 @@ static heard *add_heard(const lexer *lx, said *s, const clause *a) {
         return NULL;
     }
     heard *h = &s->list[s->count++];
-    h->of = a;
-    h->at = lx->at;
-    h->len = lx->len;
-    h->live = NULL;
-    h->increment = false;
+    *h = (heard){.of = a, .at = lx->at, .len = lx->len};
     s->open = NULL;
     return h;
 }
@@ -250,17 +235,25 @@ static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d)
     return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
 }
 
+/* The argument at the cursor, or NULL. */
+static const clause *argument_named(const lexer *lx, const grammar *f) {
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (a->argument && lex_is(lx, a->name))
+            return a;
+    return NULL;
+}
+
 static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i);
 
 static bool read_argument(shell *sh, lexer *lx, said *s) {
     const token_kind how = lex_peek(lx);
     const grammar *f = s->by;
-    const clause *a = f->clause, *end = a + f->count;
+    const clause *a = argument_named(lx, f);
     dim d;
-    while (a < end && !(a->argument && lex_is(lx, a->name)))
-        a++;
-    if (a == end)
-        return unknown_argument(lx, f);
+    if (!a)
+        return lex_fail(lx, "%s has no %s '%.*s'", who(f), f->shape ? "parameter" : "argument",
+                        LEX_WORD(lx)) ||
+               add_usage(lx->error, f);
     if (!said_may_come(lx, s, a))
         return false;
     if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
@@ -330,10 +323,10 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
 
 /* `at NAME =` belongs to the expression before it, `at FILE` does not. */
 static bool changes_scene(const lexer *lx) {
-    lexer next = *lx;
-    next.error = error_quiet();
     if (!lex_is(lx, "at"))
         return false;
+    lexer next = *lx;
+    next.error = error_quiet();
     lex_next(&next);
     return next.kind == T_NAME && lex_peek(&next) == T_ASSIGN;
 }
@@ -359,8 +352,10 @@ static bool is_equals(const lexer *lx) {
 /* The clause that the word at the cursor was meant for, or NULL. */
 static const clause *clause_near(const lexer *lx, const grammar *f) {
     char word[LEX_NAME];
+    if (lx->kind != T_NAME || lx->len < 2)
+        return NULL;
     lex_word(lx, word);
-    for (const clause *a = f->clause; lx->kind == T_NAME && lx->len > 1 && a < f->clause + f->count; a++)
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
         if (!a->argument && *a->name && one_letter_apart(word, a->name))
             return a;
     return NULL;
@@ -374,14 +369,6 @@ static bool is_unit(const lexer *lx, const grammar *f) {
     lex_word(lx, word);
     return lx->len <= SHORT || unit_lookup(word, strlen(word), &known) || unit_suggest(word) ||
            !clause_near(lx, f);
-}
-
-/* Does an argument of the row begin at the cursor? */
-static bool begins_argument(const lexer *lx, const grammar *f) {
-    for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (a->argument && lex_is(lx, a->name))
-            return lex_assigns(lx);
-    return false;
 }
 
 /* Skips what stands in the i-th hole of the clause. Only behind an operand can a word of the row begin a
@@ -412,7 +399,7 @@ static void skip_part(lexer *lx, said *s, const clause *a, unsigned i) {
                           (next ||
                            !(joins || word || figure || kind == HOLE_LOAD ||
                              (s->end == PART_NUMBER && is_unit(lx, f)) || (whole && unit_at(lx))) ||
-                           (lx->cut && begins_argument(lx, f)));
+                           (lx->cut && argument_named(lx, f) && lex_assigns(lx)));
         if (depth == 0 && (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
                            (equals_ends && !named && is_equals(lx)) || ends))
             break;
