@@ -391,30 +391,32 @@ static bool run_from(state *s, const double *start, fit_answer *out, calc_error 
 }
 
 /* From the start that is given, and from the best of many; the least wins. What is wrong from the first may
- * be right from the other. A loop knows better than what is given; values close to the answer need no other.
- */
+ * be right from the other. A loop knows better than what is given, which is for where that leads astray;
+ * values close to the answer need no other. */
 static bool run_fit(state *s, fit_answer *out, calc_error *error) {
     static const double near = 1, far = 4; /* farther off the same may come again, as waves do */
     residuals *r = &s->r;
     const fit_question *of = r->of;
-    double start[FIT_NAMES];
+    const bool loop = !of->left && !of->from;
+    double start[FIT_NAMES] = {0}, other[FIT_NAMES];
     fit_answer second;
     if (!read_start(s, start, error))
         return false;
-    if (!of->left && !of->from)
-        return seek(s, start, far), !error->raised && run_from(s, start, out, error);
-    bool ok = run_from(s, start, out, error);
-    if (of->from || error->stop || error->strange || error->circle)
+    memcpy(other, start, sizeof other);
+    if (loop)
+        seek(s, start, far);
+    bool ok = !error->raised && run_from(s, start, out, error);
+    if (of->from || (loop && ok) || error->stop || error->strange || error->circle)
         return ok;
     const calc_error first = *error;
     const residuals there = *r;
     error_clear(error);
-    if (seek(s, start, ok ? near : far) && run_from(s, start, &second, error) &&
+    if ((loop || seek(s, other, ok ? near : far)) && run_from(s, other, &second, error) &&
         !(ok && out->rms <= second.rms * (1 + 1e-6))) {
         *out = second;
         return true;
     }
-    if (error->stop)
+    if (error->stop || loop)
         return false;
     *error = first;
     go_back(r, &there);

@@ -238,6 +238,23 @@ def at_the_rig(tests):
     values, event, done = answers(tests, scene + "fit mu, E0, K_rig, d0, F0 along " + name)
     tests.check("fit: the rig and E0 from one loop", event and abs(values["K_rig"] - K) < 2 * event["deviation"]["K_rig"]
                 and "hardly tell E0 and K_rig apart: measure K_rig" in done.stderr, tests.report(done))
+    # two turns from a peak, by Masing's rule: sought starts end where all slides and d0 does not show
+    mu, E0, K, peak = 0.5, 205e9, 60e6, 1.2e-6
+    estar = E0 / (2 * (1 - NU ** 2))
+    dxmax = mu * (2 - NU) / (2 * (1 - NU)) * (3 * FN / (4 * estar)) ** (2 / 3) / R ** (1 / 3)
+    first = lambda d: mu * FN * (1 - (1 - d / dxmax) ** 1.5)
+    rows = []
+    for i in range(401):
+        d, side = peak * math.cos(2 * math.pi * i / 200), 1 if i % 200 <= 100 else -1
+        force = side * (first(peak) - 2 * first((peak - side * d) / 2))
+        rows.append(((d + force / K + 0.3e-6) * 1e6, force + 2))
+    name = write(tests, "rig-turns.csv", "drig [um],Fx [N]", rows)
+    scene = SETUP % (210, 0.4) + "; rig stiffness=60 N/um F0=%s N d0=0 m; "
+    values, event, done = answers(tests, scene % 2 + "fit mu, E0, d0 along " + name)
+    tests.check("fit: an offset that a start does not show", event and abs(values["mu"] / mu - 1) < 1e-6
+                and abs(values["d0"] / 0.3e-6 - 1) < 1e-6, tests.report(done))
+    _, _, done = answers(tests, scene % 0 + "fit mu, E0, d0, F0 along " + name)
+    tests.check("fit: offsets of a closed loop", "cannot tell d0 and F0 apart" in done.stderr, tests.report(done))
 
 
 def kept_at_the_rig(tests):
