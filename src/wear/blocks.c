@@ -204,12 +204,12 @@ fret_status fret_blocks_go_on(fret_wear_run *run) {
         return widen(run);
     run->rates += stages;
     run->tried++;
-    run->step = step * fmin(3, fmax(0.2, 0.8 / sqrt(fmax(off, 1e-9))));
+    run->step = step * fmin(1.5, fmax(0.2, 0.8 / sqrt(fmax(off, 1e-9))));
     if (off <= 1) {
         *cycles(b, b->count++) = done + step;
         fret_annulus_touch(a);
         const size_t i = stick_end(run);
-        if (a->t[i + 1] - a->t[i] > FOLLOW * run->tolerance * a->t[a->count - 1])
+        if (i > 0 && a->x[i + 1] - a->x[i] > FOLLOW * run->tolerance * (a->x[a->count - 1] - a->x[0]))
             return fret_blocks_begin(run, a->x[0], a->x[i], a->x[a->count - 1]);
     }
     return fret_ok();
