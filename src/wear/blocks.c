@@ -222,10 +222,10 @@ fret_annulus *fret_blocks_at(const fret_wear_run *run, double n, double *h) {
     size_t i = b->count - 1;
     while (i > 0 && *cycles(b, i) > n)
         i--;
-    const bool last = i + 1 == b->count;
-    const double *from = depths(b, i), *to = last ? from : depths(b, i + 1), *rate = rates(b, i),
-                 *next = last ? rate : rates(b, i + 1), step = last ? 0 : *cycles(b, i + 1) - *cycles(b, i),
-                 t = last ? 0 : (n - *cycles(b, i)) / step, rest = 1 - t;
+    const size_t end = i + 1 < b->count ? i + 1 : i;
+    const double *from = depths(b, i), *to = depths(b, end), *rate = rates(b, i), *next = rates(b, end),
+                 step = *cycles(b, end) - *cycles(b, i), t = step > 0 ? (n - *cycles(b, i)) / step : 0,
+                 rest = 1 - t;
     for (size_t j = 0; j <= b->ring.count; j++) { /* no less worn than before, nor more than after */
         const double at = rest * rest * ((1 + 2 * t) * from[j] + t * step * rate[j]) +
                           t * t * ((1 + 2 * rest) * to[j] - rest * step * next[j]);
