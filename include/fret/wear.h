@@ -44,11 +44,13 @@ typedef void (*fret_wear_told)(double cycles, void *user);
  * whatever was asked before; between two ends of blocks depths are cubic in the number of cycles. delta_z
  * counts from the tip as it is. told may be NULL. The object borrows normal, not the run.
  * Measured, of spheres, cones and flat ends with F_A/(mu F_N) of 0.4 and 0.9: alpha W and V differ by up to
- * 0.7 of the tolerance 1e-3, and the volume by up to 2.2 from that of the limit; those of a cone near gross
- * slip by 2.4 and 2.3 at k = -0.5, 5 and 11 at k = -0.7. F_N and delta_A held, where rings follow c, volumes
- * by up to 3 from those of a quarter of the tolerance; of a cone at 0.95 delta_x,max, of which but a tip
- * sticks, by a quarter when nearly all has worn. The first 10^6 cycles take 0.05 to 0.3 s at k >= 0 (F_N and
- * delta_A held: 1 s), to 0.6 s at k = -0.3, 1.4 s at k = -0.5 and 2.4 s at k = -0.7, where decays are fast;
+ * 0.5 of the tolerance 1e-3, and the volume by up to 1.4 from that of the limit; those of a cone near gross
+ * slip by 0.5 and 2 at k = -0.7, 1.2 and 5 at k = -0.9. F_N and delta_A held, where rings follow c, volumes
+ * of cones by up to 1.5 from those of other elements, which know them to 0.3 to 6. Depths, to 0.15 of the
+ * tolerance within, are those of nodes 1 % of the radius apart, and steeper than these can tell beside a and
+ * edges: there, within 1 %, they are off by up to 4 % of the largest in the first cycles, 0.4 % of it later;
+ * where p is infinite at an edge (flat cones, k <= 0), by up to 9 %. The first 10^6 cycles take 0.02 to 0.2 s
+ * at k >= 0 (F_N and delta_A held: 0.6 s), to 0.4 s at k = -0.3, 1 s at k = -0.7 and 2 s at k = -0.9;
  * any number of cycles that have been passed, 2 ms. Errors: FRET_NOT_FINITE, FRET_NEGATIVE (cycles);
  * FRET_OUTSIDE (cycles: more than can be run, limit: how many); FRET_TABLE_SHORT (limit: its end): the worn
  * contact reaches beyond the gap; FRET_GROSS_SLIP: F_A, at a held delta_z; FRET_NO_MEMORY, FRET_INTERRUPTED

@@ -30,15 +30,17 @@ static double *row_p(const fret_annulus *a, size_t i) {
     return a->to_p + i * (a->count - 1) - i * (i + 1) / 2 + i;
 }
 
-/* (b^m - a^m)/m of distances. */
-static fret_real between(fret_real m, fret_real a, fret_real b) {
-    return (fret_pow(b, m) - (a > 0 ? fret_pow(a, m) : 0)) / m;
+/* The integral of the power m - 1 over the distances a..b, and its moment about their middle. */
+static fret_real between(fret_real m, fret_real a, fret_real b, fret_real *moment) {
+    const fret_real from = a > 0 ? fret_pow(a, m) : 0, to = fret_pow(b, m), whole = (to - from) / m;
+    *moment = (b * to - a * from) / (m + 1) - (a + b) / 2 * whole;
+    return whole;
 }
 
 /* ---- making ------------------------------------------------------------------------------------ */
 
-/* Nodes ever closer to where the worn profile is steep, an eighth of them within; beyond the ring the closer
- * the nearer to it. */
+/* Nodes ever closer to where the worn profile is steep, an eighth of them within; evenly from an axis that
+ * slips; beyond the ring the closer the nearer to it. */
 static void make_places(fret_annulus *a, fret_real inner, fret_real steep, fret_real outer, fret_real second,
                         fret_real end) {
     const size_t n = a->count, within = steep > inner ? n / 8 : 0;
@@ -46,9 +48,8 @@ static void make_places(fret_annulus *a, fret_real inner, fret_real steep, fret_
         const fret_real u = i < within ? 1 - (fret_real)i / (fret_real)within
                             : i < n    ? (fret_real)(i - within) / (fret_real)(n - 1 - within)
                                        : (fret_real)(i + 1 - n) / (fret_real)(a->rows - n),
-                        part = u * u * (2 - u), far = i < within ? inner : outer;
-        a->x[i] = i < n ? sqrtl(steep * steep + part * (far - steep) * (far + steep))
-                        : outer + (end - outer) * u * u;
+                        part = (steep > 0 ? u : 1) * u * (3 - u) / 2, far = i < within ? inner : outer;
+        a->x[i] = i < n ? steep + part * (far - steep) : outer + (end - outer) * u * u;
     }
     a->x[0] = inner;
     a->x[1] = fminl(a->x[1], second);
@@ -64,8 +65,9 @@ static void make_row(const fret_annulus *a, fret_real m, size_t i, size_t from, 
         const size_t nearer = within ? j + 1 : j, l = j > from ? j - 1 : j, r = j < to ? j + 1 : j;
         const fret_real near = within ? (x[i] - x[nearer]) * (x[i] + x[nearer])
                                       : (x[nearer] - x[i]) * (x[nearer] + x[i]),
-                        d = (x[j + 1] - x[j]) * (x[j + 1] + x[j]), whole = between(m, near, near + d),
-                        moment = between(m + 1, near, near + d) - (near + d / 2) * whole;
+                        d = (x[j + 1] - x[j]) * (x[j + 1] + x[j]);
+        fret_real moment;
+        const fret_real whole = between(m, near, near + d, &moment);
         row[j - from] += (double)(whole / d);
         if (l == r)
             continue;
@@ -79,10 +81,11 @@ static void make_row(const fret_annulus *a, fret_real m, size_t i, size_t from, 
 static void make_weights(fret_annulus *a, fret_real m, fret_real stiff) {
     const fret_real *x = a->x;
     for (size_t j = 0; j + 1 < a->count; j++) {
-        const fret_real t = x[j] * x[j], end = x[j + 1] * x[j + 1], d = (x[j + 1] - x[j]) * (x[j + 1] + x[j]),
-                        whole = between(m, t, end), outer = (between(m + 1, t, end) - t * whole) / d;
-        a->weight[j] += (double)(stiff * (whole - outer));
-        a->weight[j + 1] += (double)(stiff * outer);
+        fret_real moment;
+        const fret_real whole = between(m, x[j] * x[j], x[j + 1] * x[j + 1], &moment),
+                        lean = moment / ((x[j + 1] - x[j]) * (x[j + 1] + x[j]));
+        a->weight[j] += (double)(stiff * (whole / 2 - lean));
+        a->weight[j + 1] += (double)(stiff * (whole / 2 + lean));
         make_row(a, m, j, j, a->count - 2, row_p(a, j));
     }
     for (size_t i = 1; i < a->rows; i++)
@@ -137,9 +140,8 @@ void fret_annulus_free(fret_annulus *a) {
 
 /* ---- the rate ---------------------------------------------------------------------------------- */
 
-/* g of depths, from that of the unworn gap. A place that is worn as deep everywhere within has that depth
- * more. */
-static void worn_profile(fret_annulus *a, const double *h, size_t rows) {
+/* What depths add to g. A place that is worn as deep everywhere within has that depth more. */
+static void added_profile(fret_annulus *a, const double *h, size_t rows) {
     for (size_t j = 0; j + 1 < a->count; j++)
         a->change[j] = h[j + 1] - h[j];
     a->g[0] = h[0];
@@ -147,72 +149,65 @@ static void worn_profile(fret_annulus *a, const double *h, size_t rows) {
         a->g[i] = h[0] + a->x1k[i] * dot(row_g(a, i), a->change, i < a->count ? i : a->count - 1);
 }
 
+static void worn_profile(fret_annulus *a, const double *h, size_t rows) {
+    added_profile(a, h, rows);
+    for (size_t i = 0; i < rows; i++)
+        a->g[i] += a->g0[i];
+}
+
 static void pressures(const fret_annulus *a, const double *change, size_t last, double *p) {
     for (size_t i = 0; i < a->count; i++)
         p[i] = i < last ? a->of_slope * dot(row_p(a, i), change + i, last - i) : 0;
 }
 
-/* Springs that have been touched press, or pull until they do not; others press where they are reached. */
-static double pressed(const fret_annulus *a, size_t i, double depth) {
-    return i <= a->touched || a->g[i] < depth ? depth - a->g[i] : 0;
+/* How far a spring is pressed at a depth. Those up to `touched` pull too, until they do not; others press
+ * where they are reached. */
+static double pressed(const fret_annulus *a, size_t i, size_t touched, double depth) {
+    return i <= touched || a->g[i] < depth ? depth - a->g[i] : 0;
 }
 
-/* The depth of the load: convex, Newton's steps end after finitely many; or that which is held, from the tip
- * as it is. */
-static void find_depth(fret_annulus *a) {
-    if (a->by_depth)
-        a->depth = a->press + a->g[0];
-    for (int i = 0; i < 100; i++) {
-        double load = a->inner * a->depth, K = a->inner;
+/* The depth of a load: convex, Newton's steps from any other end after finitely many. */
+static double depth_of(const fret_annulus *a, double load, size_t touched, double depth) {
+    double step = INFINITY;
+    for (int i = 0; i < 100 && fabs(step) > 1e-15 * fabs(depth); i++) {
+        double left = load - a->inner * depth, K = a->inner;
         for (size_t j = 0; j < a->count; j++)
-            if (j <= a->touched || a->g[j] < a->depth) {
-                load += a->weight[j] * (a->depth - a->g[j]);
+            if (j <= touched || a->g[j] < depth) {
+                left -= a->weight[j] * (depth - a->g[j]);
                 K += a->weight[j];
             }
-        a->force = a->within + load;
-        const double step = (a->press - load) / K;
-        if (a->by_depth || !(fabs(step) > 1e-15 * fabs(a->depth)))
-            return;
-        a->depth += step;
+        step = left / K;
+        depth += step;
     }
+    return depth;
+}
+
+/* That which is held counts from the tip as it is. */
+static double press_depth(const fret_annulus *a, size_t touched) {
+    return a->by_depth ? a->press + a->g[0] : depth_of(a, a->press, touched, a->depth);
 }
 
 const double *fret_annulus_profile(fret_annulus *a, const double *h, double *depth) {
-    const fret_annulus kept = *a; /* the run goes on from there, whatever has been asked */
     worn_profile(a, h, a->rows);
-    for (size_t i = 0; i < a->rows; i++)
-        a->g[i] += a->g0[i];
-    a->touched = 0; /* as a contact that has no past */
-    find_depth(a);
-    *depth = a->depth - a->g[0];
-    *a = kept;
+    *depth = press_depth(a, 0) - a->g[0]; /* of a contact that has no past */
     return a->g;
 }
 
-/* By how much of its depth the contact has slipped at the turning point, delta_A/(mu eta): of a force from
- * F_A = mu sum of weights times min(w, that), concave. */
+/* By how much of its depth the contact has slipped at the turning point, delta_A/(mu eta): of a force until
+ * what sticks carries F_N - F_A/mu. */
 static fret_status find_slipped(const fret_annulus *a, double *slipped) {
-    const double total = a->force, most = a->depth - a->g[0];
-    *slipped = a->by_displacement ? a->amplitude : 0;
-    if (!a->by_displacement && a->amplitude > total * (1 + 1e-12))
-        return fret_fail(FRET_GROSS_SLIP, "FA", a->amplitude * a->mu, a->mu * total);
-    for (int i = 0; i < 100 && !a->by_displacement; i++) {
-        double load = a->inner * *slipped, K = a->inner;
-        for (size_t j = 0; j < a->count; j++) {
-            load += a->weight[j] * fmin(a->w[j], *slipped);
-            K += a->w[j] > *slipped ? a->weight[j] : 0;
-        }
-        const double step = (a->amplitude - load) / K;
-        if (!(step > 1e-15 * most))
-            break;
-        *slipped += step;
-    }
+    double load = a->inner * a->depth;
+    for (size_t i = 0; i < a->count; i++)
+        load += a->weight[i] * a->w[i];
+    if (!a->by_displacement && a->amplitude > (load + a->within) * (1 + 1e-12))
+        return fret_fail(FRET_GROSS_SLIP, "FA", a->amplitude * a->mu, a->mu * (load + a->within));
+    *slipped = a->by_displacement ? a->amplitude : a->depth - depth_of(a, load - a->amplitude, 0, a->depth);
     if (a->inner > 0 || !a->by_displacement) /* what is within sticks */
-        *slipped = fmin(*slipped, most);
+        *slipped = fmin(*slipped, a->depth - a->g[0]);
     return fret_ok();
 }
 
-/* The gap f of a profile g, the inverse of worn_profile. */
+/* The gap f of a profile g, the inverse of added_profile. */
 static void gap_of(fret_annulus *a, const double *g, double *f) {
     f[0] = g[0];
     for (size_t i = 1; i < a->count; i++) {
@@ -226,11 +221,9 @@ fret_status fret_annulus_rate(fret_annulus *a, const double *h, double *rate) {
     double slipped, work = 0;
     size_t last = a->touched;
     worn_profile(a, h, a->count);
-    for (size_t i = 0; i < a->count; i++)
-        a->g[i] += a->g0[i];
-    find_depth(a);
+    a->depth = press_depth(a, a->touched);
     for (size_t i = 0; i < a->count; i++) {
-        a->w[i] = pressed(a, i, a->depth);
+        a->w[i] = pressed(a, i, a->touched, a->depth);
         last = a->w[i] > 0 && i > last ? i : last;
     }
     const fret_status st = find_slipped(a, &slipped);
@@ -276,7 +269,7 @@ double fret_annulus_stiffness(fret_annulus *a, double *v) {
         const double size = sqrt(dot(v, v, a->count)), before = found;
         for (size_t i = 0; i < a->count; i++)
             v[i] = size > 0 ? v[i] / size : i % 2 ? -1 : 1;
-        worn_profile(a, v, a->count);
+        added_profile(a, v, a->count);
         for (size_t j = 0; j + 1 < a->count; j++)
             a->change[j] = a->g[j + 1] - a->g[j];
         pressures(a, a->change, a->count - 1, a->p);

@@ -23,8 +23,8 @@ typedef struct fret_annulus {
     /* what is held, counted so; of_slope: p = of_slope int g' (x^2-r^2)^(m-1) dx */
     bool by_depth, by_displacement;
     double press, amplitude, mu, eta, alpha, of_slope;
-    double depth, force; /* of the last rate; force: of all springs, from 0 */
-    double within;       /* load of the contact up to the inner end */
+    double depth;  /* of the last rate */
+    double within; /* load of the contact up to the inner end */
 } fret_annulus;
 
 /* Between two radii within the gap, nodes closest at `steep`, the node next to the inner one at `second` at

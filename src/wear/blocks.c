@@ -204,12 +204,12 @@ fret_status fret_blocks_go_on(fret_wear_run *run) {
         return widen(run);
     run->rates += stages;
     run->tried++;
-    run->step = step * fmin(3, fmax(0.2, 0.8 / sqrt(fmax(off, 1e-9))));
+    run->step = step * fmin(1.5, fmax(0.2, 0.8 / sqrt(fmax(off, 1e-9))));
     if (off <= 1) {
         *cycles(b, b->count++) = done + step;
         fret_annulus_touch(a);
         const size_t i = stick_end(run);
-        if (a->t[i + 1] - a->t[i] > FOLLOW * run->tolerance * a->t[a->count - 1])
+        if (i > 0 && a->x[i + 1] - a->x[i] > FOLLOW * run->tolerance * (a->x[a->count - 1] - a->x[0]))
             return fret_blocks_begin(run, a->x[0], a->x[i], a->x[a->count - 1]);
     }
     return fret_ok();
@@ -222,10 +222,10 @@ fret_annulus *fret_blocks_at(const fret_wear_run *run, double n, double *h) {
     size_t i = b->count - 1;
     while (i > 0 && *cycles(b, i) > n)
         i--;
-    const bool last = i + 1 == b->count;
-    const double *from = depths(b, i), *to = last ? from : depths(b, i + 1), *rate = rates(b, i),
-                 *next = last ? rate : rates(b, i + 1), step = last ? 0 : *cycles(b, i + 1) - *cycles(b, i),
-                 t = last ? 0 : (n - *cycles(b, i)) / step, rest = 1 - t;
+    const size_t end = i + 1 < b->count ? i + 1 : i;
+    const double *from = depths(b, i), *to = depths(b, end), *rate = rates(b, i), *next = rates(b, end),
+                 step = *cycles(b, end) - *cycles(b, i), t = step > 0 ? (n - *cycles(b, i)) / step : 0,
+                 rest = 1 - t;
     for (size_t j = 0; j <= b->ring.count; j++) { /* no less worn than before, nor more than after */
         const double at = rest * rest * ((1 + 2 * t) * from[j] + t * step * rate[j]) +
                           t * t * ((1 + 2 * rest) * to[j] - rest * step * next[j]);

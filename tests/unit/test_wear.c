@@ -365,7 +365,7 @@ static void worn_tips(void) {
     }
 }
 
-/* A tenth of the tolerance, a tenth of the error. */
+/* Errors are a small part of the tolerance, whichever it is. */
 static void tolerances(void) {
     for (int by = 0; by < 4; by++) {
         if (unit_skips((size_t)by))
@@ -382,7 +382,7 @@ static void tolerances(void) {
         }
         off[0] = fabsl(V[0] - V[2]) / V[2];
         off[1] = fabsl(V[1] - V[2]) / V[2];
-        CHECK(off[0] < tolerance[0] && off[1] < tolerance[1] && off[1] < off[0] / 3);
+        CHECK(off[0] < tolerance[0] / 25 && off[1] < tolerance[1] / 25);
     }
 }
 
@@ -406,25 +406,27 @@ static void stick_radii(void) {
 }
 
 /* F_N and delta_A held, what sticks grows into what has worn and leaves it as it is. References by other
- * elements, quadratic in r^2 and with quadratures of both transforms, in implicit steps: extrapolated from
- * 137 and 205 nodes, to 3e-4. */
+ * elements: of 0.6, quadratic in r^2 and with quadratures of both transforms, in implicit steps, extrapolated
+ * from 137 and 205 nodes, to 3e-4; of 0.95 delta_x,max, straight in r and with edges a and c between nodes,
+ * in steps of Heun, extrapolated from 100 to 800 nodes, to 1e-3, later to 3e-3 and 6e-3. */
 static void growing_stick(void) {
-    static const double cycles[] = {1e5, 1e6, 1e7}, V[] = {1.2148e-14, 1.1044e-13, 1.6355e-13},
-                        c[] = {4.3701e-5, 4.4021e-5, 4.4021e-5};
+    static const struct {
+        double part, cycles, V, c, off;
+    } rows[] = {{0.6, 1e5, 1.2148e-14, 4.3701e-5, 1},   {0.6, 1e6, 1.1044e-13, 4.4021e-5, 1},
+                {0.6, 1e7, 1.6355e-13, 4.4021e-5, 1},   {-0.95, 1e5, 4.3777e-14, 1.1530e-5, 1},
+                {-0.95, 1e6, 6.0900e-13, 1.1540e-5, 3}, {-0.95, 1e7, 4.5000e-12, 1.1550e-5, 5}};
     const fret_normal *n = normal_of(CONE, 0);
-    const fret_wear_held held = hold(n, false, true, 0.6);
-    fret_wear_run *r = begin(n, &held, 1e-3);
-    for (int i = 0; i < 3; i++) {
-        fret_wear *w = after(r, cycles[i]);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const fret_wear_held held = hold(n, false, true, rows[i].part);
+        fret_wear *w = run(n, &held, rows[i].cycles, 1e-3);
         const fret_pressed worn = press_worn(w, &held);
         fret_loading turn;
-        CHECK_REL(fret_wear_volume(w), V[i], 2e-3L);
+        CHECK_REL(fret_wear_volume(w), rows[i].V, rows[i].off * 2e-3L);
         CHECK_OK(fret_loading_by_displacement(&worn, held.amplitude, &turn));
-        CHECK_REL(turn.c, c[i], 1e-3L);
-        CHECK(worn.press.a > (i ? 1.8L : 1.2L) * press(n, &held).press.a); /* of those 1.82, 2.02 */
+        CHECK_REL(turn.c, rows[i].c, rows[i].off * 1e-3L);
+        CHECK(worn.press.a > (rows[i].cycles > 1e5 ? 1.8L : 1.2L) * press(n, &held).press.a);
         fret_wear_free(w);
     }
-    fret_wear_run_free(r);
 }
 
 /* The same to the last bit whatever has been asked before, within a block, at the end of one or beyond; and
