@@ -50,7 +50,7 @@ static bool explain_had(const page *p, bool ok, const calc_error *why) {
 static void explain_value(const page *p, const char *name, size_t len, value v, const char *row) {
     char text[160], unit_text[COLUMN_UNIT], *whole = column_name(name, len);
     if (!whole) {
-        calc_raise_memory(p->error);
+        calc_no_memory(p->error);
         return;
     }
     format_column(&(column){.d = v.d, .row = row}, p->sh->set.digits, v.v, text, sizeof text);

@@ -169,7 +169,7 @@ static void tell_remark(const lesson *l, const char *line) {
 static void run_step(lesson *l, size_t i, size_t end) {
     if (!l->before && i < end) {
         if (!(l->before = undo_mark(&l->sh->calc))) {
-            calc_raise_memory(l->error);
+            calc_no_memory(l->error);
             return;
         }
         begin_lesson(l);

@@ -37,7 +37,7 @@ static void exercise_free(exercise *x) {
 static char *unquoted(const lexer *lx, size_t at, size_t len) {
     char *text = strndup(lx->text + at + 1, len - 2);
     if (!text)
-        calc_raise_memory(lx->error);
+        calc_no_memory(lx->error);
     return text;
 }
 

@@ -118,7 +118,7 @@ static struct recorder *make_recorder(shell *sh, calc_error *error) {
         }
         free_recorder(r);
     }
-    calc_raise_memory(error);
+    calc_no_memory(error);
     return NULL;
 }
 
@@ -158,7 +158,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     if (!r)
         return false;
     if (html && (!(r->to_log = file_stream(r, write_log)) || !handout_make(&r->page)))
-        calc_raise_memory(error); /* before the file is emptied */
+        calc_no_memory(error); /* before the file is emptied */
     else
         file_log_open(&r->log, path, &shell_stop, &over, error);
     if (error->raised) {

@@ -37,26 +37,13 @@ void calc_raise(calc_error *error, size_t at, size_t len, const char *format, ..
     error->len = len;
 }
 
-void calc_raise_interrupted(calc_error *error) {
-    error->stop = true;
-    calc_raise(error, 0, 0, "interrupted");
-}
-
 bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error) {
-    if (!*stop)
-        return false;
-    calc_raise_interrupted(error);
-    return true;
+    return *stop && !calc_interrupted(error);
 }
 
 void calc_raise_missing(calc_error *error, int input) {
     if (first(error, ERROR_MISSING))
         error->input = input;
-}
-
-void calc_raise_memory(calc_error *error) {
-    error->stop = true;
-    calc_raise(error, 0, 0, "out of memory");
 }
 
 void calc_raise_errno(calc_error *error, int code, const char *format, ...) {

@@ -42,9 +42,7 @@ void error_clear(calc_error *error);
 __attribute__((format(printf, 4, 5)))
 #endif
 void calc_raise(calc_error *error, size_t at, size_t len, const char *format, ...);
-void calc_raise_interrupted(calc_error *error);
 void calc_raise_missing(calc_error *error, int input);
-void calc_raise_memory(calc_error *error);
 /* What the system refused: the words, and its own behind them. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
@@ -61,9 +59,9 @@ static inline bool calc_refused(void) {
     return false;
 }
 #define calc_fail(...) (calc_raise(__VA_ARGS__), calc_refused())
-#define calc_interrupted(error) (calc_raise_interrupted(error), calc_refused())
+#define calc_interrupted(error) ((error)->stop = true, calc_fail(error, 0, 0, "interrupted"))
 #define calc_missing(error, input) (calc_raise_missing(error, input), calc_refused())
-#define calc_no_memory(error) (calc_raise_memory(error), calc_refused())
+#define calc_no_memory(error) ((error)->stop = true, calc_fail(error, 0, 0, "out of memory"))
 #define calc_errno(...) (calc_raise_errno(__VA_ARGS__), calc_refused())
 #define calc_place(error, at, len) (calc_put_place(error, at, len), calc_refused())
 
