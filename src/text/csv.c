@@ -65,18 +65,18 @@ static bool read_text(csv *c, file_stop stop, size_t *len, calc_error *error) {
 
 /* A line that is not empty. Bits: which of its fields are numbers, and which words; the last stands for all
  * that follow. */
-typedef struct said_line {
+typedef struct table_line {
     csv_row at;
     bool comment;
     unsigned fields;
     unsigned long long numbers, words, labels; /* labels: words of more than one letter */
-} said_line;
+} table_line;
 
 typedef struct finder {
     csv *c;
     calc_error *error;
     file_stop stop;
-    said_line *list;
+    table_line *list;
     size_t count;
     unsigned long long usual; /* the numbers of a row */
     char title[CSV_COLUMNS][CSV_NAME];
@@ -84,7 +84,7 @@ typedef struct finder {
 
 #define NO_LINE ((size_t)-1)
 
-static const char *text_of(const finder *t, const said_line *l) {
+static const char *text_of(const finder *t, const table_line *l) {
     return t->c->text + l->at.at;
 }
 
@@ -99,7 +99,7 @@ static bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (unsigned char)c >= 0x80;
 }
 
-static void scan_line(const char *text, char separator, said_line *l) {
+static void scan_line(const char *text, char separator, table_line *l) {
     size_t at = 0;
     cell c = {.ends = false};
     l->fields = 0;
@@ -142,7 +142,7 @@ static bool cut_lines(finder *t, size_t len) {
         n = strcspn(text + at, "\n");
         if (says_something(text + at, n) && (n != 5 || memcmp(text + at, "sep=", 4)))
             t->list[t->count++] =
-                (said_line){.at = {number, at, n}, .comment = is_comment(field_trimmed(text + at, n))};
+                (table_line){.at = {number, at, n}, .comment = is_comment(field_trimmed(text + at, n))};
     }
     return true;
 }
@@ -158,7 +158,7 @@ static char choose_separator(const finder *t) {
         for (const char *kind = kinds; *kind; kind++) {
             long score = 0;
             for (size_t i = 0; i < t->count; i += 1 + t->count / TRIED) {
-                said_line l = t->list[i];
+                table_line l = t->list[i];
                 if (l.comment)
                     continue;
                 scan_line(text_of(t, &l), *kind, &l);
@@ -182,7 +182,7 @@ static void find_usual(finder *t) {
     } kind[KINDS] = {{0, 0}};
     size_t kinds = 0, most = 0;
     for (size_t i = 0; i < t->count; i++) {
-        said_line *l = &t->list[i];
+        table_line *l = &t->list[i];
         if (l->comment)
             continue;
         scan_line(text_of(t, l), t->c->separator, l);
@@ -204,7 +204,7 @@ static void find_usual(finder *t) {
 }
 
 /* Numbers, or no value, where rows have numbers. */
-static bool is_row(const finder *t, const said_line *l) {
+static bool is_row(const finder *t, const table_line *l) {
     return !l->comment && l->numbers & t->usual && !(l->words & t->usual);
 }
 
@@ -279,7 +279,7 @@ static size_t read_titles(finder *t, char separator, const char *text, size_t le
 
 /* How many columns the line names: by the separator of the rows, or by another where that parts as many names
  * as a row has fields. exact: no less and no more than these; else 0. */
-static size_t names_in(finder *t, const said_line *l, unsigned fields, bool exact) {
+static size_t names_in(finder *t, const table_line *l, unsigned fields, bool exact) {
     static const char kinds[] = ";\t, ";
     const char *text = text_of(t, l), own = t->c->separator;
     size_t named = read_titles(t, own, text, l->at.len);
@@ -317,7 +317,7 @@ static size_t header_above(finder *t, size_t i) {
     const unsigned fields = t->list[i].fields;
     size_t noted = NO_LINE;
     while (i-- > 0) {
-        const said_line *l = &t->list[i];
+        const table_line *l = &t->list[i];
         if (!l->comment)
             return names_in(t, l, fields, false) ? i : noted;
         const size_t named = names_in(t, l, fields, true);
@@ -328,7 +328,7 @@ static size_t header_above(finder *t, size_t i) {
     return noted;
 }
 
-static bool same_line(const finder *t, const said_line *a, const said_line *b) {
+static bool same_line(const finder *t, const table_line *a, const table_line *b) {
     return a->at.len == b->at.len && !memcmp(text_of(t, a), text_of(t, b), a->at.len);
 }
 
@@ -459,12 +459,12 @@ static size_t find_begin(finder *t, size_t *header) {
 }
 
 /* Names with units of their own begin another table. */
-static bool begins_another(finder *t, const said_line *l) {
+static bool begins_another(finder *t, const table_line *l) {
     const size_t named = l->numbers ? 0 : names_in(t, l, (unsigned)t->c->columns, false);
     return named >= count_bits(t->usual) && have_units(t, named);
 }
 
-static bool add_row(finder *t, const said_line *l) {
+static bool add_row(finder *t, const table_line *l) {
     csv *c = t->c;
     if (c->header.line && c->columns < CSV_COLUMNS && l->numbers >> c->columns)
         return calc_fail(t->error, 0, 0, "%s:%zu: more than %zu fields, one for each name of the header",
@@ -480,7 +480,7 @@ static bool add_row(finder *t, const said_line *l) {
 static bool read_rows(finder *t, size_t begin, size_t header) {
     csv *c = t->c;
     for (size_t i = begin; i < t->count; i++) {
-        const said_line *l = &t->list[i];
+        const table_line *l = &t->list[i];
         if (l->comment)
             continue;
         const unsigned long long first = t->usual & (~t->usual + 1);

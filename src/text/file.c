@@ -69,16 +69,10 @@ static int descriptor(const char *path) {
     for (size_t i = 0; i < sizeof standard / sizeof *standard; i++)
         if (!strcmp(path, standard[i].name))
             return standard[i].fd;
-    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
-    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        size_t n = strlen(folders[i]);
-        if (strncmp(path, folders[i], n) == 0 && path[n] >= '0' && path[n] <= '9' && strlen(path + n) < 6) {
-            char *end;
-            long fd = strtol(path + n, &end, 10);
-            return *end ? -1 : (int)fd;
-        }
-    }
-    return -1;
+    int fd, n = 0;
+    const bool numbered =
+        sscanf(path, "/dev/fd/%5d%n", &fd, &n) == 1 || sscanf(path, "/proc/self/fd/%5d%n", &fd, &n) == 1;
+    return numbered && !path[n] ? fd : -1;
 }
 
 /* Follows the links of out->real by hand: realpath(3) fails in directories deeper than PATH_MAX. A link that
