@@ -121,8 +121,8 @@ OUTER := $(call OBJ,$(filter-out $(BACK),$(wildcard $(patsubst %,src/%/*.c,text 
 $(B)/tests/%: $(B)/tests/unit/%.o $(call OBJ,$(CORE)) $(OUTER)
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(LIBS_GSL) $(LIBS_CORE)
 # the rows of all commands are in the whole program
-$(B)/tests/test_grammar $(B)/tests/test_reader: LIBS_GSL := $(LIBS)
-$(B)/tests/test_grammar $(B)/tests/test_reader: $(call OBJ,$(filter-out src/prompt/main.c,$(PROG))) $(B)/scripts.o
+$(B)/tests/test_grammar $(B)/tests/test_output $(B)/tests/test_reader: LIBS_GSL := $(LIBS)
+$(B)/tests/test_grammar $(B)/tests/test_output $(B)/tests/test_reader: $(call OBJ,$(filter-out src/prompt/main.c,$(PROG))) $(B)/scripts.o
 # their allocations, and some calls, pass through the test
 $(B)/tests/test_allocation $(B)/tests/test_answers $(B)/tests/test_calc $(B)/tests/test_wear: WRAP = $(addprefix -Wl$(COMMA)--wrap=,malloc calloc realloc aligned_alloc)
 $(B)/tests/test_threads: WRAP += -pthread

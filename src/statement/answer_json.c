@@ -8,12 +8,24 @@
 
 /* ---- strings and numbers ----------------------------------------------------------------------- */
 
+/* Length of the printable ASCII that begins there and stands for itself in JSON: most names are that. */
+static size_t plain_length(const char *text) {
+    size_t n = 0;
+    while (text[n] >= ' ' && text[n] < 0x7f && text[n] != '"' && text[n] != '\\')
+        n++;
+    return n;
+}
+
 /* Quotation marks included; bytes that are no UTF-8 become U+FFFD. */
 static void put_string(FILE *to, const char *text) {
     putc('"', to);
-    for (size_t left = strlen(text), n; left > 0; text += n, left -= n) {
+    size_t plain = plain_length(text);
+    fwrite(text, 1, plain, to);
+    text += plain;
+    size_t left = strlen(text);
+    while (left > 0) {
         unsigned code;
-        n = character_at(text, left, &code);
+        size_t n = character_at(text, left, &code);
         if (n == 0) {
             fputs("\\ufffd", to);
             n = 1;
@@ -24,6 +36,8 @@ static void put_string(FILE *to, const char *text) {
         } else {
             fwrite(text, 1, n, to);
         }
+        text += n;
+        left -= n;
     }
     putc('"', to);
 }

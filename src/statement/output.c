@@ -2,6 +2,7 @@
 /* Numbers, values and columns as text. Writes to the streams that it is given. */
 #include "statement/output.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,12 +12,79 @@
 
 /* ---- numbers ----------------------------------------------------------------------------------- */
 
-void number_text(char text[NUMBER_TEXT], int digits, double v) {
-    snprintf(text, NUMBER_TEXT, "%.*g", digits, v + 0.0); /* -0 is 0 */
+/* printf takes 100 to 200 ns a number, half of a table's time: 0.6 us a number in place of 0.4. One product
+ * in extended precision with an exact power of ten gives the same digits, wherever its rounding cannot tip
+ * them; where it can, printf decides. */
+size_t number_text(char text[NUMBER_TEXT], int digits, double v) {
+    static const long double ten[] = {1e0L,  1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,  1e7L,  1e8L,  1e9L,
+                                      1e10L, 1e11L, 1e12L, 1e13L, 1e14L, 1e15L, 1e16L, 1e17L, 1e18L, 1e19L,
+                                      1e20L, 1e21L, 1e22L, 1e23L, 1e24L, 1e25L, 1e26L, 1e27L};
+    enum { EXACT = 27, OFFSET = 1100 };
+    v += 0.0; /* -0 is 0 */
+    long double x = fabsl((long double)v), y = 0;
+    int binary;
+    frexp(v, &binary);
+    /* the decimal exponent, or one less: floor(log10(2^(binary-1))) */
+    int e = ((binary - 1) * 30103 + OFFSET * 100000) / 100000 - OFFSET;
+    for (;; e++) {
+        int shift = digits - 1 - e;
+        if (!(x > 0) || !isfinite(v) || shift < -EXACT || shift > EXACT)
+            return (size_t)snprintf(text, NUMBER_TEXT, "%.*g", digits, v);
+        y = shift < 0 ? x / ten[-shift] : x * ten[shift];
+        if (y < ten[digits])
+            break;
+    }
+    long long d = llrintl(y);
+    if (0.5L - fabsl(y - (long double)d) <= y * LDBL_EPSILON)
+        return (size_t)snprintf(text, NUMBER_TEXT, "%.*g", digits, v);
+    if ((long double)d >= ten[digits]) {
+        d /= 10;
+        e++;
+    }
+
+    char digit[20];
+    for (int i = digits; i-- > 0; d /= 10)
+        digit[i] = (char)('0' + d % 10);
+    int used = digits;
+    while (used > 1 && digit[used - 1] == '0')
+        used--;
+    char *p = text;
+    if (v < 0)
+        *p++ = '-';
+    bool scientific = e < -4 || e >= digits;
+    int whole = scientific ? 1 : e + 1; /* digits before the point */
+    if (whole <= 0) {
+        memcpy(p, "0.000", (size_t)(2 - whole));
+        p += 2 - whole;
+        whole = 0;
+    }
+    memcpy(p, digit, (size_t)whole);
+    p += whole;
+    if (used > whole) {
+        if (whole)
+            *p++ = '.';
+        memcpy(p, digit + whole, (size_t)(used - whole));
+        p += used - whole;
+    }
+    if (scientific) {
+        int n = abs(e);
+        *p++ = 'e', *p++ = e < 0 ? '-' : '+';
+        *p++ = (char)('0' + n / 10), *p++ = (char)('0' + n % 10);
+    }
+    *p = 0;
+    return (size_t)(p - text);
 }
 
 void print_number(FILE *to, int width, int digits, double v) {
-    fprintf(to, "%*.*g", width, digits, v + 0.0);
+    static const char blanks[] = "                        ";
+    char text[NUMBER_TEXT];
+    size_t n = number_text(text, digits, v);
+    for (size_t pad = (size_t)width > n ? (size_t)width - n : 0; pad;) {
+        size_t part = pad < sizeof blanks - 1 ? pad : sizeof blanks - 1;
+        fwrite(blanks, 1, part, to);
+        pad -= part;
+    }
+    fwrite(text, 1, n, to);
 }
 
 double round_up(double v) {

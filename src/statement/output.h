@@ -30,8 +30,8 @@ void column_suit(column *c, const long double *v, size_t count, size_t stride, i
 bool columns_distinct(column *c, size_t count);
 void columns_free(column *c, size_t count);
 
-/* %.*g, but for -0, which is 0. */
-void number_text(char text[NUMBER_TEXT], int digits, double v);
+/* %.*g, faster, and 0 for -0. */
+size_t number_text(char text[NUMBER_TEXT], int digits, double v);
 /* The same in a field of `width`, to the right. */
 void print_number(FILE *to, int width, int digits, double v);
 /* A positive number rounded up to one digit, as bounds are told. */
