@@ -141,11 +141,6 @@ static const char *who(const grammar *f) {
     return f->shape ? f->shape : f->command;
 }
 
-static bool unknown_argument(lexer *lx, const grammar *f) {
-    return lex_fail(lx, "%s has no %s '%.*s'", who(f), f->shape ? "parameter" : "argument", LEX_WORD(lx)) ||
-           add_usage(lx->error, f);
-}
-
 static bool not_taken(lexer *lx, const grammar *f, const char *name, token_kind how) {
     return lex_fail(lx, "%s does not take %s by %s", who(f), name, how == T_DEFINE ? ":=" : "+=") ||
            add_usage(lx->error, f);
@@ -250,17 +245,25 @@ static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d)
     return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
 }
 
+/* The argument at the cursor, or NULL. */
+static const clause *argument_named(const lexer *lx, const grammar *f) {
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (a->argument && lex_is(lx, a->name))
+            return a;
+    return NULL;
+}
+
 static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i);
 
 static bool read_argument(shell *sh, lexer *lx, said *s) {
     const token_kind how = lex_peek(lx);
     const grammar *f = s->by;
-    const clause *a = f->clause, *end = a + f->count;
+    const clause *a = argument_named(lx, f);
     dim d;
-    while (a < end && !(a->argument && lex_is(lx, a->name)))
-        a++;
-    if (a == end)
-        return unknown_argument(lx, f);
+    if (!a)
+        return lex_fail(lx, "%s has no %s '%.*s'", who(f), f->shape ? "parameter" : "argument",
+                        LEX_WORD(lx)) ||
+               add_usage(lx->error, f);
     if (!said_may_come(lx, s, a))
         return false;
     if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
@@ -376,14 +379,6 @@ static bool is_unit(const lexer *lx, const grammar *f) {
            !clause_near(lx, f);
 }
 
-/* Does an argument of the row begin at the cursor? */
-static bool begins_argument(const lexer *lx, const grammar *f) {
-    for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (a->argument && lex_is(lx, a->name))
-            return lex_assigns(lx);
-    return false;
-}
-
 /* Skips what stands in the i-th hole of the clause. Only behind an operand can a word of the row begin a
  * clause, which ends the part, as does a name that cannot stand there; a comma may end it too, and an `=`
  * that does not belong to `at`. */
@@ -412,7 +407,7 @@ static void skip_part(lexer *lx, said *s, const clause *a, unsigned i) {
                           (next ||
                            !(joins || word || figure || kind == HOLE_LOAD ||
                              (s->end == PART_NUMBER && is_unit(lx, f)) || (whole && unit_at(lx))) ||
-                           (lx->cut && begins_argument(lx, f)));
+                           (lx->cut && argument_named(lx, f) && lex_assigns(lx)));
         if (depth == 0 && (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
                            (equals_ends && !named && is_equals(lx)) || ends))
             break;

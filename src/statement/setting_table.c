@@ -178,9 +178,8 @@ const char *setting_name(size_t i) {
 }
 
 size_t setting_find(const char *name) {
-    size_t i = 0;
-    while (strcmp(rows[i].name, name) != 0)
-        i++;
+    size_t i;
+    word_among(setting_name, name, strlen(name), &i);
     return i;
 }
 

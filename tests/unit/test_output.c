@@ -18,9 +18,10 @@ static void as_printf(double v) {
 
 /* Ties, carries to the next power of ten, ends of the range, and where it goes over to exponents. */
 static void chosen(void) {
-    static const double values[] = {0.0,     -0.0,    1,       -1,     0.5,    2.5,   9.5,     0.125,   1e-4,     9.9999e-5,
-                                    99999.5, 1e5,     1e17,    1e22,   1e23,   5e-324, DBL_MIN, DBL_MAX, INFINITY, 0.1,
-                                    1 / 3.0, 2 / 3.0, 1e-5,    999999, 1e6,    9e15,  1e16,    123456,  NAN,      -0.05};
+    static const double values[] = {0.0,     -0.0,      1,        -1,     0.5,     2.5,     9.5,  0.125,
+                                    1e-4,    9.9999e-5, 99999.5,  1e5,    1e17,    1e22,    1e23, 5e-324,
+                                    DBL_MIN, DBL_MAX,   INFINITY, 0.1,    1 / 3.0, 2 / 3.0, 1e-5, 999999,
+                                    1e6,     9e15,      1e16,     123456, NAN,     -0.05};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         as_printf(values[i]);
 }
