@@ -85,14 +85,6 @@ static void put_figure(handout *p, const char *text, size_t len) {
     }
 }
 
-bool handout_make(handout *p) {
-    *p = (handout){.open = PAGE_GAP};
-    const bool ok = file_text_open(&p->solutions);
-    if (!ok)
-        p->solutions.text = NULL; /* freed */
-    return ok;
-}
-
 void handout_begin(handout *p, FILE *to, const char *title) {
     p->to = to;
     fputs(head, to);
@@ -111,6 +103,10 @@ static void close_part(handout *p, page_part next) {
 
 void handout_put(handout *p, page_part part, const char *text, size_t len) {
     if (part == PAGE_SOLUTION) {
+        if (!p->solutions.to && !p->lost)
+            p->lost = !file_text_open(&p->solutions);
+        if (p->lost)
+            return;
         fputs(parts[part].begin, p->solutions.to);
         put_text(p->solutions.to, text, len);
         fputs(parts[part].end, p->solutions.to);
@@ -139,7 +135,7 @@ bool handout_end(handout *p) {
     if (to)
         handout_put(p, PAGE_GAP, "", 0);
     p->to = NULL;
-    const bool ok = !p->solutions.to || file_text_close(&p->solutions);
+    const bool ok = !p->lost && (!p->solutions.to || file_text_close(&p->solutions));
     if (to && ok && p->solutions.size)
         fprintf(to, "<div class=\"solutions\"><h2>Answers</h2>\n<ol>\n%s</ol></div>\n", p->solutions.text);
     if (ok)

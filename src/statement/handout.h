@@ -25,14 +25,14 @@ typedef struct handout {
     char last;           /* that was written, but for line ends */
     unsigned figures;    /* so far */
     file_text solutions; /* to the questions */
+    bool lost;           /* they found no memory */
 } handout;
 
-/* Before anything is written. False: out of memory. */
-bool handout_make(handout *p);
+/* Of one that is all 0. */
 void handout_begin(handout *p, FILE *to, const char *title);
 /* Lines of text end in their own line ends. */
 void handout_put(handout *p, page_part part, const char *text, size_t len);
-/* With the solutions, also of one that has not begun; false: some found no memory. */
+/* With the solutions, also of one that has not begun; false: they are lost. */
 bool handout_end(handout *p);
 
 #endif

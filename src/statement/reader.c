@@ -49,19 +49,13 @@ static const hole_row *first_hole(const clause *a) {
     return a->holes ? a->hole[0].row : NULL;
 }
 
-static bool is_awake(const shell *sh, const lexer *lx) {
-    const char *text = lx->text + lx->at;
-    size_t i;
-    return quantity_find(text, lx->len) || name_taken(text, lx->len) ||
-           names_find(&sh->calc.names, text, lx->len, &i);
-}
-
 bool names_wake(shell *sh, const lexer *lx, size_t before) {
     own_names *n = &sh->calc.names;
+    const char *text = lx->text + lx->at;
     size_t i;
-    if (is_awake(sh, lx))
+    if (quantity_find(text, lx->len) || name_taken(text, lx->len) || names_find(n, text, lx->len, &i))
         return true;
-    if (!names_add(n, lx->text + lx->at, lx->len, &i))
+    if (!names_add(n, text, lx->len, &i))
         return calc_no_memory(lx->error);
     n->row[i].woken = i < before;
     n->row[i].known = true;
@@ -97,7 +91,7 @@ bool said_wake(shell *sh, const lexer *lx, said *s) {
         if (!row || row->kind != HOLE_NAME)
             continue;
         const lexer name = hole_lexer(lx, &h->hole[0]);
-        if (name.len >= LEX_NAME || is_awake(sh, &name))
+        if (name.len >= LEX_NAME)
             continue;
         s->wakes = true;
         if (!names_wake(sh, &name, s->names))

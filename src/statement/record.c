@@ -157,7 +157,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     struct recorder *r = make_recorder(sh, error);
     if (!r)
         return false;
-    if (html && (!(r->to_log = file_stream(r, write_log)) || !handout_make(&r->page)))
+    if (html && !(r->to_log = file_stream(r, write_log)))
         calc_no_memory(error); /* before the file is emptied */
     else
         file_log_open(&r->log, path, &shell_stop, &over, error);
@@ -268,10 +268,6 @@ bool record_page(shell *sh, FILE *to, const char *title, calc_error *error) {
     struct recorder *r = make_recorder(sh, error);
     if (!r)
         return false;
-    if (!handout_make(&r->page)) {
-        free_recorder(r);
-        return calc_no_memory(error);
-    }
     handout_begin(&r->page, to, title);
     r->outer = sh->record;
     r->outer_out = sh->out;
@@ -328,8 +324,11 @@ void record_together(shell *sh) {
 
 /* A line that goes on over others does so again. */
 void typed_keep(shell *sh, const char *line) {
-    for (const char *p = line; *p; p++)
-        fputs((const char[]){*p == '\n' ? '\\' : *p, *p == '\n' ? '\n' : 0, 0}, sh->typed.to);
+    for (const char *p = line; *p; p++) {
+        if (*p == '\n')
+            putc('\\', sh->typed.to);
+        putc(*p, sh->typed.to);
+    }
     putc('\n', sh->typed.to);
 }
 
