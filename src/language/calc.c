@@ -2,7 +2,6 @@
 /* The session: its life, and assignments. */
 #include "language/calc.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,6 @@
 
 #include "language/over.h"
 #include "language/tree.h"
-#include "number/real.h"
 
 typedef struct machine {
     calc *c;

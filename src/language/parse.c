@@ -7,6 +7,7 @@
 #include "language/tree.h"
 #include "language/trial.h"
 #include "number/array.h"
+#include "number/real.h"
 #include "text/characters.h"
 #include "text/unit.h"
 
@@ -257,7 +258,7 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
     if (!function) {
         node.kind = N_NUMBER;
         node.index = 0;
-        node.v = (value){3.14159265358979323846264338327950288L, DIM_NONE};
+        node.v = (value){FRET_PI, DIM_NONE};
         return add_node(p, &node, out);
     }
     if (function->d == DIM_RANGE)

@@ -2,9 +2,7 @@
 /* Scratch scenes for expressions, with inputs, names, the load or the instant changed. */
 #include "language/trial.h"
 
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "number/array.h"
 

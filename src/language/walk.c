@@ -2,8 +2,6 @@
 /* A scene of its own that follows another one, and a run of its load. */
 #include "language/walk.h"
 
-#include <string.h>
-
 void walk_end(walk *w) {
     if (!w->begun)
         return;

@@ -3,7 +3,7 @@
  * model. */
 #include "statement/setting_table.h"
 
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 /* ---- those that are no int --------------------------------------------------------------------- */

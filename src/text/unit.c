@@ -33,7 +33,7 @@ static const struct {
     {"s", true, {{0, 0, 0, 1}, 0, 1}, "second, time; elsewhere the name is free"},
     {"Hz", true, {{0, 0, 0, -1}, 0, 1}, "hertz, frequency"},
     {"rad", false, {{0, 0, 1, 0}, 0, 1}, "radian, angle"},
-    {"deg", false, {{0, 0, 1, 0}, 0, 3.14159265358979323846264338327950288L / 180}, "degree, angle"},
+    {"deg", false, {{0, 0, 1, 0}, 0, FRET_PI / 180}, "degree, angle"},
     {"%", false, {{0, 0, 0, 0}, -2, 1}, "per cent"},
 };
 enum { UNITS = sizeof units / sizeof *units };
@@ -208,7 +208,7 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
     enum { STEPS = sizeof steps / sizeof *steps };
     if (dim_is_angle(d)) {
         snprintf(buf, size, "deg");
-        return 3.14159265358979323846264338327950288L / 180;
+        return FRET_PI / 180;
     }
     dim_unit(d, buf, size);
     const struct named *row = find_named(d);
