@@ -172,12 +172,7 @@ static bool read_assignment(calc *c, lexer *lx, assignment *all, size_t count) {
     unsigned parameters;
     calc_error useless;
     error_clear(&useless);
-    a->q = NULL; /* one by one: the rest need not be cleared */
-    a->d = NULL;
-    a->v = (value){0, DIM_NONE}; /* what a live definition leaves */
-    a->at = lx->at;
-    a->len = lx->len;
-    a->value_at = a->value_len = 0;
+    *a = (assignment){.at = lx->at, .len = lx->len};
     if (!name_allowed(c, lx, a)) {
         if (lx->error->len)
             return false;

@@ -320,8 +320,9 @@ static bool parse_name(parser *p, size_t *out) {
     const size_t len = lx->len;
     size_t i;
     unsigned j;
-    if (find_parameter(p, &j)) {
-        expr_node node = {.kind = N_PARAMETER, .at = lx->at, .index = j};
+    const bool parameter = find_parameter(p, &j);
+    if (parameter || lex_is(lx, "ans")) {
+        const expr_node node = {.kind = parameter ? N_PARAMETER : N_ANS, .at = lx->at, .index = j};
         lex_next(lx);
         return add_node(p, &node, out);
     }
@@ -330,11 +331,6 @@ static bool parse_name(parser *p, size_t *out) {
         return parse_quantity(p, q, out);
     if (builtin_find(word, len, &i))
         return parse_builtin(p, i, out);
-    if (lex_is(lx, "ans")) {
-        expr_node node = {.kind = N_ANS, .at = lx->at};
-        lex_next(lx);
-        return add_node(p, &node, out);
-    }
     return names_find(&p->c->names, word, len, &i) ? parse_own(p, i, out) : unknown_name(p);
 }
 
@@ -423,13 +419,7 @@ static bool at_factor(const parser *p) {
 static bool parse_number(parser *p, size_t *out) {
     lexer *lx = p->lx;
     size_t at = lx->at, len = lx->len;
-    expr_node node; /* one by one: to clear the whole would cost more than the rest */
-    node.kind = N_NUMBER;
-    node.op = 0;
-    node.at = at;
-    node.left = node.right = node.index = 0;
-    node.q = NULL;
-    node.v = (value){lx->number, DIM_NONE};
+    expr_node node = {.kind = N_NUMBER, .at = at, .v = {lx->number, DIM_NONE}};
     unit u;
     lex_next(lx);
     if (!p->bare && unit_at(lx)) {

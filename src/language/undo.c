@@ -53,9 +53,7 @@ static undo_entry *push(calc *c) {
         memmove(u->entry, u->entry + gone, u->count * sizeof *u->entry);
     }
     undo_entry *e = &u->entry[u->count++];
-    e->group = u->group; /* one by one: the rest need not be cleared */
-    e->before = NULL;
-    e->steps = c->scene.end.steps;
+    *e = (undo_entry){.group = u->group, .steps = c->scene.end.steps};
     return e;
 }
 

@@ -184,11 +184,7 @@ static heard *add_heard(const lexer *lx, said *s, const clause *a) {
         return NULL;
     }
     heard *h = &s->list[s->count++];
-    h->of = a;
-    h->at = lx->at;
-    h->len = lx->len;
-    h->live = NULL;
-    h->increment = false;
+    *h = (heard){.of = a, .at = lx->at, .len = lx->len};
     s->open = NULL;
     return h;
 }
@@ -327,10 +323,10 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
 
 /* `at NAME =` belongs to the expression before it, `at FILE` does not. */
 static bool changes_scene(const lexer *lx) {
-    lexer next = *lx;
-    next.error = error_quiet();
     if (!lex_is(lx, "at"))
         return false;
+    lexer next = *lx;
+    next.error = error_quiet();
     lex_next(&next);
     return next.kind == T_NAME && lex_peek(&next) == T_ASSIGN;
 }
@@ -356,8 +352,10 @@ static bool is_equals(const lexer *lx) {
 /* The clause that the word at the cursor was meant for, or NULL. */
 static const clause *clause_near(const lexer *lx, const grammar *f) {
     char word[LEX_NAME];
+    if (lx->kind != T_NAME || lx->len < 2)
+        return NULL;
     lex_word(lx, word);
-    for (const clause *a = f->clause; lx->kind == T_NAME && lx->len > 1 && a < f->clause + f->count; a++)
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
         if (!a->argument && *a->name && one_letter_apart(word, a->name))
             return a;
     return NULL;
