@@ -298,9 +298,10 @@ static const view views[] = {
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
-static bool is_shown(const view *v, rect all, bool narrow) {
+/* In this column; narrow: the only one. */
+static bool is_shown(const view *v, rect all, bool narrow, bool right) {
     const int rows = v->worth_rows ? v->worth_rows : narrow && v->draw == draw_disc ? 30 : 0;
-    return all.rows + 3 >= rows;
+    return all.rows + 3 >= rows && (narrow || v->right == right);
 }
 
 /* What a view shows, and of which scene; its first word where there is no room for more. */
@@ -334,15 +335,15 @@ static void draw_column(live *l, const side *s, const scales *sc, rect all, rect
     int shares = 0, room = column.rows;
     for (size_t i = 0; i < VIEWS; i++) {
         const view *v = &views[i];
-        if (!is_shown(v, all, narrow) || (!narrow && v->right != right))
-            continue;
-        shares += v->share;
-        room -= v->rows;
+        if (is_shown(v, all, narrow, right)) {
+            shares += v->share;
+            room -= v->rows;
+        }
     }
     rect at = column;
     for (size_t i = 0; i < VIEWS; i++) {
         const view *v = &views[i];
-        if (!is_shown(v, all, narrow) || (!narrow && v->right != right))
+        if (!is_shown(v, all, narrow, right))
             continue;
         at.rows = v->share ? room * v->share / shares : v->rows;
         shares -= v->share;

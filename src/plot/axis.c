@@ -134,6 +134,10 @@ size_t plot_columns(const plot_figure *f) {
     return n;
 }
 
+double plot_part(const plot_axis *a, double v) {
+    return a->log ? log(v / a->lo) / log(a->hi / a->lo) : (v - a->lo) / (a->hi - a->lo);
+}
+
 double plot_step(double least) {
     double power = pow(10, floor(log10(least)));
     static const double steps[] = {1, 2, 5};

@@ -24,7 +24,7 @@ plot_pages plot_pages_for(const plot_target *t, const plot_figure *f, bool one_s
 
 double page_cell(const page_ruler *r, double v) {
     const plot_axis *a = &r->axis;
-    double t = a->log ? log(v / a->lo) / log(a->hi / a->lo) : (v - a->lo) / (a->hi - a->lo);
+    const double t = plot_part(a, v);
     return (a->flip ? 1 - t : t) * r->cells;
 }
 

@@ -383,11 +383,6 @@ static void draw_all(scribe *s, const plot_panel *p, bool first, bool deep) {
     putc('\n', s->to);
 }
 
-/* Where a value lies along an axis, 0 to 1. */
-static double part_of(const plot_axis *a, double v) {
-    return a->log ? log(v / a->lo) / log(a->hi / a->lo) : (v - a->lo) / (a->hi - a->lo);
-}
-
 /* Places for the values of contours: within the frame, near its middle, apart from each other. */
 typedef struct spots {
     const plot_map *map;
@@ -406,7 +401,7 @@ static void offer(spots *s, size_t from, size_t to, double level) {
     const double t = (level - a) / (b - a);
     const double x = m->x[from % m->nx] + t * (m->x[to % m->nx] - m->x[from % m->nx]),
                  y = m->y[from / m->nx] + t * (m->y[to / m->nx] - m->y[from / m->nx]);
-    const double u = part_of(s->x, x), v = part_of(s->y, y), wide = 0.16, high = 0.08;
+    const double u = plot_part(s->x, x), v = plot_part(s->y, y), wide = 0.16, high = 0.08;
     double apart = 2;
     if (!(u > wide / 2 && u < 1 - wide / 2 && v > high / 2 && v < 1 - high / 2))
         return;

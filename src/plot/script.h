@@ -34,6 +34,8 @@ plot_extents plot_extent_join(plot_extents a, plot_extents b);
 bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis *x, plot_axis *y,
                calc_error *error);
 
+/* Where a value lies along the axis, from 0 at lo to 1 at hi. */
+double plot_part(const plot_axis *a, double v);
 /* The step 1, 2 or 5 times a power of ten next to `least` or above. */
 double plot_step(double least);
 /* The tics of a logarithmic axis over less than two decades: at 1, 2, 5, or a step apart where these are few.
