@@ -30,8 +30,8 @@ typedef struct live_work {
 } live_work;
 
 /* Until the user leaves. script: lines to step through, ended by NULL, each a statement, a comment or
- * nothing; or NULL. Where there is no terminal a script plays by itself, and *screen is what it shows in the
- * end, as text (to be freed); else NULL. False with the error where there is no terminal for it. */
+ * nothing; or NULL. Where there is no terminal a script plays by itself, and *screen, NULL before, is what it
+ * shows in the end, as text (to be freed). False with the error where there is no terminal for it. */
 bool live_run(const live_host *host, const char *const *script, live_work *work, char **screen,
               calc_error *error);
 

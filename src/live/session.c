@@ -96,8 +96,6 @@ static void free_live(live *l) {
 bool live_run(const live_host *host, const char *const *script, live_work *work, char **screen,
               calc_error *error) {
     live *l = calloc(1, sizeof *l);
-    *work = (live_work){0, 0, 0};
-    *screen = NULL;
     if (!l)
         return calc_no_memory(error);
     l->host = host;

@@ -74,8 +74,8 @@ static bool run_live(shell *sh, const char *const *script, calc_error *error) {
                             .stop = &shell_stop,
                             .run = run_for_live,
                             .complete = complete_line};
-    live_work work;
-    char *screen;
+    live_work work = {.frames = 0};
+    char *screen = NULL;
     fflush(sh->out);
     sh->set.color = false;
     sh->set.pages = false; /* a pager would take the terminal */

@@ -154,6 +154,13 @@ def without_library(tests):
     tests.check("solve does without GSL", done.stdout == "x = 2\n", tests.report(done))
 
 
+def without_screen(tests):
+    """Where the full-screen mode is left out, it says so."""
+    done = tests.run("-c", "live\n1 + 1")
+    tests.check("without the full-screen mode", done.returncode == 1 and not done.stdout and
+                "built without the full-screen mode (LIVE=no)" in done.stderr, tests.report(done))
+
+
 def threads(tests):
     """What threads share is only read: ThreadSanitizer sees each touch of the library."""
     program = os.path.join(harness.ROOT, "build/portable/threads")
@@ -201,6 +208,8 @@ def run(tests):
                 tests.check("%s: %s as by this build" % (variant, script), code == status and alike(scripts[script][0], want, got, tolerance),
                             "exit %d, expected %d\n%s" % (code, status, describe(want, got)))
         print("portable: %d numbers by %s" % (numbers, "; ".join(programs)), flush=True)
+        if "musl" in builds:
+            without_screen(builds["musl"])
         for variant in builds.values():
             plain_prompt(variant)
             without_library(variant)
