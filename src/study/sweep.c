@@ -196,7 +196,8 @@ static bool look_along(state *st, double time) {
     return take_row(st, 0, time, p->v, all ? NULL : &p->none) && !calc_stopped(p->c->scene.stop, p->error);
 }
 
-bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
+/* Appends the load of the range to the program of a trial; `from` gets where it begins. */
+static bool try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
     scene *tried = &t->scene;
     *from = tried->end;
     if (!tried->end.steps)
@@ -213,7 +214,7 @@ static bool run_along(state *st) {
     const sweep *s = st->s;
     trial *t = st->job->p.t;
     load_mark from = t->scene.end;
-    if (s->what == ALONG_LOAD && !sweep_try_load(t, &st->range, &from, st->job->error))
+    if (s->what == ALONG_LOAD && !try_load(t, &st->range, &from, st->job->error))
         return false;
     trial_along a;
     calc_error error;
@@ -262,7 +263,7 @@ static bool run_curve(state *st) {
 
 static bool run_curves(const sweep *s, sweep_job *job) {
     const size_t curves = s->curves ? s->curves : 1;
-    state st = {.s = s, .job = job, .row = malloc(job->count * sizeof *st.row)};
+    state st = {.s = s, .job = job, .row = malloc((job->count + 1) * sizeof *st.row)};
     bool ok = st.row || calc_no_memory(job->error);
     for (; st.curve < curves && ok; st.curve++)
         ok = run_curve(&st);
@@ -284,12 +285,13 @@ static bool open_sweep(const sweep *s, sweep_job *job, size_t rows) {
         job->knobs[count++] = s->var;
     const bool ok = points_open(&job->p, job->c, job->knobs, count, job->expressions, job->count, job->error);
     job->p.all = job->to < rows ? job->to - job->from : rows;
+    job->p.alone = !job->count; /* whoever takes the rows looks at the scene */
     return ok;
 }
 
 static bool close_sweep(sweep_job *job, bool ok) {
     points_close(&job->p);
-    if (!ok || job->values > 0 || job->from > 0 || job->to < job->before)
+    if (!ok || !job->count || job->values > 0 || job->from > 0 || job->to < job->before)
         return ok;
     *job->error = job->missing;
     return calc_append(job->c, job->error, " (%s)", job->where), false;

@@ -53,8 +53,8 @@ typedef bool sweep_row(void *context, const sweep *s, size_t curve, long double 
 typedef struct sweep_job {
     calc *c;
     const expr *expressions;
-    size_t count;
-    dim *d; /* of the expressions; those with known[i] must come out so */
+    size_t count; /* 0: whoever takes the rows looks at p.t->scene */
+    dim *d;       /* of the expressions; those with known[i] must come out so */
     bool *known;
     const char *const *units; /* how those are called; NULL, or NULL each: in SI */
     size_t from, to;          /* the rows that are wanted of all; to = 0: all of them */
@@ -77,8 +77,6 @@ bool sweep_run(const sweep *s, sweep_job *job);
 
 /* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */
 long double sweep_value(const sweep *s, const sweep_range *r, long double part);
-/* Appends the load of a range to the program of a trial; `from` gets where it begins. */
-bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error);
 
 /* Expressions over two names at once: sweeps over the first, one for each value of the second. */
 typedef struct grid {
