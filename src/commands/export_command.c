@@ -99,7 +99,7 @@ static bool write_loop(export_table *t, void *context) {
     const size_t turn = t->all / 2 - 1;
     for (size_t i = 0; trial_along_next(a, t->error); i++) {
         sight now;
-        run_sight(trace_now(&a->trace), &now);
+        run_sight(a->trace.run, a->trace.levels, &now);
         for (int branch = i > turn ? 2 : 1; branch <= (i < turn ? 1 : 2); branch++)
             if (!put_row(t, (const long double[]){branch, now.state.dx, now.state.Fx, now.state.FN}))
                 return false;

@@ -348,7 +348,7 @@ static bool compare_rows(shell *sh, const rows *w, differences *out, calc_error 
         return false;
     while (trace_next(&t, error)) {
         const size_t at = trace_now(&t)->at.steps;
-        run_sight(trace_now(&t), &now);
+        run_sight(t.run, t.levels, &now);
         const long double ours[] = {now.state.Fx, now.state.dx};
         for (int k = 0; k < COMPARED_COLUMNS && at >= before; k++) {
             const long double off = ours[k] - theirs[k][at - before];

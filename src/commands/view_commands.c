@@ -23,7 +23,7 @@ static bool history_rows(scene *s, long double K_rig, answer *a, calc_error *err
         return false;
     while (trace_next(&t, error)) {
         const fret_state *at = &now.state;
-        run_sight(trace_now(&t), &now);
+        run_sight(t.run, t.levels, &now);
         answer_row(
             a, (const long double[HISTORY]){at->FN, at->dz, at->Fx, at->dx, at->W, at->dx + at->Fx / K_rig});
     }

@@ -202,7 +202,7 @@ bool trial_along_next(trial_along *a, calc_error *error) {
     do {
         if (!trace_next(&a->trace, error))
             return false;
-        a->now = (instant){.run = trace_now(&a->trace), .beside = &a->beside};
+        a->now = (instant){a->trace.run, a->trace.levels, &a->beside};
     } while (a->now.run->time < a->first || a->now.run->time > a->last);
     s->now = &a->now;
     scene_moved(s);

@@ -51,12 +51,6 @@ bool scene_load_of(scene *s, load_view *out, calc_error *error) {
     return true;
 }
 
-static void drop_runs(answers *a) {
-    for (unsigned i = 0; i < LEVELS; i++)
-        engine_end(&a->run[i].engine);
-    a->levels = 0;
-}
-
 /* From the first swinging cycle on: by force, or to a displacement at constant F_N. */
 static bool goes_with_sine(const load_step *step) {
     return step->tangential == BY_FORCE || (step->tangential && !load_moves_normal(step));
@@ -82,7 +76,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
     /* more than are wanted: in chords, as a load that was refused would have had them */
     if (a->levels && ((a->run[0].engine.sine ? !sine : a->levels > wanted) ||
                       fret_contact_normal(a->run[0].engine.contact) != load->normal))
-        drop_runs(a);
+        runs_end(a->run, &a->levels);
     if (a->levels == 0) {
         a->run[0] = (runner){.load = load};
         st = engine_make(&a->run[0].engine, load->normal, load->mu);
@@ -98,7 +92,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
         a->levels++; /* to be dropped, too, if there is only half of it */
     }
     if (st.code)
-        drop_runs(a);
+        runs_end(a->run, &a->levels);
     return st;
 }
 
@@ -111,7 +105,7 @@ static fret_status run_levels(answers *a, const load_view *load) {
     if (!a->run[0].chorded)
         return st;
     a->chords = true; /* the contact opens: what is not the sine itself wants its limit */
-    drop_runs(a);
+    runs_end(a->run, &a->levels);
     st = raise_levels(a, load);
     return st.code ? st : run_levels(a, load);
 }
@@ -142,7 +136,7 @@ static bool run_up(scene *s, size_t *steps, calc_error *error) {
     if (single && st.code != FRET_INTERRUPTED)
         a->run[0] = before;
     else
-        drop_runs(a);
+        runs_end(a->run, &a->levels);
     a->chords = chords;
     return calc_status(error, &st);
 }
@@ -231,9 +225,11 @@ bool scene_load_rows(scene *s, load_step step, const double *normal, const doubl
 }
 
 bool load_run(scene *s, const runner **run, calc_error *error) {
-    *run = s->now ? s->now->run : NULL;
-    if (s->now)
+    *run = NULL;
+    if (s->now) {
+        *run = &s->now->run[s->now->levels - 1];
         return true;
+    }
     if (!s->end.steps)
         return calc_missing(error, IN_FN);
     if (!catch_up(s, error))

@@ -575,7 +575,7 @@ static void to_limit(const sight at[LEVELS], size_t member, long double scale, f
     memcpy((char *)out + member, &v[0], sizeof v[0]);
 }
 
-void sight_limit(const sight at[LEVELS], sight *out) {
+static void sight_limit(const sight at[LEVELS], sight *out) {
     const long double loss[LEVELS] = {at[0].loss, at[1].loss, at[2].loss};
     long double unused;
     out->state = at[LEVELS - 1].state;
@@ -586,13 +586,19 @@ void sight_limit(const sight at[LEVELS], sight *out) {
     out->loss = run_limit(loss, &unused);
 }
 
-void run_sight(const runner *r, sight *out) {
-    sight at[LEVELS] = {{.loss = r->cycle_loss}};
-    engine_state(&r->engine, &at[0].state);
+void run_sight(const runner run[], unsigned levels, sight *out) {
+    sight at[LEVELS];
+    unsigned i = 0;
+    do {
+        engine_state(&run[i].engine, &at[i].state);
+        at[i].loss = run[i].cycle_loss;
+    } while (++i < levels);
     *out = at[0];
-    if (!r->coarse)
-        return;
-    at[LEVELS - 1] = *out;
-    memcpy(at, r->coarse, (LEVELS - 1) * sizeof *at);
-    sight_limit(at, out);
+    if (levels > 1)
+        sight_limit(at, out);
+}
+
+void runs_end(runner run[], unsigned *levels) {
+    while (*levels)
+        engine_end(&run[--*levels].engine);
 }

@@ -94,7 +94,6 @@ typedef struct runner {
     engine engine;
     unsigned level;         /* a swinging period in RUN_CHORDS 2^level chords */
     watch watch;            /* its own: it counts */
-    const sight *coarse;    /* the same instant at the LEVELS - 1 coarser levels, or NULL */
     fret_status status;     /* why it does not go on */
     load_mark at;           /* next step of the program, and next of its cycles, or those that it is within */
     bool within;            /* the item: its first leg has begun */
@@ -112,10 +111,11 @@ typedef struct runner {
     fret_step way;     /* where its points lie */
 } runner;
 
-/* Now; its limit, where `coarse` is there. */
-void run_sight(const runner *r, sight *out);
-/* Of the same instant at all levels; what lies at the end of the path needs no limit. */
-void sight_limit(const sight at[LEVELS], sight *out);
+/* Now: of one run, or the limit of runs at all levels that are at the same instant. What lies at the end of
+ * the path needs no limit. */
+void run_sight(const runner run[], unsigned levels, sight *out);
+/* Of so many side by side none is left. */
+void runs_end(runner run[], unsigned *levels);
 
 /* On to the next look; false: it is at the end, or the status tells why it does not get there. The stop flag
  * is looked at wherever it is. */

@@ -25,8 +25,7 @@ static void forget_fields(answers *a) {
 }
 
 static void answers_end(answers *a, bool keep) {
-    for (unsigned i = 0; i < LEVELS; i++)
-        engine_end(&a->run[i].engine);
+    runs_end(a->run, &a->levels);
     fret_contact_free(a->chorded);
     worn_gap *borrowed = a->worn;
     fret_normal *normal = a->normal, *k0 = a->k0;
