@@ -16,24 +16,13 @@
 
 const char study_library[] = "";
 
-/* As `ans`. */
-static void answered(shell *sh, long double v, dim d) {
-    sh->calc.ans = (value){v, d};
-    sh->calc.has_ans = true;
-}
-
 /* ---- fit: what is read ------------------------------------------------------------------------- */
 
 /* A name that is to be found needs a value to start from. */
 static bool read_names(shell *sh, lexer *lx, fit_question *q) {
     for (;;) {
-        if (q->count == FIT_NAMES)
-            return lex_fail(lx, "more than %d names", FIT_NAMES);
-        const size_t at = lx->at;
-        if (!knob_known(&sh->calc, lx, &q->name[q->count++]))
+        if (!read_name(sh, lx, true, FIT_NAMES, q->name, &q->count))
             return false;
-        if (ask_repeats(q->name, q->count))
-            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", q->name[q->count - 1].text);
         if (lx->kind == T_ASSIGN)
             return lex_fail(lx, "unexpected '=': fit starts from the present value of %s",
                             q->name[q->count - 1].text);
@@ -263,7 +252,7 @@ static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, cal
         report_fit(&out, q, a);
     ok = (answer_end(&out, ok) && ok) || calc_no_memory(error);
     if (ok) {
-        answered(sh, a->value[q->count - 1], q->name[q->count - 1].d);
+        calc_answered(&sh->calc, (value){a->value[q->count - 1], q->name[q->count - 1].d});
         remark_fit(sh, &out, q, a);
     }
     columns_free(c, q->count);
@@ -331,7 +320,7 @@ static bool cycle_rows(shell *sh, answer *out, const fit_question *q, const csv 
     }
     if (!fitted)
         return *error = first, false;
-    answered(sh, from[q->count - 1], q->name[q->count - 1].d);
+    calc_answered(&sh->calc, (value){from[q->count - 1], q->name[q->count - 1].d});
     if (fitted < l->cycles)
         shell_note(sh, "%zu of %zu cycles have no values: %s", l->cycles - fitted, l->cycles, first.text);
     return true;

@@ -32,7 +32,6 @@ void report_event(shell *sh, const char *event, const char *const *names) {
         v[count] = (value){0, of[count]->d};
         count += quantity_get(of[count], &sh->calc.scene, &v[count].v, error_quiet());
     }
-    progress_wipe();
     if (sh->set.report == REPORT_AUTO && !answer_is_data(&sh->set))
         shell_aside(sh, sh->out);
     answer a;
@@ -330,35 +329,26 @@ static bool read_rows(shell *sh, csv *data, rows *w, calc_error *error) {
            (take_off(sh, IN_D0, w->dx, data->rows, error) && take_off(sh, IN_F0, w->Fx, data->rows, error));
 }
 
-/* What the file has of the state, and how far it is from what the state is, in the rows that have been
- * followed last. */
+/* What the file has of the state, beside what that is in the rows that have been followed last. */
 enum { OF_FX, OF_DX, COMPARED_COLUMNS };
-typedef struct differences {
-    double rms[COMPARED_COLUMNS], largest[COMPARED_COLUMNS];
-} differences;
 
-static bool compare_rows(shell *sh, const rows *w, differences *out, calc_error *error) {
+static bool compare_rows(shell *sh, const rows *w, comparison of[COMPARED_COLUMNS], calc_error *error) {
     scene *s = &sh->calc.scene;
-    const size_t count = w->data->rows, before = s->end.steps - count;
-    const double *theirs[] = {w->Fx->v, w->dx->v};
-    long double squares[COMPARED_COLUMNS] = {0, 0};
+    const size_t before = s->end.steps - w->data->rows;
     scene_trace t;
     sight now;
+    of[OF_FX].with = w->Fx;
+    of[OF_DX].with = w->dx;
     if (!trace_begin(&t, s, watch_points(1), true, error))
         return false;
     while (trace_next(&t, error)) {
         const size_t at = trace_now(&t)->at.steps;
         run_sight(t.run, t.levels, &now);
         const long double ours[] = {now.state.Fx, now.state.dx};
-        for (int k = 0; k < COMPARED_COLUMNS && at >= before; k++) {
-            const long double off = ours[k] - theirs[k][at - before];
-            squares[k] += off * off;
-            out->largest[k] = fmax(out->largest[k], fabs(theirs[k][at - before]));
-        }
+        for (int k = 0; k < COMPARED_COLUMNS && at >= before; k++)
+            columns_differ(&of[k], at - before, ours[k]);
     }
     trace_end(&t);
-    for (int k = 0; k < COMPARED_COLUMNS; k++)
-        out->rms[k] = (double)sqrtl(squares[k] / (long double)count);
     return !error->raised;
 }
 
@@ -375,20 +365,22 @@ static void report_compared(shell *sh, const char *name, dim d, double rms) {
 }
 
 /* Of both pairs that is told which does not agree, as in another scene. */
-static void report_differences(shell *sh, const rows *w, const differences *d) {
+static void report_differences(shell *sh, const rows *w, const comparison of[COMPARED_COLUMNS]) {
     static const char *const names[] = {"Fx", "dx"};
     static const dim dims[] = {{1, 0, 0, 0}, {0, 1, 0, 0}};
     const bool both = w->normal_by == BY_FORCE;
-    for (int k = 0; k < (both ? COMPARED_COLUMNS : OF_DX); k++)
-        if (!both || d->rms[k] > SAME * d->largest[k])
-            report_compared(sh, names[k], dims[k], d->rms[k]);
+    for (int k = 0; k < (both ? COMPARED_COLUMNS : OF_DX); k++) {
+        const double rms = (double)columns_rms(&of[k]);
+        if (!both || rms > SAME * of[k].largest)
+            report_compared(sh, names[k], dims[k], rms);
+    }
 }
 
 /* A live mu may depend on the press. */
 static bool follow_file(shell *sh, csv *data, calc_error *error) {
     scene *s = &sh->calc.scene;
     rows w;
-    differences off = {{0}, {0}};
+    comparison off[COMPARED_COLUMNS] = {{.with = NULL}};
     if (!read_rows(sh, data, &w, error))
         return false;
     const bool compared = w.Fx && w.dx;
@@ -398,11 +390,11 @@ static bool follow_file(shell *sh, csv *data, calc_error *error) {
                          data->path);
     const bool turned = w.normal_by == BY_FORCE && columns_turn_pull(data, w.normal), pressed = s->end.steps;
     if ((!pressed && !follow_press(sh, &w, error)) || !scene_friction(s, &w.mu, error) ||
-        !follow_rows(sh, &w, !pressed, error) || (compared && !compare_rows(sh, &w, &off, error)))
+        !follow_rows(sh, &w, !pressed, error) || (compared && !compare_rows(sh, &w, off, error)))
         return false;
     columns_say(sh, data, turned ? TURNED_FN : "");
     if (compared)
-        report_differences(sh, &w, &off);
+        report_differences(sh, &w, off);
     return true;
 }
 

@@ -185,7 +185,7 @@ static bool subtract(panel_job *job, const long double *values, long double *lef
                    : calc_fail(job->error, 0, 0, "no column of %.200s is as %s, to be compared",
                                job->measured->data.path, axis.name);
     for (size_t i = 0; i < job->count; i++)
-        left[i] = rows_differ(c, job->rows % job->measured->data.rows, values[i]);
+        left[i] = columns_differ(c, job->rows % job->measured->data.rows, values[i]);
     job->rows++;
     return true;
 }
@@ -296,7 +296,7 @@ static bool name_residuals(panel_job *job, dim d, char name[TITLE]) {
     const comparison *c = &job->residuals;
     char rms[NUMBER_TEXT + COLUMN_UNIT], title[200];
     snprintf(name, TITLE, "file %s - %.300s", c->with->name, job->columns[0].name);
-    format_value(&job->sh->set, (value){rows_rms(c), d}, rms, sizeof rms);
+    format_value(&job->sh->set, (value){columns_rms(c), d}, rms, sizeof rms);
     snprintf(title, sizeof title, "rms = %s over %zu rows", rms, c->rows);
     job->p->title = job->p->title ? job->p->title : strdup(title);
     return job->p->title || calc_no_memory(job->error);

@@ -59,9 +59,12 @@ static bool read_other_end(calc *c, lexer *lx, const knob *var, const char *word
     return ok;
 }
 
-bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out) {
+bool range_read_interval(shell *sh, const lexer *lx, const span *part, const knob *var, const char *word,
+                         sweep_range *out) {
     bounds b = {.known = false};
-    return read_bound(c, lx, var, &b, &out->lo) && read_other_end(c, lx, var, word, &b, out);
+    lexer own = hole_lexer(lx, part);
+    return read_bound(&sh->calc, &own, var, &b, &out->lo) &&
+           read_other_end(&sh->calc, &own, var, word, &b, out) && at_end(&own);
 }
 
 /* The same, or v1, v2, ...: no `..` stands there then. */
@@ -340,22 +343,4 @@ const csv_values *rows_compared(file_rows *r, const axis_of *expression, bool al
         if (theirs->v == r->at.column[j].v)
             return NULL;
     return theirs;
-}
-
-long double rows_differ(comparison *c, size_t row, long double ours) {
-    const long double theirs = c->with->v[row], difference = theirs - ours;
-    if (!isfinite(difference))
-        return difference;
-    c->rows++;
-    c->squares += difference * difference;
-    c->largest = fmaxl(c->largest, fabsl(theirs));
-    if (fabsl(difference) >= fabsl(c->worst)) {
-        c->worst = difference;
-        c->worst_row = row;
-    }
-    return difference;
-}
-
-long double rows_rms(const comparison *c) {
-    return sqrtl(c->squares / (long double)c->rows);
 }

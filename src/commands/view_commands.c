@@ -116,7 +116,7 @@ static void give_compared(table_job *job, const long double *values, long double
         comparison *c = &job->compared[i];
         long double *to = row + job->first + job->count + 2 * i;
         to[0] = c->with->v[r];
-        to[1] = rows_differ(c, r, values[c->of]);
+        to[1] = columns_differ(c, r, values[c->of]);
     }
 }
 
@@ -165,7 +165,7 @@ static void say_compared(shell *sh, const table_job *job) {
     for (const comparison *c = job->compared; c < job->compared + job->comparisons; c++) {
         char text[2][NUMBER_TEXT + COLUMN_UNIT];
         const column *own = &job->t.column[job->first + c->of];
-        const long double rms = rows_rms(c);
+        const long double rms = columns_rms(c);
         const size_t line = job->at->data.row[c->worst_row].line;
         answer_event(&a, "compare");
         answer_string(&a, "name", own->name);

@@ -136,10 +136,9 @@ static bool value_on(const page *p, const expr *e, const runner *run, unsigned l
     if (t)
         t->scene.now = &now;
     const bool ok = t && expr_eval(&p->sh->calc, e, v, why);
-    if (t) {
+    if (t)
         t->scene.used = 0; /* it has not answered */
-        trial_close(t);
-    }
+    trial_close(t);
     return explain_had(p, ok, why);
 }
 
@@ -657,7 +656,6 @@ bool do_explain(shell *sh, lexer *lx, said *all) {
     const quantity *bare = alone ? bare_name(&own) : NULL;
     const bool ok = (bare || read_explained(sh, &own, &e, &asked, &changed, &v)) &&
                     explain(sh, bare, e, asked, v, conditioning, lx);
-    if (changed)
-        trial_close(changed);
+    trial_close(changed);
     return ok;
 }

@@ -33,6 +33,8 @@ void trial_reset(trial *t) {
 }
 
 void trial_close(trial *t) {
+    if (!t)
+        return;
     calc *c = t->c;
     scene_also_used(t->outer, scene_answered_by(c->now)); /* perhaps one beside it */
     c->now = t->outer;

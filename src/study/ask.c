@@ -6,13 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-bool ask_repeats(const knob *knobs, size_t count) {
-    for (size_t i = 0; i + 1 < count; i++)
-        if (!strcmp(knobs[i].text, knobs[count - 1].text))
-            return true;
-    return false;
-}
-
 bool ask_present(calc *c, const knob *k, double *v) {
     long double now;
     if (!k->is_input) {

@@ -6,9 +6,6 @@
 
 #include "language/calc.h"
 
-/* Is the last of these the same as one before? */
-bool ask_repeats(const knob *knobs, size_t count);
-
 /* The value of the knob now, if it has one. */
 bool ask_present(calc *c, const knob *k, double *v);
 /* It has none, `to start from`: the error says so, why, where a live definition stands for it, and what to

@@ -206,10 +206,9 @@ bool influences(calc *c, const expr *e, long double result, const quantity *call
         return calc_no_memory(error);
     find_causes(c, e, p.own, call, argument, out);
     bool ok = (p.t = trial_open(c, error)) && probe_all(&p, out);
-    if (p.t) {
+    if (p.t)
         p.t->scene.used = 0; /* none of this has answered */
-        trial_close(p.t);
-    }
+    trial_close(p.t);
     counted_drop(p.own ? &p.own->base : NULL);
     return ok;
 }

@@ -24,8 +24,7 @@ bool points_open(points *p, calc *c, const knob *knobs, size_t count, const expr
 }
 
 bool points_anew(points *p) {
-    if (p->t)
-        trial_close(p->t);
+    trial_close(p->t);
     p->t = trial_open(p->c, p->error);
     for (size_t i = 0; i < p->count; i++)
         p->now[i] = (long double)NAN;
@@ -40,8 +39,7 @@ void points_dismiss(points *p) {
 void points_close(points *p) {
     points_dismiss(p);
     calc_word(p->c, p->error);
-    if (p->t)
-        trial_close(p->t);
+    trial_close(p->t);
     free(p->now);
     free(p->v);
 }

@@ -164,8 +164,7 @@ static bool take_drawn(void *context, size_t i, const long double x[], const val
     (void)x;
     if (why && !m->answer->missing.raised)
         m->answer->missing = *why;
-    if (!of->take)
-        count_sample(m, v);
+    count_sample(m, v);
     return keep_dims(m->s, v) && (!of->take || of->take(of->context, of->from + i, v));
 }
 
@@ -184,10 +183,9 @@ static bool monte_carlo(state *s, uncertainty_answer *out, const calc_error *err
     if (of->given)
         count_given(&m);
     else
-        points_go(&s->p, &(points_run){.count = of->take ? of->to - of->from : of->samples,
-                                       .give = draw_sample,
-                                       .take = take_drawn,
-                                       .context = &m});
+        points_go(&s->p,
+                  &(points_run){
+                      .count = of->to - of->from, .give = draw_sample, .take = take_drawn, .context = &m});
     for (size_t k = 0; k < of->expressions; k++) {
         uncertain *u = &out->value[k];
         u->mean = u->samples > 0 ? u->mean : NAN;
