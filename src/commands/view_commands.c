@@ -54,8 +54,7 @@ typedef struct table_job {
     size_t count; /* of them */
     found found;
     size_t curve;
-    long double second; /* the value of the second name of a grid, in the last row */
-    file_rows *at;      /* those of a file, or NULL */
+    file_rows *at; /* those of a file, or NULL */
     comparison compared[COLUMNS];
     size_t comparisons;
     const char *name;         /* where it goes, for messages */
@@ -127,14 +126,12 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     const bool first = !job->t.begun;
     if (first && !begin_table(job))
         return false;
-    if (job->t.to.blocks && !first &&
-        (curve != job->curve || (s->curves && islessgreater(s->value[curve], job->second))))
+    if (job->t.to.blocks && !first && curve != job->curve)
         answer_gap(a);
     job->curve = curve;
-    job->second = s->curves ? s->value[curve] : 0;
     row[0] = x;
     if (s->curves)
-        row[job->first - 1] = s->value[curve];
+        row[job->first - 1] = sweep_with(s, curve);
     if (job->at)
         give_compared(job, values, row);
     memcpy(row + job->first, values, job->count * sizeof *row);
@@ -148,14 +145,13 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     return !ferror(a->to) || calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
 }
 
-/* second: the other name of a grid, or of the curves; NULL: there is none */
-static void own_columns(si_table *t, const sweep *s, const knob *second) {
+static void own_columns(si_table *t, const sweep *s) {
     if (!s->at)
         table_column(t, s->var.text, s->var.d);
     for (size_t i = 0; s->at && i < s->at->names; i++)
         table_column(t, s->at->column[i].name.text, s->at->column[i].name.d);
-    if (second)
-        table_column(t, second->text, second->d);
+    if (s->curves)
+        table_column(t, s->with.text, s->with.d);
 }
 
 /* A line each: rms and worst, with its row. */
@@ -190,14 +186,14 @@ static void say_compared(shell *sh, const table_job *job) {
 /* ---- a grid as text: a matrix of each expression ----------------------------------------------- */
 
 /* One expression: the first name downward, the second across. */
-static bool print_matrix(shell *sh, FILE *to, const grid *g, const grid_values *m, size_t i, column *c) {
+static bool print_matrix(shell *sh, FILE *to, const sweep *s, const grid_values *m, size_t i, column *c) {
     column columns[COLUMNS] = {{.name = NULL}};
     char head[200], number[120];
-    bool ok = column_si(&columns[0], g->a.var.text, g->a.var.d);
+    bool ok = column_si(&columns[0], s->var.text, s->var.d);
     column_suit(c, m->v + i, m->rows * m->across, m->count, sh->set.digits);
     for (size_t j = 0; ok && j < m->across; j++) {
-        format_value(&sh->set, (value){m->b[j], g->b.var.d}, number, sizeof number);
-        snprintf(head, sizeof head, "%s = %s", g->b.var.text, number);
+        format_value(&sh->set, (value){m->b[j], s->with.d}, number, sizeof number);
+        snprintf(head, sizeof head, "%s = %s", s->with.text, number);
         ok = column_si(&columns[j + 1], head, DIM_NONE);
         columns[j + 1].scale = c->scale;
         columns[j + 1].chosen = true; /* the heading tells the unit */
@@ -219,16 +215,16 @@ static bool print_matrix(shell *sh, FILE *to, const grid *g, const grid_values *
     return ok;
 }
 
-static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *sweeping) {
+static bool run_matrix(shell *sh, table_job *job, const sweep *s, sweep_job *sweeping) {
     grid_values m;
-    if (g->b.steps > COLUMNS - 2)
+    if (s->curves > COLUMNS - 1)
         return calc_fail(sweeping->error, 0, 0,
                          "a matrix as text has at most %d columns: use fewer steps, or a file", COLUMNS - 1);
-    bool ok = grid_keep(g, sweeping, &m);
+    bool ok = grid_keep(s, sweeping, &m);
     if (ok)
         begin_columns(job);
     for (size_t i = 0; ok && i < job->count; i++)
-        ok = print_matrix(sh, job->t.to.to, g, &m, i, &job->t.column[job->first + i]) ||
+        ok = print_matrix(sh, job->t.to.to, s, &m, i, &job->t.column[job->first + i]) ||
              calc_no_memory(sweeping->error);
     grid_values_free(&m);
     return ok;
@@ -236,11 +232,10 @@ static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *swee
 
 /* ---- the command ------------------------------------------------------------------------------- */
 
-/* g: of two names, at: the rows of a file; or NULL. */
-static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const grid *g, file_rows *at,
-                      column *columns, size_t count) {
-    const knob *second = g ? &g->b.var : s->curves ? &s->with : NULL;
-    const size_t first = (at ? at->at.names : 1) + (second != NULL);
+/* at: the rows of a file; or NULL. */
+static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, file_rows *at, column *columns,
+                      size_t count) {
+    const size_t first = (at ? at->at.names : 1) + (s->curves > 0);
     if (first + (at ? 3 : 1) * count > COLUMNS)
         return calc_fail(lx->error, 0, 0, "more than %d columns", COLUMNS);
     table_job *job = calloc(1, sizeof *job);
@@ -257,22 +252,20 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
     job->at = at;
     job->name = t->to.file.to ? t->to.file.name : "to standard output";
     job->error = lx->error;
-    own_columns(t, s, second);
+    own_columns(t, s);
     memcpy(t->column + t->count, columns, count * sizeof *columns); /* with their names */
     t->count += count;
     for (size_t i = 0; i < count; i++)
         columns[i].name = NULL;
     sweep_job sweeping = range_job(sh, t->column + job->first, count, &job->found, give_row, job, lx->error);
-    const size_t rows = g ? (g->a.steps + 1) * (g->b.steps + 1) : sweep_length(s);
+    const size_t rows = sweep_length(s);
     bool ok = (!t->lost || calc_no_memory(lx->error)) &&
               target_share(sh, &t->to, rows, &sweeping.from, &sweeping.to, lx->error);
     job->before = sweeping.from;
     job->all = sweeping.to - sweeping.from;
     job->screen = t->to.to == sh->out && shell_on_terminal(sh);
-    const bool square = g && t->to.format == FORMAT_TEXT && !t->to.blocks;
-    ok = ok && (square ? run_matrix(sh, job, g, &sweeping)
-                : g    ? grid_run(g, &sweeping)
-                       : sweep_run(s, &sweeping));
+    const bool square = s->across && t->to.format == FORMAT_TEXT && !t->to.blocks;
+    ok = ok && (square ? run_matrix(sh, job, s, &sweeping) : sweep_run(s, &sweeping));
     table_end(t, sweeping.values > 0);
     if (ok)
         note_missing(sh, &sweeping);
@@ -289,7 +282,7 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
 bool table_map(shell *sh, lexer *lx, said *all) {
     column c;
     grid_range r;
-    const bool ok = map_read(sh, lx, all, &c, &r) && run_table(sh, lx, all, &r.grid.a, &r.grid, NULL, &c, 1);
+    const bool ok = map_read(sh, lx, all, &c, &r) && run_table(sh, lx, all, &r.a.sweep, NULL, &c, 1);
     columns_free(&c, 1);
     return ok;
 }
@@ -312,13 +305,13 @@ bool do_table(shell *sh, lexer *lx, said *all) {
         columns_missed(sh, lx, &at.data);
     else if (ok && at.given)
         ok = range_read_rows(sh, lx, all, &at, count, &r) &&
-             run_table(sh, lx, all, &r.sweep, NULL, &at, columns, count);
+             run_table(sh, lx, all, &r.sweep, &at, columns, count);
     else if (ok && said_of(all, "for", 1))
         ok = grid_range_read(sh, lx, all, &two, ROWS, ACROSS) &&
-             run_table(sh, lx, all, &two.grid.a, &two.grid, NULL, columns, count);
+             run_table(sh, lx, all, &two.a.sweep, NULL, columns, count);
     else
         ok = ok && range_read(sh, lx, all, 0, &r) && range_options(sh, lx, all, 0, &r, ROWS) &&
-             run_table(sh, lx, all, &r.sweep, NULL, NULL, columns, count);
+             run_table(sh, lx, all, &r.sweep, NULL, columns, count);
     columns_free(columns, count);
     rows_close(&at);
     return ok;

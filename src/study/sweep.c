@@ -30,7 +30,7 @@ static void say_where(state *st, long double x) {
     calc_amount(st->range.d, x, 6, at, sizeof at);
     if (s->curves) {
         snprintf(with, sizeof with, ", %s = ", s->with.text);
-        calc_amount(s->with.d, s->value[st->curve], 6, with + strlen(with), sizeof with - strlen(with));
+        calc_amount(s->with.d, sweep_with(s, st->curve), 6, with + strlen(with), sizeof with - strlen(with));
     }
     snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->var.text, at, with);
 }
@@ -108,6 +108,11 @@ long double sweep_value(const sweep *s, const sweep_range *r, long double part) 
                      : points_place(r->lo, r->hi, s->log, part);
 }
 
+long double sweep_with(const sweep *s, size_t curve) {
+    return s->across ? sweep_value(s->across, &s->ends, (long double)curve / (long double)s->across->steps)
+                     : s->value[curve];
+}
+
 /* The name's value in that row of a table, or its number. */
 static long double row_of(const sweep_rows *at, size_t row) {
     return at->names == 1 ? (long double)at->column[0].v[row] : (long double)(row + 1);
@@ -122,7 +127,7 @@ static void give_swept(void *context, size_t row, long double x[]) {
     const state *st = context;
     const sweep *s = st->s;
     if (s->curves)
-        *x++ = s->value[st->curve];
+        *x++ = sweep_with(s, st->curve);
     for (size_t i = 0; s->at && i < s->at->names; i++)
         *x++ = s->at->column[i].v[st->first + row];
     if (!s->at)
@@ -249,7 +254,7 @@ static bool run_curve(state *st) {
     points *p = &st->job->p;
     if (!is_wanted(st))
         return true;
-    if (!points_anew(p) || (s->curves && !points_put(p, 0, s->value[st->curve], p->error)))
+    if (!points_anew(p) || (s->curves && !points_put(p, 0, sweep_with(s, st->curve), p->error)))
         return false;
     st->range = (sweep_range){.lo = 0};
     bool ok = s->range(s, &st->range, p->error);
@@ -271,7 +276,8 @@ static bool run_curves(const sweep *s, sweep_job *job) {
     return ok;
 }
 
-static bool open_sweep(const sweep *s, sweep_job *job, size_t rows) {
+static bool open_sweep(const sweep *s, sweep_job *job) {
+    const size_t rows = sweep_length(s);
     size_t count = 0;
     error_clear(&job->missing);
     job->values = job->before = 0;
@@ -289,7 +295,8 @@ static bool open_sweep(const sweep *s, sweep_job *job, size_t rows) {
     return ok;
 }
 
-static bool close_sweep(sweep_job *job, bool ok) {
+bool sweep_run(const sweep *s, sweep_job *job) {
+    const bool ok = open_sweep(s, job) && run_curves(s, job);
     points_close(&job->p);
     if (!ok || !job->count || job->values > 0 || job->from > 0 || job->to < job->before)
         return ok;
@@ -297,40 +304,18 @@ static bool close_sweep(sweep_job *job, bool ok) {
     return calc_append(job->c, job->error, " (%s)", job->where), false;
 }
 
-bool sweep_run(const sweep *s, sweep_job *job) {
-    const bool ok = open_sweep(s, job, sweep_length(s)) && run_curves(s, job);
-    return close_sweep(job, ok);
-}
-
 /* ---- over two names ---------------------------------------------------------------------------- */
-
-bool grid_run(const grid *g, sweep_job *job) {
-    sweep_range ends = {.lo = 0};
-    sweep s = g->a;
-    if (!g->b.range(&g->b, &ends, job->error))
-        return false;
-    s.with = g->b.var;
-    s.with.d = ends.d;
-    s.curves = 1;
-    bool ok = open_sweep(&s, job, (g->a.steps + 1) * (g->b.steps + 1));
-    for (size_t j = 0; j <= g->b.steps && ok; j++) {
-        s.value[0] = sweep_value(&g->b, &ends, (long double)j / (long double)g->b.steps);
-        ok = run_curves(&s, job);
-    }
-    return close_sweep(job, ok);
-}
 
 static bool keep(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
     grid_values *to = context;
-    (void)curve;
     to->a[to->at % to->rows] = x;
-    to->b[to->at / to->rows] = s->value[0];
+    to->b[curve] = sweep_with(s, curve);
     memcpy(to->v + to->at++ * to->count, values, to->count * sizeof *values);
     return true;
 }
 
-bool grid_keep(const grid *g, sweep_job *job, grid_values *out) {
-    *out = (grid_values){.rows = g->a.steps + 1, .across = g->b.steps + 1, .count = job->count};
+bool grid_keep(const sweep *s, sweep_job *job, grid_values *out) {
+    *out = (grid_values){.rows = s->steps + 1, .across = s->curves, .count = job->count};
     out->a = calloc(out->rows, sizeof *out->a);
     out->b = calloc(out->across, sizeof *out->b);
     out->v = calloc(out->rows * out->across, out->count * sizeof *out->v);
@@ -338,7 +323,7 @@ bool grid_keep(const grid *g, sweep_job *job, grid_values *out) {
         return calc_no_memory(job->error);
     job->row = keep;
     job->context = out;
-    return grid_run(g, job);
+    return sweep_run(s, job);
 }
 
 void grid_values_free(grid_values *values) {
