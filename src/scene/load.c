@@ -162,13 +162,26 @@ static bool append_step(scene *s, const load_step *step, const cycle_extra *extr
         program_freeze(s->program, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
     if (!program_append(s->program, &s->end, step, extra))
         return calc_no_memory(error);
+    program_to_inputs(step, extra, &s->in);
     if (extra) {
-        program_to_inputs(step, extra, &s->in);
         s->settled &= ~INPUT_CYCLE;
         s->answers.reach.last_cycle = s->end.steps - 1;
     }
     scene_moved(s);
     return true;
+}
+
+bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    const bool press = step->kind == LOAD_PRESS;
+    program *own = press ? program_make() : program_copy(s->program, s->end);
+    if (!own)
+        return calc_no_memory(error);
+    counted_drop(s->program);
+    s->program = own;
+    s->end = press ? (load_mark){0, 0} : s->end;
+    const bool ok = append_step(s, step, extra, error);
+    scene_forget(s, true);
+    return ok;
 }
 
 bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
