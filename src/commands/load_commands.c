@@ -51,65 +51,41 @@ static void note_unworn(shell *sh, bool worn) {
         shell_note(sh, "Nw = 0 again: wear is that of the last cycle");
 }
 
-/* What a step or a cycle is given, by its word. */
-typedef enum given { TANGENTIAL, NORMAL, SWING, PHASE, POINTS, TIMES } given;
-
-static const struct given_row {
+/* Where a step or a cycle may go to. */
+static const struct {
     const char *name;
-    given is;
-    load_by by; /* of a target */
-} givens[] = {{"Fx", TANGENTIAL, BY_FORCE},
-              {"dx", TANGENTIAL, BY_DISPLACEMENT},
-              {"drig", TANGENTIAL, BY_RIG},
-              {"FN", NORMAL, BY_FORCE},
-              {"dz", NORMAL, BY_DISPLACEMENT},
-              {"FA", TANGENTIAL, BY_FORCE},
-              {"dxA", TANGENTIAL, BY_DISPLACEMENT},
-              {"drigA", TANGENTIAL, BY_RIG},
-              {"FNA", SWING, BY_NONE},
-              {"phase", PHASE, BY_NONE},
-              {"steps", POINTS, BY_NONE},
-              {"times", TIMES, BY_NONE}};
+    bool normal;
+    load_by by;
+} targets[] = {{"Fx", false, BY_FORCE}, {"dx", false, BY_DISPLACEMENT},  {"drig", false, BY_RIG},
+               {"FA", false, BY_FORCE}, {"dxA", false, BY_DISPLACEMENT}, {"drigA", false, BY_RIG},
+               {"FN", true, BY_FORCE},  {"dz", true, BY_DISPLACEMENT}};
 
-static const struct given_row *given_of(const clause *a) {
-    const struct given_row *row = givens;
-    while (strcmp(row->name, a->name))
-        row++; /* the rows of `step` and `cycle` have no other words */
-    return row;
+static void take_target(load_step *step, const heard *h, bool normal, load_by by) {
+    *(normal ? &step->normal : &step->tangential) = (unsigned char)by;
+    *(normal ? &step->normal_value : &step->tangential_value) = (double)h->v.v;
+    if (h->increment)
+        step->relative |= normal ? RELATIVE_NORMAL : RELATIVE_TANGENTIAL;
 }
 
 /* What a step or a cycle was given. last: the target that the error of the load belongs to. */
-static void load_of(const said *s, load_step *step, cycle_extra *extra, const heard **last) {
+static void load_of(said *s, load_step *step, cycle_extra *extra, const heard **last) {
+    const heard *FNA = said_of(s, "FNA", 0), *phase = said_of(s, "phase", 0), *steps = said_of(s, "steps", 0),
+                *times = said_of(s, "times", 0);
     *last = NULL;
-    for (const heard *h = s->list; h < s->list + s->count; h++) {
-        const struct given_row *row = given_of(h->of);
-        const double v = (double)h->v.v;
-        *last = row->by ? h : *last;
-        switch (row->is) {
-        case TANGENTIAL:
-            step->tangential = (unsigned char)row->by;
-            step->tangential_value = v;
-            step->relative |= h->increment ? RELATIVE_TANGENTIAL : 0;
-            break;
-        case NORMAL:
-            step->normal = (unsigned char)row->by;
-            step->normal_value = v;
-            step->relative |= h->increment ? RELATIVE_NORMAL : 0;
-            break;
-        case SWING:
-            step->normal_value = v;
-            break;
-        case PHASE:
-            extra->phase = v;
-            break;
-        case POINTS:
-            step->points = h->count;
-            break;
-        default:
-            extra->times = h->count;
-            break;
-        }
-    }
+    for (const heard *h = s->list; h < s->list + s->count; h++)
+        for (size_t i = 0; i < sizeof targets / sizeof *targets; i++)
+            if (!strcmp(h->of->name, targets[i].name)) {
+                take_target(step, h, targets[i].normal, targets[i].by);
+                *last = h;
+            }
+    if (FNA)
+        step->normal_value = (double)FNA->v.v;
+    if (phase)
+        extra->phase = (double)phase->v.v;
+    if (steps)
+        step->points = steps->count;
+    if (times)
+        extra->times = times->count;
 }
 
 /* A live amplitude has its value in the scene as it is. */
