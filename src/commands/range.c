@@ -2,6 +2,7 @@
 /* Reading ranges, and the files that they go over. Names become known; else touches nothing. */
 #include "commands/range.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -156,10 +157,28 @@ bool range_read_values(shell *sh, const lexer *lx, const span *values, sweep *s)
     return at_end(&own);
 }
 
-static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
-    lexer name = hole_lexer(lx, &h->hole[0]);
+/* Does the name stand anywhere else in the statement? */
+static bool stands_elsewhere(const char *text, size_t here, const char *name) {
+    const size_t len = strlen(name);
+    for (const char *p = text; (p = strstr(p, name)); p += len)
+        if (p != text + here && !isalnum((unsigned char)p[len]) && p[len] != '_' &&
+            (p == text || !(isalnum((unsigned char)p[-1]) || p[-1] == '_')))
+            return true;
+    return false;
+}
+
+/* A name that nothing knew before, and nothing mentions, was meant as another. */
+static bool read_with(shell *sh, const lexer *lx, const said *all, const heard *h, sweep *s) {
+    lexer name = hole_lexer(lx, &h->hole[0]), again = name;
+    value unused;
     if (!knob_read(&sh->calc, &name, &s->with))
         return false;
+    own_name *own = s->with.is_input ? NULL : &sh->calc.names.row[s->with.name];
+    if (own && (own->woken || s->with.name >= all->names) &&
+        !stands_elsewhere(lx->text, h->hole[0].at, s->with.text)) {
+        own->known = false;
+        return expr_value(&sh->calc, &again, &unused); /* which says so */
+    }
     if (!s->along && !strcmp(s->with.text, s->var.text))
         return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
     return range_read_values(sh, lx, &h->hole[1], s);
@@ -189,7 +208,7 @@ bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *o
                 return calc_fail(lx->error, h->at, h->len,
                                  "log goes with for NAME = LO .. HI, or as log x or log y");
             s->log = true;
-        } else if (!strcmp(word, "with") && !read_with(sh, lx, h, s)) {
+        } else if (!strcmp(word, "with") && !read_with(sh, lx, all, h, s)) {
             return false;
         }
     }
@@ -305,7 +324,7 @@ bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t co
     if (!rows_range(sh, lx, all, from, count, &out->sweep))
         return false;
     for (const heard *h = all->list; h < all->list + all->count; h++)
-        if (!strcmp(h->of->name, "with") && !read_with(sh, lx, h, &out->sweep))
+        if (!strcmp(h->of->name, "with") && !read_with(sh, lx, all, h, &out->sweep))
             return false;
     for (size_t i = 0; out->sweep.curves && i < from->at.names; i++)
         if (!strcmp(from->at.column[i].name.text, out->sweep.with.text))
