@@ -156,7 +156,7 @@ static bool can_wait(const scene *s, const load_step *step) {
 static const double DEEPEST = 1e8;
 
 static bool append_step(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
-    if (step->normal == BY_DISPLACEMENT && !(fabs(step->normal_value) < DEEPEST))
+    if (step->kind == LOAD_STEP && step->normal == BY_DISPLACEMENT && !(fabs(step->normal_value) < DEEPEST))
         return calc_fail(error, 0, 0, "dz = %.6g m: a step goes less than 1e8 m deep", step->normal_value);
     if (extra && s->end.cycles)
         program_freeze(s->program, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
