@@ -167,18 +167,14 @@ static bool stands_elsewhere(const char *text, size_t here, const char *name) {
     return false;
 }
 
-/* A name that nothing knew before, and nothing mentions, was meant as another. */
 static bool read_with(shell *sh, const lexer *lx, const said *all, const heard *h, sweep *s) {
-    lexer name = hole_lexer(lx, &h->hole[0]), again = name;
-    value unused;
+    lexer name = hole_lexer(lx, &h->hole[0]);
     if (!knob_read(&sh->calc, &name, &s->with))
         return false;
-    own_name *own = s->with.is_input ? NULL : &sh->calc.names.row[s->with.name];
-    if (own && (own->woken || s->with.name >= all->names) &&
-        !stands_elsewhere(lx->text, h->hole[0].at, s->with.text)) {
-        own->known = false;
-        return expr_value(&sh->calc, &again, &unused); /* which says so */
-    }
+    const bool fresh =
+        !s->with.is_input && (sh->calc.names.row[s->with.name].woken || s->with.name >= all->names);
+    if (fresh && !stands_elsewhere(lx->text, h->hole[0].at, s->with.text)) /* no definition can know it */
+        snprintf(sh->calc.note, sizeof sh->calc.note, "nothing here depends on %s", s->with.text);
     if (!s->along && !strcmp(s->with.text, s->var.text))
         return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
     return range_read_values(sh, lx, &h->hole[1], s);
