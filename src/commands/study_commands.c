@@ -128,8 +128,8 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
     answer_done(&event);
     bool inner = false, edge = false;
     for (size_t i = 0; i < q->count; i++) {
-        char there[ASK_TEXT];
-        ask_text(&q->name[i], a->x[i], there);
+        char there[KNOB_TEXT];
+        knob_text(&q->name[i], a->x[i], there);
         inner = inner || a->end[i] == END_INNER;
         if (a->end[i] == END_SCENE && !edge)
             shell_note(sh, "the scene ends at %s: %s", there, a->why.text);
@@ -184,8 +184,8 @@ static bool read_deviation(shell *sh, const lexer *of, const span *part, const k
     if (!expr_value_as(&sh->calc, lx, &k->d, &v))
         return false;
     if (lx->text[lx->last - 1] == '%') {
-        if (!ask_present(&sh->calc, k, &now))
-            return ask_lacks(&sh->calc, k, "", "", lx->error) || calc_place(lx->error, at, lx->last - at);
+        if (!knob_present(&sh->calc, k, &now))
+            return knob_lacks(&sh->calc, k, "", "", lx->error) || calc_place(lx->error, at, lx->last - at);
         v = (value){v.v * fabs(now), k->d};
     }
     *out = (double)v.v;

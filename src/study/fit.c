@@ -201,8 +201,8 @@ static bool read_start(state *s, double *start, calc_error *error) {
     for (size_t i = 0; i < of->count; i++) {
         const knob *k = &of->name[i];
         double lo = -(double)INFINITY, hi = (double)INFINITY;
-        if (!ask_present(of->c, k, &start[i]))
-            return ask_lacks(of->c, k, " to start from", "", error);
+        if (!knob_present(of->c, k, &start[i]))
+            return knob_lacks(of->c, k, " to start from", "", error);
         if (k->is_input)
             input_range(k->in, &lo, &hi);
         if (of->from)

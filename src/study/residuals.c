@@ -224,16 +224,16 @@ static bool at_moved(residuals *r, size_t first, size_t every, size_t end, doubl
 }
 
 static void no_slope(const residuals *r, size_t i) {
-    char at[ASK_TEXT] = "a turning point";
+    char at[KNOB_TEXT] = "a turning point";
     if (i < r->of->count)
-        ask_text(&r->of->name[i], residuals_unknown(r, i), at);
+        knob_text(&r->of->name[i], residuals_unknown(r, i), at);
     calc_fail(r->p.error, 0, 0, "no value close beside %s, for the derivative: %s", at, r->p.none.text);
 }
 
 /* Differences about q; at the end of the scene, where one of the two has no value, from q to the other. In
  * r->above. */
 static bool differences(residuals *r, size_t first, size_t every, size_t end) {
-    const double h = ask_step(apart / 2, r->q[first], 1);
+    const double h = points_step(apart / 2, r->q[first], 1);
     double hi = h, lo = -h;
     const bool above = at_moved(r, first, every, end, hi, r->above),
                below = at_moved(r, first, every, end, lo, r->below);

@@ -7,7 +7,6 @@
 #include <gsl/gsl_matrix.h>
 
 #include "measured/branches.h"
-#include "study/ask.h"
 #include "study/points.h"
 
 /* ---- what a fit is asked: names, and rows as equations or as a loop ---- */

@@ -3,7 +3,7 @@
 #ifndef STUDY_SOLVE_H
 #define STUDY_SOLVE_H
 
-#include "study/ask.h"
+#include "study/points.h"
 
 typedef struct solve_question {
     calc *c;

@@ -4,7 +4,7 @@
 #ifndef STUDY_UNCERTAINTY_H
 #define STUDY_UNCERTAINTY_H
 
-#include "study/ask.h"
+#include "study/points.h"
 
 enum { UNCERTAIN_NAMES = 12, UNCERTAIN_VALUES = 20 };
 
