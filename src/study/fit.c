@@ -22,16 +22,16 @@ static const double rounding = 1e-9; /* of equations, as a part of their sides *
 typedef struct state {
     residuals r;
     bool bounded[UNKNOWNS];
-    double size;                         /* of the sides at the present values; of a loop, of F_x */
-    gsl_multilarge_nlinear_workspace *w; /* of as many unknowns as vary */
+    double size; /* of the sides at the present values; of a loop, of F_x */
+    gsl_multilarge_nlinear_workspace *w;
     unsigned iterations;
 } state;
 
 /* ---- for the solver ---------------------------------------------------------------------------- */
 
 static void put_unknowns(residuals *r, const gsl_vector *q) {
-    for (size_t i = 0; i < r->frees; i++)
-        r->q[r->free[i]] = gsl_vector_get(q, i);
+    for (size_t i = 0; i < r->unknowns; i++)
+        r->q[i] = gsl_vector_get(q, i);
 }
 
 static int gsl_residuals(const gsl_vector *q, void *context, gsl_vector *f) {
@@ -52,10 +52,10 @@ static int gsl_slopes(CBLAS_TRANSPOSE_t way, const gsl_vector *q, const gsl_vect
     put_unknowns(r, q);
     if (!residuals_slopes(r))
         return GSL_EFAILED;
-    if (way == CblasNoTrans)
-        residuals_along(r, u, v);
-    if (way == CblasTrans || N)
-        residuals_products(r, u, way == CblasTrans ? v : NULL, N);
+    const gsl_matrix_const_view J = gsl_matrix_const_view_array(r->slopes, r->count, r->unknowns);
+    gsl_blas_dgemv(way, 1, &J.matrix, u, 0, v);
+    if (N)
+        gsl_blas_dsyrk(CblasLower, CblasTrans, 1, &J.matrix, 0, N);
     return GSL_SUCCESS;
 }
 
@@ -279,13 +279,14 @@ static bool begin_again(state *s, bool *again, calc_error *error) {
 static bool arrived(state *s, bool small, calc_error *error) {
     residuals *r = &s->r;
     const gsl_vector *f = gsl_multilarge_nlinear_residual(s->w);
-    const size_t p = r->frees;
+    const size_t p = r->unknowns;
     double C[UNKNOWNS][UNKNOWNS], pull[UNKNOWNS], promised = 0;
     gsl_vector_view of = gsl_vector_view_array(pull, p);
     bool ok = true;
     if (!determined(r, C, error))
         return false;
-    residuals_products(r, f, &of.vector, NULL);
+    const gsl_matrix_const_view J = gsl_matrix_const_view_array(r->slopes, r->count, p);
+    gsl_blas_dgemv(CblasTrans, 1, &J.matrix, f, 0, &of.vector);
     const double v = pow(gsl_blas_dnrm2(f), 2) / (double)(r->count - p);
     for (size_t i = 0; i < p; i++) {
         double step = 0;
@@ -313,21 +314,17 @@ static int drive(state *s) {
     return status == GSL_SUCCESS ? GSL_SUCCESS : GSL_EMAXITER;
 }
 
-/* From r->q to the least, of those that vary; a solver's status. Error: out of memory, or all has ended. */
+/* From r->q to the least; a solver's status. Error: out of memory, or all has ended. */
 static int descend(state *s, calc_error *error) {
     const gsl_multilarge_nlinear_parameters method = gsl_multilarge_nlinear_default_parameters();
     residuals *r = &s->r;
     gsl_multilarge_nlinear_fdf fdf = {
-        .f = gsl_residuals, .df = gsl_slopes, .n = r->count, .p = r->frees, .params = r};
+        .f = gsl_residuals, .df = gsl_slopes, .n = r->count, .p = r->unknowns, .params = r};
     double q[UNKNOWNS];
-    const gsl_vector_view from = gsl_vector_view_array(q, r->frees);
-    for (size_t i = 0; i < r->frees; i++)
-        q[i] = r->q[r->free[i]];
-    if (!s->w || s->w->p != r->frees) {
-        if (s->w)
-            gsl_multilarge_nlinear_free(s->w);
-        s->w = gsl_multilarge_nlinear_alloc(gsl_multilarge_nlinear_trust, &method, r->count, r->frees);
-    }
+    const gsl_vector_view from = gsl_vector_view_array(q, r->unknowns);
+    memcpy(q, r->q, sizeof q);
+    if (!s->w)
+        s->w = gsl_multilarge_nlinear_alloc(gsl_multilarge_nlinear_trust, &method, r->count, r->unknowns);
     if (!s->w)
         return calc_no_memory(error), GSL_ENOMEM;
     int status = gsl_multilarge_nlinear_init(&from.vector, &fdf, s->w);
@@ -418,6 +415,7 @@ static bool run_fit(state *s, fit_answer *out, calc_error *error) {
         return false;
     *error = first;
     go_back(r, &there);
+    r->has_slopes = false;
     return ok;
 }
 
@@ -458,16 +456,13 @@ static double profiled(const profile *p, double by) {
     double end = start;
     if (!isfinite(start) || r->unknowns == 1)
         return start;
-    r->frees = 0;
-    for (size_t j = 0; j < r->unknowns; j++)
-        if (j != p->name)
-            r->free[r->frees++] = j;
+    r->held = p->name;
+    r->has_slopes = false;
     descend(p->s, r->p.error);
     if (!r->p.error->raised)
         end = (pow(gsl_blas_dnrm2(gsl_multilarge_nlinear_residual(p->s->w)), 2) - p->least) / p->v;
-    r->frees = 0;
-    for (size_t j = 0; j < r->unknowns; j++)
-        r->free[r->frees++] = j;
+    r->held = r->unknowns;
+    r->has_slopes = false;
     return fmin(start, end);
 }
 

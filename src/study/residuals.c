@@ -199,7 +199,7 @@ static size_t banded(const residuals *r) {
 
 static void put_slopes(residuals *r, size_t unknown, size_t begin, size_t end) {
     for (size_t row = begin; row < end; row++)
-        r->slopes[row * r->unknowns + unknown] = r->above[row];
+        r->slopes[row * r->unknowns + unknown] = r->above[row] / r->unit;
 }
 
 /* The differences that have been found, in the rows that the unknown is felt in; others stay 0. */
@@ -263,7 +263,10 @@ bool residuals_slopes(residuals *r) {
         const size_t every = comb ? FELT : 1, end = comb ? names + bands : first + 1;
         if (comb && first >= names + FELT)
             continue;
-        differences(r, first, every, end);
+        if (first == r->held)
+            memset(r->above, 0, r->count * sizeof *r->above);
+        else
+            differences(r, first, every, end);
         for (size_t i = first; i < end; i += every)
             keep_slopes(r, i);
     }
@@ -271,37 +274,6 @@ bool residuals_slopes(residuals *r) {
     memcpy(r->now, r->q, sizeof r->now);
     r->has_slopes = !r->p.error->raised;
     return r->has_slopes;
-}
-
-void residuals_products(const residuals *r, const gsl_vector *u, gsl_vector *v, gsl_matrix *N) {
-    if (v)
-        gsl_vector_set_zero(v);
-    if (N)
-        gsl_matrix_set_zero(N);
-    for (size_t row = 0; row < r->count; row++) {
-        const double *slope = r->slopes + row * r->unknowns;
-        for (size_t i = 0; i < r->frees; i++) {
-            const double own = slope[r->free[i]] / r->unit;
-            if (own == 0) /* most are, of many turning points */
-                continue;
-            if (v)
-                *gsl_vector_ptr(v, i) += own * gsl_vector_get(u, row);
-            for (size_t j = 0; j <= i && N; j++)
-                *gsl_matrix_ptr(N, i, j) += own * slope[r->free[j]] / r->unit;
-        }
-    }
-    for (size_t i = 0; i < r->frees && N; i++)
-        for (size_t j = 0; j < i; j++)
-            gsl_matrix_set(N, j, i, gsl_matrix_get(N, i, j));
-}
-
-void residuals_along(const residuals *r, const gsl_vector *u, gsl_vector *v) {
-    for (size_t row = 0; row < r->count; row++) {
-        double sum = 0;
-        for (size_t i = 0; i < r->frees; i++)
-            sum += r->slopes[row * r->unknowns + r->free[i]] * gsl_vector_get(u, i);
-        gsl_vector_set(v, row, sum / r->unit);
-    }
 }
 
 /* ---- opening ----------------------------------------------------------------------------------- */
@@ -361,10 +333,9 @@ bool residuals_open(residuals *r, const fit_question *of, calc_error *error) {
     *r = (residuals){.of = of, .unknowns = of->count, .count = of->rows, .unit = 1};
     if (!open_points(r, error) || (!of->left && !open_loop(r, error)))
         return false;
-    for (size_t i = 0; i < r->unknowns; i++) {
+    for (size_t i = 0; i < r->unknowns; i++)
         r->q[i] = 1;
-        r->free[r->frees++] = i;
-    }
+    r->held = r->unknowns;
     r->memory = calloc((3 + r->unknowns) * r->count, sizeof *r->memory);
     r->out = r->memory;
     if (!r->memory)

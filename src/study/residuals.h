@@ -4,8 +4,6 @@
 #ifndef STUDY_RESIDUALS_H
 #define STUDY_RESIDUALS_H
 
-#include <gsl/gsl_matrix.h>
-
 #include "measured/branches.h"
 #include "study/points.h"
 
@@ -56,9 +54,10 @@ typedef struct residuals {
     /* The unknowns in numbers q near 1: start exp(q-1), or start + scale (q-1). */
     double q[UNKNOWNS], start[UNKNOWNS], scale[UNKNOWNS];
     bool ratio[UNKNOWNS];
-    size_t free[UNKNOWNS], frees; /* those that vary; others keep their q */
-    double unit;                  /* of what is handed to a solver */
-    double largest;               /* side of the equations computed so far */
+    size_t held;    /* this one keeps its q; unknowns: none does */
+    double unit;    /* of what is handed to a solver */
+    double *slopes; /* in it, a row of all unknowns for each residual */
+    double largest; /* side of the equations computed so far */
     dim d;
     size_t bad_row; /* the last one without a value; NO_ROW: it was not a row's fault */
     size_t stride;  /* a glance: every such row of some of the data, turning points as measured; 0: all */
@@ -74,11 +73,11 @@ typedef struct residuals {
     double now[UNKNOWNS];     /* q of the latest residuals */
     double sloped[UNKNOWNS];  /* q of the slopes, where there are any */
     bool has_slopes;
-    double *memory, *out, *above, *below, *slopes;
+    double *memory, *out, *above, *below;
     double *to; /* where equations go */
 } residuals;
 
-/* Columns, the loop and its turning points; every unknown varies. Close whatever comes. */
+/* Columns, the loop and its turning points. Close whatever comes. */
 bool residuals_open(residuals *r, const fit_question *of, calc_error *error);
 void residuals_close(residuals *r);
 
@@ -86,11 +85,8 @@ double residuals_unknown(const residuals *r, size_t i);
 /* At r->q: left - right, or measured - computed F_x, in SI; of a loop with noise in both columns in units of
  * these. False: there is no value, or r->p.error is raised, and all has ended. */
 bool residuals_at(residuals *r, double *out);
-/* At r->q, by differences of second order; false with the error. They stay until the next. */
+/* At r->q, by differences of second order, 0 of the one that is held; false with the error. They stay until
+ * the next. */
 bool residuals_slopes(residuals *r);
-/* v = J^T u and N = J^T J, both triangles, of those that vary, in r->unit; either may be NULL. */
-void residuals_products(const residuals *r, const gsl_vector *u, gsl_vector *v, gsl_matrix *N);
-/* v = J u */
-void residuals_along(const residuals *r, const gsl_vector *u, gsl_vector *v);
 
 #endif
