@@ -20,8 +20,8 @@ typedef struct state {
     /* of the range */
     size_t first, end; /* rows of the curve that are wanted */
     size_t rows;
-    const long double *part; /* where each row is in it, 0..1; NULL: evenly */
-    long double *out;        /* of all rows; NULL: they go to the job as soon as they are there */
+    /* rows as refine has them, each its place 0..1 and its values; NULL: even ones, which go to the job */
+    long double *refined;
 } state;
 
 static void say_where(state *st, long double x) {
@@ -96,9 +96,9 @@ static bool take_row(state *st, size_t row, long double x, const value v[], cons
         take_value(st, i, &v[i], x);
     if (job->error->raised)
         return false;
-    if (st->out)
-        memcpy(st->out + row * job->count, st->row, job->count * sizeof *st->row);
-    return st->out || job->row(job->context, st->s, st->curve, x, st->row);
+    if (st->refined)
+        memcpy(st->refined + row * (job->count + 1) + 1, st->row, job->count * sizeof *st->row);
+    return st->refined || job->row(job->context, st->s, st->curve, x, st->row);
 }
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
@@ -120,7 +120,8 @@ static long double row_of(const sweep_rows *at, size_t row) {
 
 static long double place(const state *st, size_t row) {
     return sweep_value(st->s, &st->range,
-                       st->part ? st->part[row] : (long double)(st->first + row) / (long double)st->s->steps);
+                       st->refined ? st->refined[row * (st->job->count + 1)]
+                                   : (long double)(st->first + row) / (long double)st->s->steps);
 }
 
 static void give_swept(void *context, size_t row, long double x[]) {
@@ -148,11 +149,10 @@ static bool run_all(state *st) {
 
 /* ---- even rows, or where they are wanted ------------------------------------------------------- */
 
-static bool evaluate_rows(void *context, const long double *part, size_t rows, long double *out) {
+static bool evaluate_rows(void *context, long double *row, size_t rows) {
     state *st = context;
-    st->part = part;
+    st->refined = row;
     st->rows = rows;
-    st->out = out;
     return run_all(st);
 }
 
