@@ -19,13 +19,13 @@ enum { ITERATIONS = 200, BEGINNINGS = 4 };
 static const double visible = 1e-6;  /* residuals of a loop, as a part of it */
 static const double rounding = 1e-9; /* of equations, as a part of their sides */
 
-typedef struct state {
+typedef struct fitting {
     residuals r;
     bool bounded[UNKNOWNS];
     double size; /* of the sides at the present values; of a loop, of F_x */
     gsl_multilarge_nlinear_workspace *w;
     unsigned iterations;
-} state;
+} fitting;
 
 /* ---- for the solver ---------------------------------------------------------------------------- */
 
@@ -75,7 +75,7 @@ static void put_at_start(residuals *r) {
 }
 
 /* How far the sides move when a name does, as a part of their size, to where they have values. */
-static double effect(state *s, size_t i, double by) {
+static double effect(fitting *s, size_t i, double by) {
     residuals *r = &s->r;
     double most = 0;
     r->scale[i] = by; /* q = 2 and q = 0 are then the start, more or less by that */
@@ -92,7 +92,7 @@ static double effect(state *s, size_t i, double by) {
 
 /* The size of a name is its own value, where a change by as much shows in the sides. A value near 0 tells no
  * size: that is looked for by decades, and is what would move the sides by a tenth. */
-static double scale_of(state *s, size_t i) {
+static double scale_of(fitting *s, size_t i) {
     static const double clear = 1e-3, visible_part = 1e-6, decades = 64;
     const double own = fabs(s->r.start[i]);
     double lo = -decades, hi = decades;
@@ -112,7 +112,7 @@ static double scale_of(state *s, size_t i) {
 }
 
 /* At the present values; a name that is a ratio, or has a range, has its scale. */
-static void choose_scales(state *s) {
+static void choose_scales(fitting *s) {
     residuals *r = &s->r;
     s->size = r->of->left ? r->largest : largest_force(r);
     for (size_t i = 0; i < r->of->count; i++)
@@ -159,7 +159,7 @@ static bool spanned(const residuals *r, size_t name, double *lo, double *hi) {
 /* The start that is given is one of many: others about it, by so many decades or over a range, evenly, then
  * closer to the best of them. Every other one takes a name that may be an offset from what its columns span.
  * False: none is better. */
-static bool seek(state *s, double *best, double farthest) {
+static bool seek(fitting *s, double *best, double farthest) {
     enum { SAMPLES = 24, ROUNDS = 8 };
     residuals *r = &s->r;
     const size_t names = r->of->count;
@@ -195,7 +195,7 @@ static bool seek(state *s, double *best, double farthest) {
 }
 
 /* Scales of the names, from the values that are given. */
-static bool read_start(state *s, double *start, calc_error *error) {
+static bool read_start(fitting *s, double *start, calc_error *error) {
     residuals *r = &s->r;
     const fit_question *of = r->of;
     for (size_t i = 0; i < of->count; i++) {
@@ -214,7 +214,7 @@ static bool read_start(state *s, double *start, calc_error *error) {
     return true;
 }
 
-static bool begin_fit(state *s, const double *start, calc_error *error) {
+static bool begin_fit(fitting *s, const double *start, calc_error *error) {
     residuals *r = &s->r;
     const size_t names = r->of->count;
     r->has_slopes = false;
@@ -250,7 +250,7 @@ static void go_back(residuals *r, const residuals *to) {
 /* A scale taken at the start may be wrong: where another name is 0 there, nothing may depend on this one. So
  * scales are taken anew where the fit has ended, and where one differs much, or the residuals have become
  * small beside their unit, the fit is repeated. */
-static bool begin_again(state *s, bool *again, calc_error *error) {
+static bool begin_again(fitting *s, bool *again, calc_error *error) {
     residuals *r = &s->r;
     const residuals before = *r;
     *again = false;
@@ -276,7 +276,7 @@ static bool begin_again(state *s, bool *again, calc_error *error) {
 /* GSL stops where it makes no progress, and where its steps are small. The first is the end where the step of
  * each name that is left is small beside its standard error, or beside the name itself; the second, unless
  * that step promises more than a standard error, and cannot be taken: a kink, which no slope tells. */
-static bool arrived(state *s, bool small, calc_error *error) {
+static bool arrived(fitting *s, bool small, calc_error *error) {
     residuals *r = &s->r;
     const gsl_vector *f = gsl_multilarge_nlinear_residual(s->w);
     const size_t p = r->unknowns;
@@ -301,7 +301,7 @@ static bool arrived(state *s, bool small, calc_error *error) {
 }
 
 /* In place of GSL's driver, which an interrupt would not end. */
-static int drive(state *s) {
+static int drive(fitting *s) {
     int status = GSL_CONTINUE, info;
     for (int i = 0; i < ITERATIONS && status == GSL_CONTINUE; i++) {
         const int step = gsl_multilarge_nlinear_iterate(s->w);
@@ -315,7 +315,7 @@ static int drive(state *s) {
 }
 
 /* From r->q to the least; a solver's status. Error: out of memory, or all has ended. */
-static int descend(state *s, calc_error *error) {
+static int descend(fitting *s, calc_error *error) {
     const gsl_multilarge_nlinear_parameters method = gsl_multilarge_nlinear_default_parameters();
     residuals *r = &s->r;
     gsl_multilarge_nlinear_fdf fdf = {
@@ -335,7 +335,7 @@ static int descend(state *s, calc_error *error) {
     return status;
 }
 
-static bool settle(state *s, calc_error *error) {
+static bool settle(fitting *s, calc_error *error) {
     const int status = descend(s, error);
     return !error->raised && arrived(s, !status, error);
 }
@@ -355,7 +355,7 @@ static void look_for_drift(const residuals *r, const gsl_vector *f, fit_answer *
     out->drifts = out->rms > visible * size && out->together > 0.5 && out->together > 4 / sqrt((double)n);
 }
 
-static bool judge_fit(state *s, fit_answer *out, calc_error *error) {
+static bool judge_fit(fitting *s, fit_answer *out, calc_error *error) {
     residuals *r = &s->r;
     const size_t p = r->of->count;
     const gsl_vector *f = gsl_multilarge_nlinear_residual(s->w);
@@ -377,7 +377,7 @@ static bool judge_fit(state *s, fit_answer *out, calc_error *error) {
     return ok;
 }
 
-static bool run_from(state *s, const double *start, fit_answer *out, calc_error *error) {
+static bool run_from(fitting *s, const double *start, fit_answer *out, calc_error *error) {
     bool again = true;
     if (!begin_fit(s, start, error))
         return false;
@@ -390,7 +390,7 @@ static bool run_from(state *s, const double *start, fit_answer *out, calc_error 
 /* From the start that is given, and from the best of many; the least wins. What is wrong from the first may
  * be right from the other. A loop knows better than what is given; values close to the answer need no other.
  */
-static bool run_fit(state *s, fit_answer *out, calc_error *error) {
+static bool run_fit(fitting *s, fit_answer *out, calc_error *error) {
     static const double near = 1, far = 4; /* farther off the same may come again, as waves do */
     residuals *r = &s->r;
     const fit_question *of = r->of;
@@ -423,7 +423,7 @@ static bool run_fit(state *s, fit_answer *out, calc_error *error) {
 
 /* A fit at its end, whose names are tried beside that. */
 typedef struct profile {
-    state *s;
+    fitting *s;
     double q[UNKNOWNS], C[UNKNOWNS][UNKNOWNS], v, least;
     size_t name;
     double error; /* of the name, in q */
@@ -491,7 +491,7 @@ static bool is_even(const profile *p, double side) {
     return fabs(grown(p, side) - 1) < near || fabs(profiled(p, side) - 1) < part;
 }
 
-static bool find_intervals(state *s, fit_answer *out, calc_error *error) {
+static bool find_intervals(fitting *s, fit_answer *out, calc_error *error) {
     residuals *r = &s->r;
     profile p = {.s = s};
     memcpy(p.q, r->q, sizeof p.q);
@@ -548,7 +548,7 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     if (question->rows <= question->count)
         return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", question->rows,
                          question->count);
-    state *s = calloc(1, sizeof *s);
+    fitting *s = calloc(1, sizeof *s);
     if (!s)
         return calc_no_memory(error);
     residuals *r = &s->r;

@@ -54,7 +54,7 @@ typedef struct points {
     long double *now, *next; /* knobs as they are set, and as they come */
     value *v;
     struct team *team;
-    bool alone; /* there is none to be had */
+    bool alone; /* no team is to be begun */
     size_t done, watched;
     double taken; /* seconds, for those that have been watched */
 } points;
@@ -77,7 +77,7 @@ bool points_set(points *p, const long double x[]);
 /* The expressions in the scene as it stands. What has no value is NaN; false: one has none, or all has ended.
  */
 bool points_look(points *p, value v[]);
-/* These two. */
+/* points_set, then points_look. */
 bool points_at(points *p, const long double x[], value v[]);
 /* Takes an error as that of a point, or as the end; false. */
 bool points_failed(points *p, const calc_error *error);

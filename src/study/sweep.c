@@ -11,7 +11,7 @@
 #include "language/trial.h"
 #include "study/refine.h"
 
-typedef struct state {
+typedef struct curve_run {
     const sweep *s;
     sweep_job *job;
     size_t curve;
@@ -22,9 +22,9 @@ typedef struct state {
     size_t rows;
     /* rows as refine has them, each its place 0..1 and its values; NULL: even ones, which go to the job */
     long double *refined;
-} state;
+} curve_run;
 
-static void say_where(state *st, long double x) {
+static void say_where(curve_run *st, long double x) {
     const sweep *s = st->s;
     char at[120], with[60 + LEX_NAME] = "";
     calc_amount(st->range.d, x, 6, at, sizeof at);
@@ -36,7 +36,7 @@ static void say_where(state *st, long double x) {
 }
 
 /* Adds the place to an error that ends the sweep; of gaps the first one's reason is kept. */
-static void say_why(state *st, const calc_error *why, long double x) {
+static void say_why(curve_run *st, const calc_error *why, long double x) {
     sweep_job *job = st->job;
     const bool ends = job->error->raised;
     if ((ends && job->error->stop) || (!ends && job->missing.raised))
@@ -63,7 +63,7 @@ static void find_dim(sweep_job *job, size_t i) {
         is_its_dim(job, i, d);
 }
 
-static void fits(state *st, size_t i, dim d, long double x) {
+static void fits(curve_run *st, size_t i, dim d, long double x) {
     sweep_job *job = st->job;
     if (is_its_dim(job, i, d))
         return;
@@ -78,7 +78,7 @@ static void fits(state *st, size_t i, dim d, long double x) {
 }
 
 /* NaN: a gap, whose dimension another row may have told. */
-static void take_value(state *st, size_t i, const value *v, long double x) {
+static void take_value(curve_run *st, size_t i, const value *v, long double x) {
     st->row[i] = v->v;
     if (isnan(v->v)) {
         find_dim(st->job, i);
@@ -88,7 +88,7 @@ static void take_value(state *st, size_t i, const value *v, long double x) {
     fits(st, i, v->d, x);
 }
 
-static bool take_row(state *st, size_t row, long double x, const value v[], const calc_error *why) {
+static bool take_row(curve_run *st, size_t row, long double x, const value v[], const calc_error *why) {
     sweep_job *job = st->job;
     if (why)
         say_why(st, why, x);
@@ -118,14 +118,14 @@ static long double row_of(const sweep_rows *at, size_t row) {
     return at->names == 1 ? (long double)at->column[0].v[row] : (long double)(row + 1);
 }
 
-static long double place(const state *st, size_t row) {
+static long double place(const curve_run *st, size_t row) {
     return sweep_value(st->s, &st->range,
                        st->refined ? st->refined[row * (st->job->count + 1)]
                                    : (long double)(st->first + row) / (long double)st->s->steps);
 }
 
 static void give_swept(void *context, size_t row, long double x[]) {
-    const state *st = context;
+    const curve_run *st = context;
     const sweep *s = st->s;
     if (s->curves)
         *x++ = sweep_with(s, st->curve);
@@ -137,12 +137,12 @@ static void give_swept(void *context, size_t row, long double x[]) {
 
 static bool take_swept(void *context, size_t row, const long double x[], const value v[],
                        const calc_error *why) {
-    state *st = context;
+    curve_run *st = context;
     const sweep_rows *at = st->s->at;
     return take_row(st, row, at ? row_of(at, st->first + row) : x[st->s->curves > 0], v, why);
 }
 
-static bool run_all(state *st) {
+static bool run_all(curve_run *st) {
     return points_go(&st->job->p,
                      &(points_run){.count = st->rows, .give = give_swept, .take = take_swept, .context = st});
 }
@@ -150,20 +150,20 @@ static bool run_all(state *st) {
 /* ---- even rows, or where they are wanted ------------------------------------------------------- */
 
 static bool evaluate_rows(void *context, long double *row, size_t rows) {
-    state *st = context;
+    curve_run *st = context;
     st->refined = row;
     st->rows = rows;
     return run_all(st);
 }
 
 static bool give_part(void *context, long double part, const long double *values) {
-    state *st = context;
+    curve_run *st = context;
     return st->job->row(st->job->context, st->s, st->curve, sweep_value(st->s, &st->range, part), values);
 }
 
 /* The unit of the range may differ from curve to curve. A name must have a value of it here too, where rows
  * come from a team: dimensions of gaps are asked for in this process. */
-static bool begin_range(state *st) {
+static bool begin_range(curve_run *st) {
     points *p = &st->job->p;
     const size_t i = st->s->curves > 0;
     knob *var = &st->job->knobs[i];
@@ -179,7 +179,7 @@ static bool begin_range(state *st) {
     return var->is_input || points_put(p, i, st->range.lo, p->error);
 }
 
-static bool run_range(state *st) {
+static bool run_range(curve_run *st) {
     if (!begin_range(st))
         return false;
     st->rows = (st->end < st->s->steps + 1 ? st->end : st->s->steps + 1) - st->first;
@@ -195,7 +195,7 @@ static bool run_range(state *st) {
 
 /* ---- along a load ------------------------------------------------------------------------------ */
 
-static bool look_along(state *st, double time) {
+static bool look_along(curve_run *st, double time) {
     points *p = &st->job->p;
     const bool all = points_look(p, p->v);
     return take_row(st, 0, time, p->v, all ? NULL : &p->none) && !calc_stopped(p->c->scene.stop, p->error);
@@ -215,7 +215,7 @@ static bool try_load(trial *t, const sweep_range *range, load_mark *from, calc_e
     return true;
 }
 
-static bool run_along(state *st) {
+static bool run_along(curve_run *st) {
     const sweep *s = st->s;
     trial *t = st->job->p.t;
     load_mark from = t->scene.end;
@@ -240,7 +240,7 @@ size_t sweep_length(const sweep *s) {
 }
 
 /* Which rows of the curve are wanted; false: none. */
-static bool is_wanted(state *st) {
+static bool is_wanted(curve_run *st) {
     sweep_job *job = st->job;
     const size_t rows = st->s->steps + 1, before = job->before;
     job->before += rows;
@@ -249,7 +249,7 @@ static bool is_wanted(state *st) {
     return st->first < st->end && st->first < rows;
 }
 
-static bool run_curve(state *st) {
+static bool run_curve(curve_run *st) {
     const sweep *s = st->s;
     points *p = &st->job->p;
     if (!is_wanted(st))
@@ -268,7 +268,7 @@ static bool run_curve(state *st) {
 
 static bool run_curves(const sweep *s, sweep_job *job) {
     const size_t curves = s->curves ? s->curves : 1;
-    state st = {.s = s, .job = job, .row = malloc((job->count + 1) * sizeof *st.row)};
+    curve_run st = {.s = s, .job = job, .row = malloc((job->count + 1) * sizeof *st.row)};
     bool ok = st.row || calc_no_memory(job->error);
     for (; st.curve < curves && ok; st.curve++)
         ok = run_curve(&st);
