@@ -38,17 +38,15 @@ typedef struct leg {
     double origin;     /* of a chord: time at the beginning of its period */
 } leg;
 
-/* Where a run is to be looked at. next: the part of the leg, 0..1, at which to look after the part `after`;
- * beyond 1: not again. */
-typedef struct watch watch;
-struct watch {
-    double (*next)(const watch *w, const leg *l, double after); /* NULL: nowhere */
-    unsigned points;     /* watch_points: of a tangential leg that names none */
-    double first, every; /* watch_times */
+/* Where a run is to be looked at: as the functions below say. */
+typedef struct watch {
+    enum { WATCH_NOTHING, WATCH_POINTS, WATCH_WAY, WATCH_TIMES } kind;
+    unsigned points;     /* of WATCH_POINTS: of a tangential leg that names none */
+    double first, every; /* of WATCH_TIMES */
     size_t sample, last; /* next and last of them */
     bool turns;          /* turning points too */
     bool once;           /* a period that repeats the one before need not be seen again */
-};
+} watch;
 
 /* Every leg in so many parts. */
 watch watch_points(unsigned points);

@@ -166,7 +166,7 @@ static fret_status approach(const bench *b, runner *r) {
     return st.code ? st : run_item(r, &before);
 }
 
-static const watch nowhere = {.next = NULL};
+static const watch nowhere = {WATCH_NOTHING, .points = 0};
 
 /* `levels` numbers of chords, from level `first` on; none: the sine. The watch cuts every leg. */
 static fret_status begin_running(const bench *b, running *m, model_family family, unsigned springs,
