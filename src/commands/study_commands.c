@@ -39,8 +39,7 @@ static bool read_solve(shell *sh, const lexer *lx, said *all, solve_question *q)
     if (!knob_read(&sh->calc, &own, &q->name) || !read_sides(sh, lx, equation))
         return false;
     q->c = &sh->calc;
-    q->left = &sh->list[0];
-    q->right = &sh->list[1];
+    q->sides = sh->list;
     q->given = from;
     if (!from)
         return true;

@@ -114,7 +114,7 @@ static double scale_of(fitting *s, size_t i) {
 /* At the present values; a name that is a ratio, or has a range, has its scale. */
 static void choose_scales(fitting *s) {
     residuals *r = &s->r;
-    s->size = r->of->left ? r->largest : largest_force(r);
+    s->size = r->of->sides ? r->largest : largest_force(r);
     for (size_t i = 0; i < r->of->count; i++)
         if (!r->ratio[i] && !s->bounded[i])
             r->scale[i] = scale_of(s, i);
@@ -130,7 +130,7 @@ static void choose_unit(residuals *r) {
 /* The sum of squares of some rows at these names, turning points as measured; infinite where there is none.
  */
 static double glance(residuals *r, const double *at) {
-    const size_t rows = r->of->left ? r->of->rows : branches_glance(&r->loop);
+    const size_t rows = r->of->sides ? r->of->rows : branches_glance(&r->loop);
     double sum = 0;
     memcpy(r->start, at, r->of->count * sizeof *at);
     put_at_start(r);
@@ -343,7 +343,7 @@ static bool settle(fitting *s, calc_error *error) {
 /* A drift, an offset or a model that does not fit leaves residuals that go together from row to row. */
 static void look_for_drift(const residuals *r, const gsl_vector *f, fit_answer *out) {
     const size_t n = r->of->rows;
-    const double size = r->of->left ? INFINITY : largest_force(r);
+    const double size = r->of->sides ? INFINITY : largest_force(r);
     double squares = 0, products = 0, before = 0;
     for (size_t i = 0; i < n; i++) {
         const double now = gsl_vector_get(f, i);
@@ -398,7 +398,7 @@ static bool run_fit(fitting *s, fit_answer *out, calc_error *error) {
     fit_answer second;
     if (!read_start(s, start, error))
         return false;
-    if (!of->left && !of->from)
+    if (!of->sides && !of->from)
         return seek(s, start, far), !error->raised && run_from(s, start, out, error);
     bool ok = run_from(s, start, out, error);
     if (of->from || error->stop || error->strange || error->circle)
@@ -535,7 +535,7 @@ static bool keep_points(residuals *r, fit_points *p, calc_error *error) {
     r->loop.F = p->y;
     const bool ok = residuals_at(r, r->out);
     memcpy(p->residual, r->out, n * sizeof *p->residual);
-    for (size_t i = 0; i < n && !r->of->left; i++) {
+    for (size_t i = 0; i < n && !r->of->sides; i++) {
         p->left[i] = r->of->loop.Fx[i];
         p->right[i] = p->left[i] - p->residual[i];
     }

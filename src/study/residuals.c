@@ -182,7 +182,7 @@ bool residuals_at(residuals *r, double *out) {
     r->evaluations++;
     if (r->stride)
         memset(out, 0, r->count * sizeof *out);
-    return r->of->left ? equations(r, out) : loop_run(r, out);
+    return r->of->sides ? equations(r, out) : loop_run(r, out);
 }
 
 /* ---- slopes ------------------------------------------------------------------------------------ */
@@ -298,13 +298,9 @@ static bool open_points(residuals *r, calc_error *error) {
         r->knobs[i] = of->name[i];
     for (size_t j = 0; j < of->columns; j++)
         r->knobs[of->count + j] = of->column[j].name;
-    if (of->left) {
-        r->sides[0] = *of->left;
-        r->sides[1] = *of->right;
-    }
-    const size_t columns = of->left ? of->columns : 0;
+    const size_t columns = of->sides ? of->columns : 0;
     const bool ok =
-        points_open(&r->p, of->c, r->knobs, of->count + columns, r->sides, of->left ? 2 : 0, error);
+        points_open(&r->p, of->c, r->knobs, of->count + columns, of->sides, of->sides ? 2 : 0, error);
     if (ok)
         r->p.t->scene.gaps = true;
     r->p.all = passes * of->rows;
@@ -331,7 +327,7 @@ static bool open_loop(residuals *r, calc_error *error) {
 
 bool residuals_open(residuals *r, const fit_question *of, calc_error *error) {
     *r = (residuals){.of = of, .unknowns = of->count, .count = of->rows, .unit = 1};
-    if (!open_points(r, error) || (!of->left && !open_loop(r, error)))
+    if (!open_points(r, error) || (!of->sides && !open_loop(r, error)))
         return false;
     for (size_t i = 0; i < r->unknowns; i++)
         r->q[i] = 1;

@@ -34,8 +34,8 @@ typedef struct fit_question {
     size_t count;
     const double *from; /* values close to the answer, in place of the present ones; or NULL */
     size_t rows;        /* more than names */
-    /* each row an equation; left NULL: a loop */
-    const expr *left, *right;
+    /* each row an equation, left and right; NULL: a loop */
+    const expr *sides;
     const column_knob *column; /* no more than FIT_COLUMNS, borrowed */
     size_t columns;
     fit_loop loop;
@@ -65,7 +65,6 @@ typedef struct residuals {
     fit_points *kept; /* NULL, or where the sides of equations go, too */
     unsigned evaluations;
     /* private */
-    expr sides[2];                       /* left and right */
     knob knobs[FIT_NAMES + FIT_COLUMNS]; /* names, and columns behind them */
     double K_rig, d0, F0;                /* of a loop that is read at the rig, else 0 */
     bool known, twice;

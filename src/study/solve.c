@@ -22,7 +22,6 @@ typedef struct place {
 typedef struct search {
     const solve_question *of;
     points p;
-    expr sides[2]; /* left and right */
     dim d;
     bool known, ratios;
     double lo, hi; /* searched */
@@ -291,7 +290,7 @@ static bool look_for_roots(search *s, unsigned places) {
 /* ---- no root ----------------------------------------------------------------------------------- */
 
 static bool no_root(search *s, calc_error *error) {
-    const expr *left = s->of->left;
+    const expr *left = s->of->sides;
     const knob *k = &s->of->name;
     place best = {.f = (double)NAN};
     char from[CALC_VALUE_TEXT], to[CALC_VALUE_TEXT], off[CALC_VALUE_TEXT], there[KNOB_TEXT];
@@ -364,7 +363,7 @@ static bool find_root(search *s, unsigned i, double *x) {
 static bool only_jumps(search *s, double x, calc_error *error) {
     char there[KNOB_TEXT];
     knob_text(&s->of->name, x, there);
-    return calc_fail(error, s->of->left->at, s->of->left->len,
+    return calc_fail(error, s->of->sides->at, s->of->sides->len,
                      "no root: the sides jump past each other at %s", there);
 }
 
@@ -400,7 +399,7 @@ static bool several(search *s, calc_error *error) {
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "",
                  i == LISTED ? "..." : text);
     }
-    return calc_fail(error, s->of->left->at, s->of->left->len,
+    return calc_fail(error, s->of->sides->at, s->of->sides->len,
                      "several roots, %s = %s: choose by from LO to HI", s->of->name.text, list);
 }
 
@@ -421,10 +420,10 @@ static bool answer_root(search *s, solve_answer *out, calc_error *error) {
 }
 
 bool solve(const solve_question *question, solve_answer *out, calc_error *error) {
-    search s = {.of = question, .sides = {*question->left, *question->right}, .nearest = {.f = (double)NAN}};
+    search s = {.of = question, .nearest = {.f = (double)NAN}};
     *out = (solve_answer){.jumps = false};
-    const bool ok =
-        points_open(&s.p, question->c, &question->name, 1, s.sides, 2, error) && answer_root(&s, out, error);
+    const bool ok = points_open(&s.p, question->c, &question->name, 1, question->sides, 2, error) &&
+                    answer_root(&s, out, error);
     points_close(&s.p);
     return ok;
 }

@@ -8,9 +8,9 @@
 typedef struct solve_question {
     calc *c;
     knob name;
-    const expr *left, *right;
-    bool given;    /* the range is */
-    double lo, hi; /* it */
+    const expr *sides; /* left and right */
+    bool given;        /* the range is */
+    double lo, hi;     /* it */
 } solve_question;
 
 typedef struct solve_answer {
