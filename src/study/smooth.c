@@ -52,8 +52,8 @@ typedef struct rows {
 typedef struct candidate {
     size_t pieces, unknowns;
     gsl_bspline_workspace *spline;
-    gsl_vector *ends, *c, *right, *whole, *basis;
-    gsl_matrix *normal, *factor, *slopes;
+    gsl_vector *ends, *c, *right, *whole;
+    gsl_matrix *normal, *factor;
     double rms, worst, at;
     bool grows;         /* so does g(x): (r f')' >= 0 */
     double falls, drop; /* where f' < 0, and by how much f falls in all */
@@ -88,10 +88,8 @@ static void candidate_end(candidate *t) {
     gsl_vector_free(t->c);
     gsl_vector_free(t->right);
     gsl_vector_free(t->whole);
-    gsl_vector_free(t->basis);
     gsl_matrix_free(t->normal);
     gsl_matrix_free(t->factor);
-    gsl_matrix_free(t->slopes);
     *t = (candidate){.pieces = 0};
 }
 
@@ -104,12 +102,9 @@ static bool candidate_begin(candidate *t, const rows *all, size_t pieces, calc_e
                      .c = gsl_vector_calloc(unknowns),
                      .right = gsl_vector_alloc(unknowns),
                      .whole = gsl_vector_alloc(unknowns),
-                     .basis = gsl_vector_alloc(ORDER),
                      .normal = gsl_matrix_calloc(unknowns, unknowns),
-                     .factor = gsl_matrix_alloc(unknowns, unknowns),
-                     .slopes = gsl_matrix_alloc(ORDER, 2)};
-    if (!t->spline || !t->ends || !t->c || !t->right || !t->whole || !t->basis || !t->normal || !t->factor ||
-        !t->slopes)
+                     .factor = gsl_matrix_alloc(unknowns, unknowns)};
+    if (!t->spline || !t->ends || !t->c || !t->right || !t->whole || !t->normal || !t->factor)
         return calc_no_memory(error);
     for (size_t i = 0; i <= pieces; i++)
         gsl_vector_set(t->ends, i, i ? all->at[i * (all->distinct - 1) / pieces] : 0);
@@ -125,11 +120,13 @@ typedef struct line {
 
 static line line_at(const candidate *t, double r) {
     line out = {.count = 0};
+    double at[ORDER];
+    gsl_vector_view basis = gsl_vector_view_array(at, ORDER);
     size_t first;
-    gsl_bspline_basis(r, t->basis, &first, t->spline);
+    gsl_bspline_basis(r, &basis.vector, &first, t->spline);
     for (size_t j = first; j < first + ORDER; j++)
         if (j >= FIXED) {
-            out.v[out.count] = gsl_vector_get(t->basis, j - first);
+            out.v[out.count] = at[j - first];
             out.at[out.count++] = j - FIXED;
         }
     out.v[out.count] = 1;
@@ -186,14 +183,16 @@ static void judge_profile(candidate *t, const rows *all) {
 
 /* f and f' at the end of a piece. */
 static void end_of(const candidate *t, size_t i, double *f, double *slope) {
+    double at[ORDER][2];
+    gsl_matrix_view basis = gsl_matrix_view_array(at[0], ORDER, 2);
     size_t first;
-    gsl_bspline_basis_deriv(gsl_vector_get(t->ends, i), 1, t->slopes, &first, t->spline);
+    gsl_bspline_basis_deriv(gsl_vector_get(t->ends, i), 1, &basis.matrix, &first, t->spline);
     *f = *slope = 0;
     for (size_t j = first; j < first + ORDER && i > 0; j++)
         if (j >= FIXED) {
             const double c = gsl_vector_get(t->c, j - FIXED);
-            *f += c * gsl_matrix_get(t->slopes, j - first, 0);
-            *slope += c * gsl_matrix_get(t->slopes, j - first, 1);
+            *f += c * at[j - first][0];
+            *slope += c * at[j - first][1];
         }
 }
 
