@@ -38,7 +38,6 @@ static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *e
                                 .amplitude = v ? (double)v->v.v : 0,
                                 .seconds = within ? (double)within->v.v : 3};
     bool ok = accuracy_measure(sh->calc.now, &load, show_progress, NULL, out, error);
-    progress_wipe();
     const char *blamed = error->raised && error->kind == ERROR_STATUS ? error->status.quantity : NULL;
     if (v && blamed && !strcmp(blamed, "FA")) /* a dxA has no bound */
         heard_place(error, v);

@@ -189,6 +189,26 @@ bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
     return sum < -rounding;
 }
 
+/* ---- against what is computed ------------------------------------------------------------------ */
+
+long double columns_differ(comparison *c, size_t row, long double ours) {
+    const long double theirs = c->with->v[row], difference = theirs - ours;
+    if (!isfinite(difference))
+        return difference;
+    c->rows++;
+    c->squares += difference * difference;
+    c->largest = fmaxl(c->largest, fabsl(theirs));
+    if (fabsl(difference) >= fabsl(c->worst)) {
+        c->worst = difference;
+        c->worst_row = row;
+    }
+    return difference;
+}
+
+long double columns_rms(const comparison *c) {
+    return sqrtl(c->squares / (long double)c->rows);
+}
+
 /* ---- as names ---------------------------------------------------------------------------------- */
 
 /* Those that are results, or no names, have no say, and are missed if they are asked for; one that is named

@@ -50,6 +50,19 @@ bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx);
 #define TURNED_FN "FN is negative throughout, which is compression here: its sign is turned"
 #define TURNED_FX "Fx falls where dx grows: its sign is turned"
 
+/* What is computed against a column of the file. */
+typedef struct comparison {
+    const csv_values *with; /* NULL: there is nothing to compare */
+    size_t of;              /* the expression */
+    size_t rows, worst_row;
+    long double squares, worst, largest; /* of differences; the largest value of the column */
+} comparison;
+
+/* What the file has in that row more than `ours`. */
+long double columns_differ(comparison *c, size_t row, long double ours);
+/* The root mean square; NaN: there is no difference. */
+long double columns_rms(const comparison *c);
+
 /* Columns as names of expressions: of inputs that the scene takes, or free ones. */
 typedef struct named_columns {
     size_t count;

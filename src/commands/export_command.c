@@ -58,12 +58,11 @@ typedef struct amplitudes {
 static bool read_amplitudes(shell *sh, const lexer *lx, said *all, amplitudes *out) {
     const knob dxA = {.is_input = true, .in = IN_DXA, .d = DIM_LENGTH, .text = "dxA"};
     const span *name = &said_of(all, "for", 0)->hole[0], *ends = name + 1;
-    lexer own = hole_lexer(lx, ends);
     *out = (amplitudes){sh->calc.now, {.lo = 0}, steps_of(all, 50), said_of(all, "log", 0)};
     if (name->len != strlen(dxA.text) || strncmp(lx->text + name->at, dxA.text, name->len) != 0)
         return calc_fail(lx->error, name->at, name->len,
                          "K' and K'' are functions of dxA: for dxA = LO .. HI");
-    if (!range_read_interval(&sh->calc, &own, &dxA, NULL, &out->ends) || !at_end(&own))
+    if (!range_read_interval(sh, lx, ends, &dxA, NULL, &out->ends))
         return false;
     return (out->log ? out->ends.lo > 0 && out->ends.hi > 0 : out->ends.lo >= 0 && out->ends.hi >= 0) ||
            calc_fail(lx->error, ends->at, ends->len,
@@ -99,7 +98,7 @@ static bool write_loop(export_table *t, void *context) {
     const size_t turn = t->all / 2 - 1;
     for (size_t i = 0; trial_along_next(a, t->error); i++) {
         sight now;
-        run_sight(trace_now(&a->trace), &now);
+        run_sight(a->trace.run, a->trace.levels, &now);
         for (int branch = i > turn ? 2 : 1; branch <= (i < turn ? 1 : 2); branch++)
             if (!put_row(t, (const long double[]){branch, now.state.dx, now.state.Fx, now.state.FN}))
                 return false;
@@ -121,8 +120,7 @@ static bool export_loop(shell *sh, lexer *lx, said *all) {
         trial_along_end(&a);
     }
     calc_word(&sh->calc, lx->error);
-    if (t)
-        trial_close(t);
+    trial_close(t);
     return ok;
 }
 
@@ -272,8 +270,7 @@ static bool export_jenkins(shell *sh, lexer *lx, said *all) {
     trial *t = trial_open(&sh->calc, lx->error);
     const bool ok = t && make_model(t, FA, &m, lx->error) && give_model(sh, lx, name, write, &m);
     calc_word(&sh->calc, lx->error);
-    if (t)
-        trial_close(t);
+    trial_close(t);
     free(m.element);
     return ok;
 }

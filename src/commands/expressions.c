@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "language/trial.h"
 #include "text/unit.h"
 
 static bool read_unit(lexer *lx, column *c) {
@@ -86,6 +87,20 @@ bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *c
     lexer own = hole_lexer(lx, part);
     *count = 0;
     return read_expressions(sh, &own, columns, limit, count) && at_end(&own);
+}
+
+bool read_name(shell *sh, lexer *lx, bool known, size_t most, knob *names, size_t *count) {
+    knob *k = &names[*count];
+    const size_t at = lx->at;
+    if (*count == most)
+        return lex_fail(lx, "more than %zu names", most);
+    if (!(known ? knob_known : knob_read)(&sh->calc, lx, k))
+        return false;
+    for (size_t i = 0; i < *count; i++)
+        if (!strcmp(names[i].text, k->text))
+            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", k->text);
+    ++*count;
+    return true;
 }
 
 /* A side of the equation. What no scene moves has no use for `at`, which the other side was meant to have. */

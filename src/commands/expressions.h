@@ -15,6 +15,8 @@ bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *c
 /* One of them, at place i of the list; and nothing else. */
 bool read_expression(shell *sh, lexer *lx, size_t i, column *c);
 bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c);
+/* One more name at the cursor, none twice, with a value where it is to be known; at most so many. */
+bool read_name(shell *sh, lexer *lx, bool known, size_t most, knob *names, size_t *count);
 /* EXPR = EXPR, the first two of the list. */
 bool read_sides(shell *sh, const lexer *lx, const heard *equation);
 /* Can the value be shown so? Its dimension goes into the column, which may ask for another one. */

@@ -16,24 +16,13 @@
 
 const char study_library[] = "";
 
-/* As `ans`. */
-static void answered(shell *sh, long double v, dim d) {
-    sh->calc.ans = (value){v, d};
-    sh->calc.has_ans = true;
-}
-
 /* ---- fit: what is read ------------------------------------------------------------------------- */
 
 /* A name that is to be found needs a value to start from. */
 static bool read_names(shell *sh, lexer *lx, fit_question *q) {
     for (;;) {
-        if (q->count == FIT_NAMES)
-            return lex_fail(lx, "more than %d names", FIT_NAMES);
-        const size_t at = lx->at;
-        if (!knob_known(&sh->calc, lx, &q->name[q->count++]))
+        if (!read_name(sh, lx, true, FIT_NAMES, q->name, &q->count))
             return false;
-        if (ask_repeats(q->name, q->count))
-            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", q->name[q->count - 1].text);
         if (lx->kind == T_ASSIGN)
             return lex_fail(lx, "unexpected '=': fit starts from the present value of %s",
                             q->name[q->count - 1].text);
@@ -72,16 +61,16 @@ static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv 
         return lex_fail(lx, "expected to FILE.csv");
     if (!columns_read(lx, all, to, data) || !columns_wake(sh, data, all, columns, lx->error))
         return false;
-    q->left = &sh->list[0];
-    q->right = &sh->list[1];
+    const expr *left = &sh->list[0], *right = &sh->list[1];
+    q->sides = sh->list;
     if (!read_sides(sh, lx, sides))
         return columns_missed(sh, lx, data);
-    if (ambiguous(sh, data, q->left, lx->error) || ambiguous(sh, data, q->right, lx->error) ||
+    if (ambiguous(sh, data, left, lx->error) || ambiguous(sh, data, right, lx->error) ||
         !columns_load(sh, data, 2, columns, lx->error))
         return false;
     csv_layout(data, layout, sizeof layout);
     if (!columns->used)
-        return calc_fail(lx->error, q->left->at, q->right->at + q->right->len - q->left->at,
+        return calc_fail(lx->error, left->at, right->at + right->len - left->at,
                          "no column of %.100s is in the equation: %s", data->path, layout);
     columns_say(sh, data, columns->turned ? TURNED_FN : "");
     q->column = columns->column;
@@ -263,7 +252,7 @@ static bool print_fit(shell *sh, const fit_question *q, const fit_answer *a, cal
         report_fit(&out, q, a);
     ok = (answer_end(&out, ok) && ok) || calc_no_memory(error);
     if (ok) {
-        answered(sh, a->value[q->count - 1], q->name[q->count - 1].d);
+        calc_answered(&sh->calc, (value){a->value[q->count - 1], q->name[q->count - 1].d});
         remark_fit(sh, &out, q, a);
     }
     columns_free(c, q->count);
@@ -331,7 +320,7 @@ static bool cycle_rows(shell *sh, answer *out, const fit_question *q, const csv 
     }
     if (!fitted)
         return *error = first, false;
-    answered(sh, from[q->count - 1], q->name[q->count - 1].d);
+    calc_answered(&sh->calc, (value){from[q->count - 1], q->name[q->count - 1].d});
     if (fitted < l->cycles)
         shell_note(sh, "%zu of %zu cycles have no values: %s", l->cycles - fitted, l->cycles, first.text);
     return true;
@@ -402,7 +391,7 @@ static const column_knob *abscissa(const fit_question *q) {
 }
 
 static double across(const fit_question *q, const column_knob *over, size_t row) {
-    return !q->left ? q->loop.dx[row] : over ? over->v[row] : (double)(row + 1);
+    return !q->sides ? q->loop.dx[row] : over ? over->v[row] : (double)(row + 1);
 }
 
 static bool add_rows(const struct fitted *f, plot_panel *p, const char *title, const double *y,
@@ -427,7 +416,7 @@ static bool add_curve(const struct fitted *f, plot_series *s, calc_error *error)
     bool ok = at;
     for (size_t i = 0; ok && i < n; i++)
         at[i] = k->nodes ? (place){k->x[i], k->y[i]} : (place){across(&f->q, over, i), k->right[i]};
-    if (ok && f->q.left)
+    if (ok && f->q.sides)
         qsort(at, n, sizeof *at, fret_ascending);
     for (size_t i = 0; ok && i < n; i++)
         ok = plot_point(s, at[i].x, at[i].y);
@@ -438,12 +427,12 @@ static bool add_curve(const struct fitted *f, plot_series *s, calc_error *error)
 static bool finish_axes(lexer *lx, const struct fitted *f, const looks *l, plot_panel *p,
                         const axis_of *ordinate) {
     const column_knob *over = abscissa(&f->q);
-    const axis_of x = {.name = !f->q.left ? loop_column(f->q.loop.rig)
-                               : over     ? over->name.text
-                                          : "row",
-                       .d = !f->q.left ? DIM_LENGTH
-                            : over     ? over->name.d
-                                       : DIM_NONE};
+    const axis_of x = {.name = !f->q.sides ? loop_column(f->q.loop.rig)
+                               : over      ? over->name.text
+                                           : "row",
+                       .d = !f->q.sides ? DIM_LENGTH
+                            : over      ? over->name.d
+                                        : DIM_NONE};
     return looks_axis(lx, l, p, true, &x) && looks_axis(lx, l, p, false, ordinate);
 }
 
@@ -466,7 +455,7 @@ bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) 
         ok = s && (i || add_curve(f, s, lx->error));
     }
     p->airy = true;
-    return ok && finish_axes(lx, f, l, p, &(axis_of){.name = f->up, .d = f->q.left ? f->a.d : DIM_FORCE});
+    return ok && finish_axes(lx, f, l, p, &(axis_of){.name = f->up, .d = f->q.sides ? f->a.d : DIM_FORCE});
 }
 
 bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
@@ -494,7 +483,7 @@ bool do_fit(shell *sh, lexer *lx, said *all) {
     if (ok && is_by_cycle(lx, all)) {
         ok = !lx->error->raised && fit_by_cycle(sh, lx, all, &f->q, &f->data);
     } else if (ok) {
-        const expr *left = f->q.left;
+        const expr *left = f->q.sides;
         snprintf(f->up, sizeof f->up, "%.*s", left ? LEX_SHOWN(left->len) : 2,
                  left ? left->text + left->at : "Fx");
         f->q.points = &f->points;

@@ -32,7 +32,6 @@ void report_event(shell *sh, const char *event, const char *const *names) {
         v[count] = (value){0, of[count]->d};
         count += quantity_get(of[count], &sh->calc.scene, &v[count].v, error_quiet());
     }
-    progress_wipe();
     if (sh->set.report == REPORT_AUTO && !answer_is_data(&sh->set))
         shell_aside(sh, sh->out);
     answer a;
@@ -52,65 +51,41 @@ static void note_unworn(shell *sh, bool worn) {
         shell_note(sh, "Nw = 0 again: wear is that of the last cycle");
 }
 
-/* What a step or a cycle is given, by its word. */
-typedef enum given { TANGENTIAL, NORMAL, SWING, PHASE, POINTS, TIMES } given;
-
-static const struct given_row {
+/* Where a step or a cycle may go to. */
+static const struct {
     const char *name;
-    given is;
-    load_by by; /* of a target */
-} givens[] = {{"Fx", TANGENTIAL, BY_FORCE},
-              {"dx", TANGENTIAL, BY_DISPLACEMENT},
-              {"drig", TANGENTIAL, BY_RIG},
-              {"FN", NORMAL, BY_FORCE},
-              {"dz", NORMAL, BY_DISPLACEMENT},
-              {"FA", TANGENTIAL, BY_FORCE},
-              {"dxA", TANGENTIAL, BY_DISPLACEMENT},
-              {"drigA", TANGENTIAL, BY_RIG},
-              {"FNA", SWING, BY_NONE},
-              {"phase", PHASE, BY_NONE},
-              {"steps", POINTS, BY_NONE},
-              {"times", TIMES, BY_NONE}};
+    bool normal;
+    load_by by;
+} targets[] = {{"Fx", false, BY_FORCE}, {"dx", false, BY_DISPLACEMENT},  {"drig", false, BY_RIG},
+               {"FA", false, BY_FORCE}, {"dxA", false, BY_DISPLACEMENT}, {"drigA", false, BY_RIG},
+               {"FN", true, BY_FORCE},  {"dz", true, BY_DISPLACEMENT}};
 
-static const struct given_row *given_of(const clause *a) {
-    const struct given_row *row = givens;
-    while (strcmp(row->name, a->name))
-        row++; /* the rows of `step` and `cycle` have no other words */
-    return row;
+static void take_target(load_step *step, const heard *h, bool normal, load_by by) {
+    *(normal ? &step->normal : &step->tangential) = (unsigned char)by;
+    *(normal ? &step->normal_value : &step->tangential_value) = (double)h->v.v;
+    if (h->increment)
+        step->relative |= normal ? RELATIVE_NORMAL : RELATIVE_TANGENTIAL;
 }
 
 /* What a step or a cycle was given. last: the target that the error of the load belongs to. */
-static void load_of(const said *s, load_step *step, cycle_extra *extra, const heard **last) {
+static void load_of(said *s, load_step *step, cycle_extra *extra, const heard **last) {
+    const heard *FNA = said_of(s, "FNA", 0), *phase = said_of(s, "phase", 0), *steps = said_of(s, "steps", 0),
+                *times = said_of(s, "times", 0);
     *last = NULL;
-    for (const heard *h = s->list; h < s->list + s->count; h++) {
-        const struct given_row *row = given_of(h->of);
-        const double v = (double)h->v.v;
-        *last = row->by ? h : *last;
-        switch (row->is) {
-        case TANGENTIAL:
-            step->tangential = (unsigned char)row->by;
-            step->tangential_value = v;
-            step->relative |= h->increment ? RELATIVE_TANGENTIAL : 0;
-            break;
-        case NORMAL:
-            step->normal = (unsigned char)row->by;
-            step->normal_value = v;
-            step->relative |= h->increment ? RELATIVE_NORMAL : 0;
-            break;
-        case SWING:
-            step->normal_value = v;
-            break;
-        case PHASE:
-            extra->phase = v;
-            break;
-        case POINTS:
-            step->points = h->count;
-            break;
-        default:
-            extra->times = h->count;
-            break;
-        }
-    }
+    for (const heard *h = s->list; h < s->list + s->count; h++)
+        for (size_t i = 0; i < sizeof targets / sizeof *targets; i++)
+            if (!strcmp(h->of->name, targets[i].name)) {
+                take_target(step, h, targets[i].normal, targets[i].by);
+                *last = h;
+            }
+    if (FNA)
+        step->normal_value = (double)FNA->v.v;
+    if (phase)
+        extra->phase = (double)phase->v.v;
+    if (steps)
+        step->points = steps->count;
+    if (times)
+        extra->times = times->count;
 }
 
 /* A live amplitude has its value in the scene as it is. */
@@ -330,35 +305,26 @@ static bool read_rows(shell *sh, csv *data, rows *w, calc_error *error) {
            (take_off(sh, IN_D0, w->dx, data->rows, error) && take_off(sh, IN_F0, w->Fx, data->rows, error));
 }
 
-/* What the file has of the state, and how far it is from what the state is, in the rows that have been
- * followed last. */
+/* What the file has of the state, beside what that is in the rows that have been followed last. */
 enum { OF_FX, OF_DX, COMPARED_COLUMNS };
-typedef struct differences {
-    double rms[COMPARED_COLUMNS], largest[COMPARED_COLUMNS];
-} differences;
 
-static bool compare_rows(shell *sh, const rows *w, differences *out, calc_error *error) {
+static bool compare_rows(shell *sh, const rows *w, comparison of[COMPARED_COLUMNS], calc_error *error) {
     scene *s = &sh->calc.scene;
-    const size_t count = w->data->rows, before = s->end.steps - count;
-    const double *theirs[] = {w->Fx->v, w->dx->v};
-    long double squares[COMPARED_COLUMNS] = {0, 0};
+    const size_t before = s->end.steps - w->data->rows;
     scene_trace t;
     sight now;
+    of[OF_FX].with = w->Fx;
+    of[OF_DX].with = w->dx;
     if (!trace_begin(&t, s, watch_points(1), true, error))
         return false;
     while (trace_next(&t, error)) {
         const size_t at = trace_now(&t)->at.steps;
-        run_sight(trace_now(&t), &now);
+        run_sight(t.run, t.levels, &now);
         const long double ours[] = {now.state.Fx, now.state.dx};
-        for (int k = 0; k < COMPARED_COLUMNS && at >= before; k++) {
-            const long double off = ours[k] - theirs[k][at - before];
-            squares[k] += off * off;
-            out->largest[k] = fmax(out->largest[k], fabs(theirs[k][at - before]));
-        }
+        for (int k = 0; k < COMPARED_COLUMNS && at >= before; k++)
+            columns_differ(&of[k], at - before, ours[k]);
     }
     trace_end(&t);
-    for (int k = 0; k < COMPARED_COLUMNS; k++)
-        out->rms[k] = (double)sqrtl(squares[k] / (long double)count);
     return !error->raised;
 }
 
@@ -375,20 +341,22 @@ static void report_compared(shell *sh, const char *name, dim d, double rms) {
 }
 
 /* Of both pairs that is told which does not agree, as in another scene. */
-static void report_differences(shell *sh, const rows *w, const differences *d) {
+static void report_differences(shell *sh, const rows *w, const comparison of[COMPARED_COLUMNS]) {
     static const char *const names[] = {"Fx", "dx"};
     static const dim dims[] = {{1, 0, 0, 0}, {0, 1, 0, 0}};
     const bool both = w->normal_by == BY_FORCE;
-    for (int k = 0; k < (both ? COMPARED_COLUMNS : OF_DX); k++)
-        if (!both || d->rms[k] > SAME * d->largest[k])
-            report_compared(sh, names[k], dims[k], d->rms[k]);
+    for (int k = 0; k < (both ? COMPARED_COLUMNS : OF_DX); k++) {
+        const double rms = (double)columns_rms(&of[k]);
+        if (!both || rms > SAME * of[k].largest)
+            report_compared(sh, names[k], dims[k], rms);
+    }
 }
 
 /* A live mu may depend on the press. */
 static bool follow_file(shell *sh, csv *data, calc_error *error) {
     scene *s = &sh->calc.scene;
     rows w;
-    differences off = {{0}, {0}};
+    comparison off[COMPARED_COLUMNS] = {{.with = NULL}};
     if (!read_rows(sh, data, &w, error))
         return false;
     const bool compared = w.Fx && w.dx;
@@ -398,11 +366,11 @@ static bool follow_file(shell *sh, csv *data, calc_error *error) {
                          data->path);
     const bool turned = w.normal_by == BY_FORCE && columns_turn_pull(data, w.normal), pressed = s->end.steps;
     if ((!pressed && !follow_press(sh, &w, error)) || !scene_friction(s, &w.mu, error) ||
-        !follow_rows(sh, &w, !pressed, error) || (compared && !compare_rows(sh, &w, &off, error)))
+        !follow_rows(sh, &w, !pressed, error) || (compared && !compare_rows(sh, &w, off, error)))
         return false;
     columns_say(sh, data, turned ? TURNED_FN : "");
     if (compared)
-        report_differences(sh, &w, &off);
+        report_differences(sh, &w, off);
     return true;
 }
 

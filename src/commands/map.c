@@ -25,8 +25,11 @@ bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t st
         return false;
     if (!strcmp(out->a.sweep.var.text, out->b.sweep.var.text))
         return calc_fail(lx->error, second->at, second->len, "%s is given twice", out->b.sweep.var.text);
-    out->grid = (grid){out->a.sweep, out->b.sweep};
-    return true;
+    sweep *s = &out->a.sweep;
+    s->across = &out->b.sweep;
+    s->with = s->across->var;
+    s->curves = s->across->steps + 1;
+    return s->across->range(s->across, &s->ends, lx->error);
 }
 
 bool map_at(const lexer *lx) {
@@ -49,8 +52,8 @@ static void copy(double *to, const long double *v, size_t n, long double scale) 
 
 /* Of stress inside, over a plane through the middle: z goes down, and where it is the surface, the contact is
  * marked. */
-static bool show_body(shell *sh, const grid *g, plot_panel *p, calc_error *error) {
-    const char *x = g->a.var.text, *z = g->b.var.text;
+static bool show_body(shell *sh, const sweep *over, plot_panel *p, calc_error *error) {
+    const char *x = over->var.text, *z = over->with.text;
     const plot_map *m = &p->map;
     const fret_press *press;
     const quantity *q;
@@ -69,12 +72,12 @@ static bool show_body(shell *sh, const grid *g, plot_panel *p, calc_error *error
     return s ? (plot_point(s, lo, 0) && plot_point(s, hi, 0)) || calc_no_memory(error) : !error->raised;
 }
 
-static bool give_values(shell *sh, lexer *lx, const grid *g, const grid_values *of, const looks *l,
+static bool give_values(shell *sh, lexer *lx, const sweep *s, const grid_values *of, const looks *l,
                         const column *c, dim d, plot_panel *p) {
     plot_map *m = &p->map;
-    const axis_of x = {.name = g->a.var.text, .d = g->a.var.d}, y = {.name = g->b.var.text, .d = g->b.var.d};
-    p->logx = p->logx || g->a.log;
-    p->logy = p->logy || g->b.log;
+    const axis_of x = {.name = s->var.text, .d = s->var.d}, y = {.name = s->with.text, .d = s->with.d};
+    p->logx = p->logx || s->log;
+    p->logy = p->logy || s->across->log;
     if (l->files)
         return calc_fail(lx->error, l->over[0]->hole[0].at, l->over[0]->hole[0].len,
                          "points cannot lie over a map");
@@ -83,17 +86,17 @@ static bool give_values(shell *sh, lexer *lx, const grid *g, const grid_values *
     copy(m->y, of->b, m->ny, 1);
     copy(m->z, of->v, m->nx * m->ny, z.scale);
     m->label = plot_label(c->name, z.text);
-    return (m->label || calc_no_memory(lx->error)) && show_body(sh, g, p, lx->error) &&
+    return (m->label || calc_no_memory(lx->error)) && show_body(sh, s, p, lx->error) &&
            looks_axis(lx, l, p, true, &x) && looks_axis(lx, l, p, false, &y);
 }
 
-static bool run_map(shell *sh, lexer *lx, const grid *g, column *c, const looks *l, plot_panel *p) {
+static bool run_map(shell *sh, lexer *lx, const sweep *s, column *c, const looks *l, plot_panel *p) {
     found f;
     grid_values values;
     sweep_job sweeping = range_job(sh, c, 1, &f, NULL, NULL, lx->error);
-    if (!plot_map_make(p, g->a.steps + 1, g->b.steps + 1, lx->error))
+    if (!plot_map_make(p, s->steps + 1, s->curves, lx->error))
         return false;
-    const bool ok = grid_keep(g, &sweeping, &values) && give_values(sh, lx, g, &values, l, c, f.d[0], p);
+    const bool ok = grid_keep(s, &sweeping, &values) && give_values(sh, lx, s, &values, l, c, f.d[0], p);
     grid_values_free(&values);
     if (ok)
         note_missing(sh, &sweeping);
@@ -109,7 +112,7 @@ bool map_read(shell *sh, lexer *lx, said *all, column *c, grid_range *r) {
 bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     column c;
     grid_range r;
-    const bool ok = map_read(sh, lx, all, &c, &r) && run_map(sh, lx, &r.grid, &c, l, p);
+    const bool ok = map_read(sh, lx, all, &c, &r) && run_map(sh, lx, &r.a.sweep, &c, l, p);
     columns_free(&c, 1);
     return ok;
 }

@@ -9,8 +9,7 @@
 
 /* Both ranges of a grid; it must stay where it is. */
 typedef struct grid_range {
-    range a, b;
-    grid grid;
+    range a, b; /* a: the sweep, across that of b */
 } grid_range;
 
 /* Of two `for`; steps: where none are given. */

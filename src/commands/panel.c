@@ -185,7 +185,7 @@ static bool subtract(panel_job *job, const long double *values, long double *lef
                    : calc_fail(job->error, 0, 0, "no column of %.200s is as %s, to be compared",
                                job->measured->data.path, axis.name);
     for (size_t i = 0; i < job->count; i++)
-        left[i] = rows_differ(c, job->rows % job->measured->data.rows, values[i]);
+        left[i] = columns_differ(c, job->rows % job->measured->data.rows, values[i]);
     job->rows++;
     return true;
 }
@@ -296,7 +296,7 @@ static bool name_residuals(panel_job *job, dim d, char name[TITLE]) {
     const comparison *c = &job->residuals;
     char rms[NUMBER_TEXT + COLUMN_UNIT], title[200];
     snprintf(name, TITLE, "file %s - %.300s", c->with->name, job->columns[0].name);
-    format_value(&job->sh->set, (value){rows_rms(c), d}, rms, sizeof rms);
+    format_value(&job->sh->set, (value){columns_rms(c), d}, rms, sizeof rms);
     snprintf(title, sizeof title, "rms = %s over %zu rows", rms, c->rows);
     job->p->title = job->p->title ? job->p->title : strdup(title);
     return job->p->title || calc_no_memory(job->error);
@@ -370,36 +370,29 @@ static bool move_by(panel_job *job, lexer *lx, said *all, size_t which) {
     job->moved = true;
     if (m->at)
         return true;
-    if (!range_read_name(job->sh, lx, all, which, true, &r) ||
-        !range_options(job->sh, lx, all, which, &r, 0) || !r.sweep.range(&r.sweep, &m->over, lx->error))
+    if (!range_read_name(job->sh, lx, all, which, true, &r) || !range_options(job->sh, lx, all, which, &r, 0))
         return false;
-    if (m->found && !(m->by_input && m->input.var.in == r.sweep.var.in))
+    if (m->found && (m->over.sweep.along || m->over.sweep.var.in != r.sweep.var.in))
         return calc_fail(lx->error, by->at, by->len,
                          "the figures of an animation go along one load, or one input");
-    m->found = m->by_input = true;
-    m->input = r.sweep;
+    m->found = true;
+    m->over = r;
     return true;
 }
 
-/* All figures follow one load. */
+/* All figures follow one load; at each value of an input they show all of it. */
 static bool follow(motion *m, const range *r) {
-    const sweep *s = &r->sweep;
-    const lexer *own = &r->own;
-    if (!m || m->at || !s->along)
+    const lexer *own = &r->own, *other = m ? &m->over.own : NULL;
+    if (!m || m->at || !r->sweep.along)
         return true;
+    if (!m->found)
+        m->over = *r;
     const size_t len = own->end - own->at;
-    char *load = s->what == ALONG_LOAD ? strndup(own->text + own->at, len) : NULL;
-    if (s->what == ALONG_LOAD && !load)
-        return calc_no_memory(own->error);
-    const bool same = !m->found || m->by_input || (m->what == s->what && (!load || !strcmp(load, m->load)));
-    if (m->found) { /* all of it, at each value of an input */
-        free(load);
-        return same || calc_fail(own->error, own->at, len, "the figures of an animation go along one load");
-    }
+    const bool same =
+        !m->found || !m->over.sweep.along ||
+        (other->end - other->at == len && !memcmp(other->text + other->at, own->text + own->at, len));
     m->found = true;
-    m->what = s->what;
-    m->load = load;
-    return true;
+    return same || calc_fail(own->error, own->at, len, "the figures of an animation go along one load");
 }
 
 /* ---- sweeps ------------------------------------------------------------------------------------ */

@@ -10,12 +10,8 @@
  * input; then for each instant, states along the load up to it, and what is no state along a load as it
  * stands then. */
 typedef struct motion {
-    bool found; /* a load to follow */
-    along_what what;
-    char *load;    /* its text; NULL: the program's */
-    bool by_input; /* an input goes over a range instead: */
-    sweep input;
-    sweep_range over;
+    bool found;                     /* what to follow: */
+    range over;                     /* a load, or an input over its range; it must stay where it is */
     trial *at;                      /* in the scene at an instant; NULL: the figures as a whole */
     double until;                   /* that instant */
     axis_unit unit[PLOT_PANELS][2]; /* the same in all frames */

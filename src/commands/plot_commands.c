@@ -9,7 +9,6 @@
 #include "commands/expressions.h"
 #include "commands/figures.h"
 #include "commands/panel.h"
-#include "language/trial.h"
 #include "number/array.h"
 #include "statement/answer.h"
 #include "statement/progress.h"
@@ -265,23 +264,15 @@ typedef struct movie {
     const lexer *lx;
     panels figures;
     motion motion;
+    sweep_job over; /* its frames */
     plot_figure *frame;
     size_t done, frames;
     calc_error *error;
 } movie;
 
-/* The figures at an instant. */
-static bool take_frame(movie *m, double time) {
-    lexer lx = *m->lx;
-    lx.error = m->error;
-    m->motion.until = time;
-    progress_part((double)m->done / (double)m->frames);
-    return draw_panels(m->sh, &lx, &m->figures, &m->frame[m->done++], &m->motion);
-}
-
-/* Titles tell the value. */
+/* Titles tell the value of the input. */
 static bool title_frame(movie *m, plot_figure *f, long double v) {
-    const knob *by = &m->motion.input.var;
+    const knob *by = &m->motion.over.sweep.var;
     char number[160], title[600];
     format_value(&m->sh->set, (value){v, by->d}, number, sizeof number);
     for (size_t i = 0; i < f->count; i++) {
@@ -296,57 +287,37 @@ static bool title_frame(movie *m, plot_figure *f, long double v) {
     return true;
 }
 
-/* An input goes over its range, on a scratch scene. */
-static bool take_values(movie *m) {
-    trial *t = trial_open(&m->sh->calc, m->error);
-    bool ok = t != NULL;
-    m->motion.at = t;
-    for (size_t i = 0; ok && i < m->frames; i++) {
-        const long double part = (long double)i / (long double)(m->frames - 1),
-                          v = sweep_value(&m->motion.input, &m->motion.over, part);
-        ok = !calc_stopped(&shell_stop, m->error) && trial_set(t, &m->motion.input.var, v, m->error) &&
-             take_frame(m, INFINITY) && title_frame(m, &m->frame[i], v);
+/* The figures at an instant, or at a value, of which the scratch scene is now. */
+static bool give_frame(void *context, const sweep *s, size_t curve, long double x,
+                       const long double *values) {
+    movie *m = context;
+    lexer lx = *m->lx;
+    plot_figure *frame = &m->frame[m->done];
+    (void)curve, (void)values;
+    if (m->over.missing.raised) { /* there is no such scene */
+        *m->error = m->over.missing;
+        return false;
     }
-    m->motion.at = NULL;
-    if (!ok)
-        calc_word(&m->sh->calc, m->error);
-    if (t)
-        trial_close(t);
-    return ok;
+    lx.error = m->error;
+    m->motion.at = m->over.p.t;
+    m->motion.until = s->along ? (double)x : INFINITY;
+    progress_part((double)m->done++ / (double)m->frames);
+    return draw_panels(m->sh, &lx, &m->figures, frame, &m->motion) && (s->along || title_frame(m, frame, x));
 }
 
-/* Goes along the load on a scratch scene. */
+/* Instants of the load, of the program where the figures follow none, or values of an input. */
 static bool take_frames(movie *m) {
-    calc *c = &m->sh->calc;
-    load_mark from;
-    sweep_range load = {.lo = 0};
-    bool ok = true;
-    trial_along a;
-    trial *t = trial_open(c, m->error);
-    if (!t)
+    static const char load[] = "program";
+    sweep *s = &m->motion.over.sweep;
+    lexer lx;
+    lex_start(&lx, load, strlen(load), m->error);
+    if (!m->motion.found && !range_read_along(m->sh, &lx, &(span){0, strlen(load)}, &m->motion.over))
         return false;
-    from = t->scene.end;
-    if (m->motion.load) {
-        lexer lx;
-        lex_start(&lx, m->motion.load, strlen(m->motion.load), m->error);
-        ok = read_load(m->sh, &lx, &load.step, &load.extra, load.bound) &&
-             sweep_try_load(t, &load, &from, m->error);
-    }
-    m->motion.at = t;
-    ok = ok && trial_along_begin(&a, t, m->motion.what, from, m->frames - 1, false, m->error);
-    if (ok) {
-        while (ok && trial_along_next(&a, m->error))
-            ok = take_frame(m, scene_time(&t->scene));
-        trial_along_end(&a);
-    }
-    ok = ok && !m->error->raised;
-    m->motion.at = NULL;
-    for (input in = 0; in < INPUTS; in++)
-        counted_drop(load.bound[in]);
-    if (!ok)
-        calc_word(c, m->error);
-    trial_close(t);
-    return ok;
+    s->context = &m->motion.over;
+    s->steps = m->frames - 1;
+    s->curves = 0;
+    m->over = (sweep_job){.c = &m->sh->calc, .row = give_frame, .context = m, .error = m->error};
+    return sweep_run(s, &m->over);
 }
 
 /* Draws the figures once as they stand, then at every instant, then all of it. */
@@ -358,14 +329,12 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
     plot_figure_init(&whole);
     bool ok = draw_panels(m->sh, lx, &m->figures, &whole, &m->motion);
     plot_figure_free(&whole);
-    if (ok && !m->motion.found)
-        m->motion.what = ALONG_PROGRAM;
     m->frame = ok ? calloc(frames, sizeof *m->frame) : NULL;
     if (ok && !m->frame)
         ok = calc_no_memory(lx->error);
     if (ok && frames < 2)
         ok = calc_fail(lx->error, 0, 0, "an animation takes 2 frames or more");
-    ok = ok && (m->motion.by_input ? take_values : take_frames)(m);
+    ok = ok && take_frames(m);
     progress_wipe();
     if (ok && file) { /* in the terminal frames would go behind it */
         char words[80];
@@ -376,7 +345,6 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
     for (size_t i = 0; m->frame && i < frames; i++)
         plot_figure_free(&m->frame[i]);
     free(m->frame);
-    free(m->motion.load);
     return ok;
 }
 

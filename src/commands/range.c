@@ -2,6 +2,7 @@
 /* Reading ranges, and the files that they go over. Names become known; else touches nothing. */
 #include "commands/range.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -59,9 +60,12 @@ static bool read_other_end(calc *c, lexer *lx, const knob *var, const char *word
     return ok;
 }
 
-bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out) {
+bool range_read_interval(shell *sh, const lexer *lx, const span *part, const knob *var, const char *word,
+                         sweep_range *out) {
     bounds b = {.known = false};
-    return read_bound(c, lx, var, &b, &out->lo) && read_other_end(c, lx, var, word, &b, out);
+    lexer own = hole_lexer(lx, part);
+    return read_bound(&sh->calc, &own, var, &b, &out->lo) &&
+           read_other_end(&sh->calc, &own, var, word, &b, out) && at_end(&own);
 }
 
 /* The same, or v1, v2, ...: no `..` stands there then. */
@@ -153,10 +157,24 @@ bool range_read_values(shell *sh, const lexer *lx, const span *values, sweep *s)
     return at_end(&own);
 }
 
-static bool read_with(shell *sh, const lexer *lx, const heard *h, sweep *s) {
+/* Does the name stand anywhere else in the statement? */
+static bool stands_elsewhere(const char *text, size_t here, const char *name) {
+    const size_t len = strlen(name);
+    for (const char *p = text; (p = strstr(p, name)); p += len)
+        if (p != text + here && !isalnum((unsigned char)p[len]) && p[len] != '_' &&
+            (p == text || !(isalnum((unsigned char)p[-1]) || p[-1] == '_')))
+            return true;
+    return false;
+}
+
+static bool read_with(shell *sh, const lexer *lx, const said *all, const heard *h, sweep *s) {
     lexer name = hole_lexer(lx, &h->hole[0]);
     if (!knob_read(&sh->calc, &name, &s->with))
         return false;
+    const bool fresh =
+        !s->with.is_input && (sh->calc.names.row[s->with.name].woken || s->with.name >= all->names);
+    if (fresh && !stands_elsewhere(lx->text, h->hole[0].at, s->with.text)) /* no definition can know it */
+        snprintf(sh->calc.note, sizeof sh->calc.note, "nothing here depends on %s", s->with.text);
     if (!s->along && !strcmp(s->with.text, s->var.text))
         return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
     return range_read_values(sh, lx, &h->hole[1], s);
@@ -186,7 +204,7 @@ bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *o
                 return calc_fail(lx->error, h->at, h->len,
                                  "log goes with for NAME = LO .. HI, or as log x or log y");
             s->log = true;
-        } else if (!strcmp(word, "with") && !read_with(sh, lx, h, s)) {
+        } else if (!strcmp(word, "with") && !read_with(sh, lx, all, h, s)) {
             return false;
         }
     }
@@ -302,7 +320,7 @@ bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t co
     if (!rows_range(sh, lx, all, from, count, &out->sweep))
         return false;
     for (const heard *h = all->list; h < all->list + all->count; h++)
-        if (!strcmp(h->of->name, "with") && !read_with(sh, lx, h, &out->sweep))
+        if (!strcmp(h->of->name, "with") && !read_with(sh, lx, all, h, &out->sweep))
             return false;
     for (size_t i = 0; out->sweep.curves && i < from->at.names; i++)
         if (!strcmp(from->at.column[i].name.text, out->sweep.with.text))
@@ -340,22 +358,4 @@ const csv_values *rows_compared(file_rows *r, const axis_of *expression, bool al
         if (theirs->v == r->at.column[j].v)
             return NULL;
     return theirs;
-}
-
-long double rows_differ(comparison *c, size_t row, long double ours) {
-    const long double theirs = c->with->v[row], difference = theirs - ours;
-    if (!isfinite(difference))
-        return difference;
-    c->rows++;
-    c->squares += difference * difference;
-    c->largest = fmaxl(c->largest, fabsl(theirs));
-    if (fabsl(difference) >= fabsl(c->worst)) {
-        c->worst = difference;
-        c->worst_row = row;
-    }
-    return difference;
-}
-
-long double rows_rms(const comparison *c) {
-    return sqrtl(c->squares / (long double)c->rows);
 }

@@ -31,18 +31,6 @@ bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over,
 /* What was understood, behind what has been compared. */
 void rows_say(shell *sh, const file_rows *r);
 
-/* An expression against a column of the file. */
-typedef struct comparison {
-    const csv_values *with; /* NULL: there is nothing to compare */
-    size_t of;              /* the expression */
-    size_t rows, worst_row;
-    long double squares, worst, largest; /* of differences; the largest value of the column */
-} comparison;
-
-/* What the file has in that row more than `ours`. */
-long double rows_differ(comparison *c, size_t row, long double ours);
-/* The root mean square; NaN: there is no difference. */
-long double rows_rms(const comparison *c);
 /* What an expression is to be compared with, or NULL: the column of its name, else, of an expression that is
  * alone in its dimension, the only one of that which is not used and has not the name of another quantity. */
 const csv_values *rows_compared(file_rows *r, const axis_of *expression, bool alone, calc_error *error);
@@ -61,8 +49,9 @@ typedef struct range {
     bool positive; /* both ends */
 } range;
 
-/* LO .. HI of var; word: what stands between them instead of `..`, or NULL. */
-bool range_read_interval(calc *c, lexer *lx, const knob *var, const char *word, sweep_range *out);
+/* LO .. HI of var, and no more; word: what stands between them instead of `..`, or NULL. */
+bool range_read_interval(shell *sh, const lexer *lx, const span *part, const knob *var, const char *word,
+                         sweep_range *out);
 /* As far as the load goes that stands there. */
 bool range_read_along(shell *sh, const lexer *lx, const span *load, range *out);
 /* The range of the which-th `for`, or `along`. It must stay where it is, and the text of the statement too.

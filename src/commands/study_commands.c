@@ -21,8 +21,7 @@ static bool print_answers(shell *sh, column *columns, const long double *si, siz
                           calc_error *error) {
     if (!answer_values(&sh->set, sh->out, columns, si, count))
         return calc_no_memory(error);
-    sh->calc.ans = (value){si[count - 1], columns[count - 1].d};
-    sh->calc.has_ans = true;
+    calc_answered(&sh->calc, (value){si[count - 1], columns[count - 1].d});
     return true;
 }
 
@@ -40,13 +39,11 @@ static bool read_solve(shell *sh, const lexer *lx, said *all, solve_question *q)
     if (!knob_read(&sh->calc, &own, &q->name) || !read_sides(sh, lx, equation))
         return false;
     q->c = &sh->calc;
-    q->left = &sh->list[0];
-    q->right = &sh->list[1];
+    q->sides = sh->list;
     q->given = from;
     if (!from)
         return true;
-    own = hole_lexer(lx, &from->hole[0]);
-    if (!range_read_interval(&sh->calc, &own, &q->name, "to", &ends) || !at_end(&own))
+    if (!range_read_interval(sh, lx, &from->hole[0], &q->name, "to", &ends))
         return false;
     q->lo = (double)ends.lo;
     q->hi = (double)ends.hi;
@@ -100,23 +97,16 @@ static bool read_over(shell *sh, const lexer *lx, said *all, optimise_question *
     const heard *h;
     for (size_t i = 0; (h = said_of(all, "over", i)); i++) {
         sweep_range ends = {.lo = 0};
-        knob *k = &q->name[q->count];
-        const span *name = &h->hole[0], *ends_at = &h->hole[1];
-        lexer own = hole_lexer(lx, name);
-        if (q->count == OPTIMISE_NAMES)
-            return lex_fail(&own, "more than %d names", OPTIMISE_NAMES);
-        if (!knob_read(&sh->calc, &own, k))
-            return false;
-        if (ask_repeats(q->name, q->count + 1))
-            return calc_fail(lx->error, name->at, name->len, "%s is given twice", k->text);
-        own = hole_lexer(lx, ends_at);
-        if (!range_read_interval(&sh->calc, &own, k, NULL, &ends) || !at_end(&own))
+        const span *ends_at = &h->hole[1];
+        lexer own = hole_lexer(lx, &h->hole[0]);
+        if (!read_name(sh, &own, false, OPTIMISE_NAMES, q->name, &q->count) ||
+            !range_read_interval(sh, lx, ends_at, &q->name[i], NULL, &ends))
             return false;
         if (!(ends.lo < ends.hi))
             return calc_fail(lx->error, ends_at->at, ends_at->len, "an empty range: LO must be below HI");
-        k->d = ends.d;
-        q->lo[q->count] = (double)ends.lo;
-        q->hi[q->count++] = (double)ends.hi;
+        q->name[i].d = ends.d;
+        q->lo[i] = (double)ends.lo;
+        q->hi[i] = (double)ends.hi;
     }
     return true;
 }
@@ -137,8 +127,8 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
     answer_done(&event);
     bool inner = false, edge = false;
     for (size_t i = 0; i < q->count; i++) {
-        char there[ASK_TEXT];
-        ask_text(&q->name[i], a->x[i], there);
+        char there[KNOB_TEXT];
+        knob_text(&q->name[i], a->x[i], there);
         inner = inner || a->end[i] == END_INNER;
         if (a->end[i] == END_SCENE && !edge)
             shell_note(sh, "the scene ends at %s: %s", there, a->why.text);
@@ -193,8 +183,8 @@ static bool read_deviation(shell *sh, const lexer *of, const span *part, const k
     if (!expr_value_as(&sh->calc, lx, &k->d, &v))
         return false;
     if (lx->text[lx->last - 1] == '%') {
-        if (!ask_present(&sh->calc, k, &now))
-            return ask_lacks(&sh->calc, k, "", "", lx->error) || calc_place(lx->error, at, lx->last - at);
+        if (!knob_present(&sh->calc, k, &now))
+            return knob_lacks(&sh->calc, k, "", "", lx->error) || calc_place(lx->error, at, lx->last - at);
         v = (value){v.v * fabs(now), k->d};
     }
     *out = (double)v.v;
@@ -202,25 +192,29 @@ static bool read_deviation(shell *sh, const lexer *of, const span *part, const k
            (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "a deviation must be positive")) && at_end(lx);
 }
 
+/* How far it is. */
+static bool count_sample(void *context, size_t sample, const value v[]) {
+    const uncertainty_question *q = context;
+    (void)v;
+    progress_part((double)(sample + 1) / (double)q->to);
+    return true;
+}
+
 static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_question *q) {
     const heard *h, *samples = said_of(all, "samples", 0), *seed = said_of(all, "seed", 0);
     for (size_t i = 0; (h = said_of(all, "with", i)); i++) {
-        knob *k = &q->name[q->count];
-        const span *name = &h->hole[0];
-        lexer own = hole_lexer(lx, name);
-        if (q->count == UNCERTAIN_NAMES)
-            return lex_fail(&own, "more than %d inputs", UNCERTAIN_NAMES);
-        if (!knob_known(&sh->calc, &own, k))
-            return false;
-        if (ask_repeats(q->name, q->count + 1))
-            return calc_fail(lx->error, name->at, name->len, "%s is given twice", k->text);
-        if (!read_deviation(sh, lx, &h->hole[1], k, &q->deviation[q->count++]))
+        lexer own = hole_lexer(lx, &h->hole[0]);
+        if (!read_name(sh, &own, true, UNCERTAIN_NAMES, q->name, &q->count) ||
+            !read_deviation(sh, lx, &h->hole[1], &q->name[i], &q->deviation[i]))
             return false;
     }
     if (samples)
         q->samples = samples->count;
     if (seed)
         q->seed = seed->count;
+    q->to = q->samples;
+    q->take = count_sample;
+    q->context = q;
     return true;
 }
 
@@ -270,7 +264,6 @@ static bool share_samples(shell *sh, lexer *lx, said *all, uncertainty_question 
     q->context = &job;
     job.all = q->to - q->from;
     const bool ok = uncertainty(q, a, lx->error) && !lx->error->raised;
-    progress_wipe();
     if (ok && a->missing.raised)
         shell_note(sh, "some samples lack a value: %s", a->missing.text);
     return table_close(sh, lx, &job.t, ok);
@@ -378,8 +371,7 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
     }
     if (!answer_end(&out, true))
         return calc_no_memory(error);
-    sh->calc.ans = (value){last->v, last->d};
-    sh->calc.has_ans = true;
+    calc_answered(&sh->calc, (value){last->v, last->d});
     if (sh->set.timing)
         shell_say(sh, "uncertainty: differences of sixth order and %u samples (seed %u), %u evaluations",
                   q->samples, q->seed, a->evaluations);

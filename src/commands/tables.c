@@ -6,7 +6,7 @@
 
 bool table_open(shell *sh, const lexer *lx, said *all, si_table *t) {
     t->count = 0;
-    t->begun = t->lost = t->kept = false;
+    t->begun = t->lost = false;
     return target_open(sh, lx, all, &t->to);
 }
 
@@ -16,7 +16,7 @@ void table_column(si_table *t, const char *name, dim d) {
 
 bool table_begin(shell *sh, si_table *t, const char *event, calc_error *error) {
     answer_begin_as(&t->a, &sh->set, t->to.to, t->to.format);
-    if (t->lost)
+    if (t->lost || !columns_distinct(t->column, t->count))
         return calc_no_memory(error);
     if (target_goes_on(sh, &t->to))
         answer_goes_on(&t->a, t->column, t->count);
@@ -25,9 +25,13 @@ bool table_begin(shell *sh, si_table *t, const char *event, calc_error *error) {
     return t->begun = true;
 }
 
-bool table_close(shell *sh, lexer *lx, si_table *t, bool ok) {
+bool table_end(si_table *t, bool ok) {
     progress_wipe();
-    if (t->begun && !answer_end(&t->a, ok || t->kept))
+    return !t->begun || answer_end(&t->a, ok);
+}
+
+bool table_close(shell *sh, lexer *lx, si_table *t, bool ok) {
+    if (!table_end(t, ok))
         ok = calc_no_memory(lx->error);
     columns_free(t->column, t->count);
     return target_close(sh, lx, &t->to, ok);

@@ -23,7 +23,7 @@ static bool history_rows(scene *s, long double K_rig, answer *a, calc_error *err
         return false;
     while (trace_next(&t, error)) {
         const fret_state *at = &now.state;
-        run_sight(trace_now(&t), &now);
+        run_sight(t.run, t.levels, &now);
         answer_row(
             a, (const long double[HISTORY]){at->FN, at->dz, at->Fx, at->dx, at->W, at->dx + at->Fx / K_rig});
     }
@@ -48,18 +48,15 @@ bool do_history(shell *sh, lexer *lx, said *all) {
 /* ---- table ------------------------------------------------------------------------------------- */
 
 typedef struct table_job {
-    answer a;
-    column columns[COLUMNS]; /* the sweep's own, then those of the expressions */
-    size_t first;            /* of the expressions */
-    size_t count, shown;     /* columns of expressions, and behind them of comparisons */
+    shell *sh;
+    si_table t;   /* the sweep's own columns, those of the expressions, and of comparisons */
+    size_t first; /* of the expressions */
+    size_t count; /* of them */
     found found;
     size_t curve;
-    long double second; /* the value of the second name of a grid, in the last row */
-    file_rows *at;      /* those of a file, or NULL */
+    file_rows *at; /* those of a file, or NULL */
     comparison compared[COLUMNS];
     size_t comparisons;
-    bool begun, blocks;
-    bool goes_on;             /* the head of the table is in another share */
     const char *name;         /* where it goes, for messages */
     bool screen;              /* rows that go there are progress enough */
     size_t before, rows, all; /* of other shares, that there have been, that are wanted */
@@ -68,7 +65,7 @@ typedef struct table_job {
 
 static void begin_columns(table_job *job) {
     for (size_t i = 0; i < job->count; i++) {
-        column *c = &job->columns[job->first + i];
+        column *c = &job->t.column[job->first + i];
         c->d = job->found.known[i] ? job->found.d[i] : DIM_NONE;
         if (!c->chosen)
             dim_unit(c->d, c->unit, sizeof c->unit);
@@ -77,13 +74,12 @@ static void begin_columns(table_job *job) {
 
 /* Two columns behind those of the expressions for each that the file has something to compare with. */
 static bool compare_columns(table_job *job) {
-    column *next = &job->columns[job->first + job->count];
     for (size_t i = 0; job->at && i < job->count; i++) {
-        const column *own = &job->columns[job->first + i];
+        const column *own = &job->t.column[job->first + i];
         char name[2][400];
         bool alone = true;
         for (size_t j = 0; j < job->count; j++)
-            alone = alone && (j == i || !dim_equal(own->d, job->columns[job->first + j].d));
+            alone = alone && (j == i || !dim_equal(own->d, job->t.column[job->first + j].d));
         const csv_values *with =
             rows_compared(job->at, &(axis_of){.name = own->name, .d = own->d}, alone, job->error);
         if (job->error->raised)
@@ -93,7 +89,8 @@ static bool compare_columns(table_job *job) {
         job->compared[job->comparisons++] = (comparison){.with = with, .of = i};
         snprintf(name[0], sizeof name[0], "file %s", with->name);
         snprintf(name[1], sizeof name[1], "file %s - %.200s", with->name, own->name);
-        for (int j = 0; j < 2; j++, job->shown++, next++) {
+        for (int j = 0; j < 2; j++) {
+            column *next = &job->t.column[job->t.count++];
             *next = *own;
             next->name = column_name(name[j], strlen(name[j]));
             if (!next->name)
@@ -105,15 +102,7 @@ static bool compare_columns(table_job *job) {
 
 static bool begin_table(table_job *job) {
     begin_columns(job);
-    if (!compare_columns(job))
-        return false;
-    const size_t all = job->first + job->count + job->shown;
-    if (!columns_distinct(job->columns, all))
-        return calc_no_memory(job->error);
-    if (job->goes_on)
-        answer_goes_on(&job->a, job->columns, all);
-    job->begun = job->goes_on || answer_columns(&job->a, "table", job->columns, all);
-    return job->begun || calc_no_memory(job->error);
+    return compare_columns(job) && table_begin(job->sh, &job->t, "table", job->error);
 }
 
 /* The names' values in a row of the file, and what is compared there; values: of the expressions. */
@@ -126,45 +115,43 @@ static void give_compared(table_job *job, const long double *values, long double
         comparison *c = &job->compared[i];
         long double *to = row + job->first + job->count + 2 * i;
         to[0] = c->with->v[r];
-        to[1] = rows_differ(c, r, values[c->of]);
+        to[1] = columns_differ(c, r, values[c->of]);
     }
 }
 
 static bool give_row(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
     table_job *job = context;
     long double row[COLUMNS];
-    const bool first = !job->begun;
+    answer *a = &job->t.a;
+    const bool first = !job->t.begun;
     if (first && !begin_table(job))
         return false;
-    if (job->blocks && !first &&
-        (curve != job->curve || (s->curves && islessgreater(s->value[curve], job->second))))
-        answer_gap(&job->a);
+    if (job->t.to.blocks && !first && curve != job->curve)
+        answer_gap(a);
     job->curve = curve;
-    job->second = s->curves ? s->value[curve] : 0;
     row[0] = x;
     if (s->curves)
-        row[job->first - 1] = s->value[curve];
+        row[job->first - 1] = sweep_with(s, curve);
     if (job->at)
         give_compared(job, values, row);
     memcpy(row + job->first, values, job->count * sizeof *row);
     job->rows++;
-    if (job->screen && answer_shows_next(&job->a))
+    if (job->screen && answer_shows_next(a))
         progress_wipe();
     else
         progress_part((double)job->rows / (double)job->all);
-    answer_row(&job->a, row);
+    answer_row(a, row);
     /* a reader that has gone, or a full disk: no use in going on */
-    return !ferror(job->a.to) ||
-           calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
+    return !ferror(a->to) || calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
 }
 
-/* second: the other name of a grid, or of the curves; NULL: there is none */
-static bool own_columns(table_job *job, const sweep *s, const knob *second) {
-    column *own = job->columns;
-    bool ok = s->at || column_si(own++, s->var.text, s->var.d);
+static void own_columns(si_table *t, const sweep *s) {
+    if (!s->at)
+        table_column(t, s->var.text, s->var.d);
     for (size_t i = 0; s->at && i < s->at->names; i++)
-        ok = ok && column_si(own++, s->at->column[i].name.text, s->at->column[i].name.d);
-    return ok && (!second || column_si(own, second->text, second->d));
+        table_column(t, s->at->column[i].name.text, s->at->column[i].name.d);
+    if (s->curves)
+        table_column(t, s->with.text, s->with.d);
 }
 
 /* A line each: rms and worst, with its row. */
@@ -173,8 +160,8 @@ static void say_compared(shell *sh, const table_job *job) {
     answer_begin(&a, &sh->set, sh->out);
     for (const comparison *c = job->compared; c < job->compared + job->comparisons; c++) {
         char text[2][NUMBER_TEXT + COLUMN_UNIT];
-        const column *own = &job->columns[job->first + c->of];
-        const long double rms = rows_rms(c);
+        const column *own = &job->t.column[job->first + c->of];
+        const long double rms = columns_rms(c);
         const size_t line = job->at->data.row[c->worst_row].line;
         answer_event(&a, "compare");
         answer_string(&a, "name", own->name);
@@ -199,14 +186,14 @@ static void say_compared(shell *sh, const table_job *job) {
 /* ---- a grid as text: a matrix of each expression ----------------------------------------------- */
 
 /* One expression: the first name downward, the second across. */
-static bool print_matrix(shell *sh, FILE *to, const grid *g, const grid_values *m, size_t i, column *c) {
+static bool print_matrix(shell *sh, FILE *to, const sweep *s, const grid_values *m, size_t i, column *c) {
     column columns[COLUMNS] = {{.name = NULL}};
     char head[200], number[120];
-    bool ok = column_si(&columns[0], g->a.var.text, g->a.var.d);
+    bool ok = column_si(&columns[0], s->var.text, s->var.d);
     column_suit(c, m->v + i, m->rows * m->across, m->count, sh->set.digits);
     for (size_t j = 0; ok && j < m->across; j++) {
-        format_value(&sh->set, (value){m->b[j], g->b.var.d}, number, sizeof number);
-        snprintf(head, sizeof head, "%s = %s", g->b.var.text, number);
+        format_value(&sh->set, (value){m->b[j], s->with.d}, number, sizeof number);
+        snprintf(head, sizeof head, "%s = %s", s->with.text, number);
         ok = column_si(&columns[j + 1], head, DIM_NONE);
         columns[j + 1].scale = c->scale;
         columns[j + 1].chosen = true; /* the heading tells the unit */
@@ -228,16 +215,16 @@ static bool print_matrix(shell *sh, FILE *to, const grid *g, const grid_values *
     return ok;
 }
 
-static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *sweeping) {
+static bool run_matrix(shell *sh, table_job *job, const sweep *s, sweep_job *sweeping) {
     grid_values m;
-    if (g->b.steps > COLUMNS - 2)
+    if (s->curves > COLUMNS - 1)
         return calc_fail(sweeping->error, 0, 0,
                          "a matrix as text has at most %d columns: use fewer steps, or a file", COLUMNS - 1);
-    bool ok = grid_keep(g, sweeping, &m);
+    bool ok = grid_keep(s, sweeping, &m);
     if (ok)
         begin_columns(job);
     for (size_t i = 0; ok && i < job->count; i++)
-        ok = print_matrix(sh, job->a.to, g, &m, i, &job->columns[job->first + i]) ||
+        ok = print_matrix(sh, job->t.to.to, s, &m, i, &job->t.column[job->first + i]) ||
              calc_no_memory(sweeping->error);
     grid_values_free(&m);
     return ok;
@@ -245,56 +232,49 @@ static bool run_matrix(shell *sh, table_job *job, const grid *g, sweep_job *swee
 
 /* ---- the command ------------------------------------------------------------------------------- */
 
-/* g: of two names, at: the rows of a file; or NULL. */
-static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const grid *g, file_rows *at,
-                      column *columns, size_t count) {
+/* at: the rows of a file; or NULL. */
+static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, file_rows *at, column *columns,
+                      size_t count) {
+    const size_t first = (at ? at->at.names : 1) + (s->curves > 0);
+    if (first + (at ? 3 : 1) * count > COLUMNS)
+        return calc_fail(lx->error, 0, 0, "more than %d columns", COLUMNS);
     table_job *job = calloc(1, sizeof *job);
-    target to;
     if (!job)
         return calc_no_memory(lx->error);
-    if (!target_open(sh, lx, all, &to)) {
+    si_table *t = &job->t;
+    if (!table_open(sh, lx, all, t)) {
         free(job);
         return false;
     }
-    const knob *second = g ? &g->b.var : s->curves ? &s->with : NULL;
-    job->first = (at ? at->at.names : 1) + (second != NULL);
-    job->at = at;
-    if (job->first + (at ? 3 : 1) * count > COLUMNS) {
-        free(job);
-        return target_close(sh, lx, &to, calc_fail(lx->error, 0, 0, "more than %d columns", COLUMNS));
-    }
+    job->sh = sh;
+    job->first = first;
     job->count = count;
-    job->blocks = to.blocks;
-    job->name = to.file.to ? to.file.name : "to standard output";
+    job->at = at;
+    job->name = t->to.file.to ? t->to.file.name : "to standard output";
     job->error = lx->error;
-    memcpy(job->columns + job->first, columns, count * sizeof *columns); /* with their names */
+    own_columns(t, s);
+    memcpy(t->column + t->count, columns, count * sizeof *columns); /* with their names */
+    t->count += count;
     for (size_t i = 0; i < count; i++)
         columns[i].name = NULL;
-    sweep_job sweeping =
-        range_job(sh, job->columns + job->first, count, &job->found, give_row, job, lx->error);
-    const size_t rows = g ? (g->a.steps + 1) * (g->b.steps + 1) : sweep_length(s);
-    bool ok = (own_columns(job, s, second) || calc_no_memory(lx->error)) &&
-              target_share(sh, &to, rows, &sweeping.from, &sweeping.to, lx->error);
+    sweep_job sweeping = range_job(sh, t->column + job->first, count, &job->found, give_row, job, lx->error);
+    const size_t rows = sweep_length(s);
+    bool ok = (!t->lost || calc_no_memory(lx->error)) &&
+              target_share(sh, &t->to, rows, &sweeping.from, &sweeping.to, lx->error);
     job->before = sweeping.from;
     job->all = sweeping.to - sweeping.from;
-    job->goes_on = target_goes_on(sh, &to);
-    job->screen = to.to == sh->out && shell_on_terminal(sh);
-    answer_begin_as(&job->a, &sh->set, to.to, to.format);
-    const bool square = g && to.format == FORMAT_TEXT && !to.blocks;
-    ok = ok && (square ? run_matrix(sh, job, g, &sweeping)
-                : g    ? grid_run(g, &sweeping)
-                       : sweep_run(s, &sweeping));
-    progress_wipe();
-    if (job->begun)
-        answer_end(&job->a, sweeping.values > 0);
+    job->screen = t->to.to == sh->out && shell_on_terminal(sh);
+    const bool square = s->across && t->to.format == FORMAT_TEXT && !t->to.blocks;
+    ok = ok && (square ? run_matrix(sh, job, s, &sweeping) : sweep_run(s, &sweeping));
+    table_end(t, sweeping.values > 0);
     if (ok)
         note_missing(sh, &sweeping);
-    ok = target_close(sh, lx, &to, ok);
+    ok = target_close(sh, lx, &t->to, ok);
     if (ok && job->all == rows) /* a share has not seen all of them */
         say_compared(sh, job);
     if (ok && at)
         rows_say(sh, at);
-    columns_free(job->columns, job->first + count + job->shown);
+    columns_free(t->column, t->count);
     free(job);
     return ok;
 }
@@ -302,7 +282,7 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, const gri
 bool table_map(shell *sh, lexer *lx, said *all) {
     column c;
     grid_range r;
-    const bool ok = map_read(sh, lx, all, &c, &r) && run_table(sh, lx, all, &r.grid.a, &r.grid, NULL, &c, 1);
+    const bool ok = map_read(sh, lx, all, &c, &r) && run_table(sh, lx, all, &r.a.sweep, NULL, &c, 1);
     columns_free(&c, 1);
     return ok;
 }
@@ -325,13 +305,13 @@ bool do_table(shell *sh, lexer *lx, said *all) {
         columns_missed(sh, lx, &at.data);
     else if (ok && at.given)
         ok = range_read_rows(sh, lx, all, &at, count, &r) &&
-             run_table(sh, lx, all, &r.sweep, NULL, &at, columns, count);
+             run_table(sh, lx, all, &r.sweep, &at, columns, count);
     else if (ok && said_of(all, "for", 1))
         ok = grid_range_read(sh, lx, all, &two, ROWS, ACROSS) &&
-             run_table(sh, lx, all, &two.grid.a, &two.grid, NULL, columns, count);
+             run_table(sh, lx, all, &two.a.sweep, NULL, columns, count);
     else
         ok = ok && range_read(sh, lx, all, 0, &r) && range_options(sh, lx, all, 0, &r, ROWS) &&
-             run_table(sh, lx, all, &r.sweep, NULL, NULL, columns, count);
+             run_table(sh, lx, all, &r.sweep, NULL, columns, count);
     columns_free(columns, count);
     rows_close(&at);
     return ok;

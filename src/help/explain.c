@@ -128,18 +128,17 @@ static bool is_extrapolated(const quantity *q, bool call) {
     return false;
 }
 
-/* The value of e where a run of the load stands. */
-static bool value_on(const page *p, const expr *e, const runner *run, value *v) {
-    const instant now = {.run = run};
+/* The value of e where a run of the load stands, or runs at all levels. */
+static bool value_on(const page *p, const expr *e, const runner *run, unsigned levels, value *v) {
+    const instant now = {.run = run, .levels = levels};
     calc_error *why = error_quiet();
     trial *t = trial_open(&p->sh->calc, why);
     if (t)
         t->scene.now = &now;
     const bool ok = t && expr_eval(&p->sh->calc, e, v, why);
-    if (t) {
+    if (t)
         t->scene.used = 0; /* it has not answered */
-        trial_close(t);
-    }
+    trial_close(t);
     return explain_had(p, ok, why);
 }
 
@@ -149,7 +148,7 @@ static bool by_chords(const page *p, model_id model, const expr *e, long double 
     bool ok = e && model == MODEL_MEMORY && a->levels == LEVELS;
     for (unsigned i = 0; ok && i < LEVELS; i++) {
         value v = {0, DIM_NONE};
-        ok = value_on(p, e, &a->run[i], &v);
+        ok = value_on(p, e, &a->run[i], 1, &v);
         at[i] = v.v;
     }
     return ok;
@@ -262,12 +261,7 @@ static bool is_local(const quantity *q, bool call) {
 /* The value of e where the memory diagram stands, which the scene has run beside its springs. */
 static bool exact_value(const page *p, const expr *e, value *v) {
     const answers *a = &p->sh->calc.now->answers;
-    sight coarse[LEVELS - 1];
-    runner run = a->run[a->levels - 1];
-    for (unsigned i = 0; i + 1 < a->levels; i++)
-        run_sight(&a->run[i], &coarse[i]);
-    run.coarse = a->levels > 1 ? coarse : NULL;
-    return value_on(p, e, &run, v);
+    return value_on(p, e, a->run, a->levels, v);
 }
 
 /* For programs: a part of what. */
@@ -662,7 +656,6 @@ bool do_explain(shell *sh, lexer *lx, said *all) {
     const quantity *bare = alone ? bare_name(&own) : NULL;
     const bool ok = (bare || read_explained(sh, &own, &e, &asked, &changed, &v)) &&
                     explain(sh, bare, e, asked, v, conditioning, lx);
-    if (changed)
-        trial_close(changed);
+    trial_close(changed);
     return ok;
 }

@@ -76,24 +76,24 @@ static bool begin(side *s, scene_trace *t, watch w, calc_error *error) {
 }
 
 /* Further along, to this time; NULL: there is no look at it, or the error. */
-static const runner *run_along(side *s, double time, calc_error *error) {
+static const scene_trace *run_along(side *s, double time, calc_error *error) {
     const double little = APART * s->beside.looks.every;
     bool there = true;
     if (!s->along.levels)
         there = begin(s, &s->along, s->beside.looks, error) && trace_next(&s->along, error);
     while (there && trace_now(&s->along)->time < time - little)
         there = trace_next(&s->along, error);
-    return there && trace_now(&s->along)->time <= time + little ? trace_now(&s->along) : NULL;
+    return there && trace_now(&s->along)->time <= time + little ? &s->along : NULL;
 }
 
 /* At this time alone, which is no turning point here. */
-static const runner *run_once(side *s, double time, calc_error *error) {
+static const scene_trace *run_once(side *s, double time, calc_error *error) {
     trace_end(&s->once);
     const bool there = begin(s, &s->once, watch_times(time, s->beside.looks.every, 0, false), error) &&
                        trace_next(&s->once, error);
     if (!there && !error->raised) /* unreached: one load, run in any scene, passes the same times */
         calc_fail(error, 0, 0, "there is no such instant in the changed scene");
-    return there ? trace_now(&s->once) : NULL;
+    return there ? &s->once : NULL;
 }
 
 bool beside_scene(beside *b, const scene *changed, const knob_value by[], size_t count, double time,
@@ -107,16 +107,16 @@ bool beside_scene(beside *b, const scene *changed, const knob_value by[], size_t
         return false;
     }
     error_clear(&mine);
-    const runner *r = run_along(s, time, &mine);
-    if (!r && !mine.raised)
-        r = run_once(s, time, &mine);
-    if (!r) {
+    const scene_trace *t = run_along(s, time, &mine);
+    if (!t && !mine.raised)
+        t = run_once(s, time, &mine);
+    if (!t) {
         *error = mine;
         if (!mine.stop)
             s->error = mine;
         return false;
     }
-    s->now = (instant){.run = r, .beside = &s->beside};
+    s->now = (instant){t->run, t->levels, &s->beside};
     s->scene.now = &s->now;
     scene_moved(&s->scene);
     s->scene.used = 0;

@@ -44,6 +44,11 @@ void calc_free(calc *c) {
     c->undo = (undo){.entry = NULL};
 }
 
+void calc_answered(calc *c, value v) {
+    c->ans = v;
+    c->has_ans = true;
+}
+
 /* ---- assignments ------------------------------------------------------------------------------- */
 
 enum { ASSIGNMENTS = 16 };

@@ -101,6 +101,9 @@ void undo_since(calc *c, unsigned long group);
 /* Takes back the last change; false: there is none. */
 bool calc_undo(calc *c);
 
+/* That is `ans` now. */
+void calc_answered(calc *c, value v);
+
 /* Words that mean something elsewhere in the field, and what leads on from them here, as "p(r) tells it". Row
  * i of them, for help; of a word, NULL where there is none. */
 const char *lead_name(size_t i); /* NULL after the last */

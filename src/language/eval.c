@@ -252,7 +252,7 @@ static trial *open_changed(machine *m, const expr_at *at) {
         t &&
         (trial_change(t, by, count, &wrong, m->error) ||
          (wrong < count && calc_place(m->error, at->change[wrong].value.at, at->change[wrong].value.len)));
-    if (t && !ok)
+    if (!ok)
         trial_close(t);
     return ok ? t : NULL;
 }
@@ -262,8 +262,7 @@ static bool changed_value(machine *m, const expr_node *n, value *out) {
     machine inside = *m;
     inside.e = &n->changed->body;
     const bool ok = t && run_nodes(&inside, out);
-    if (t)
-        trial_close(t);
+    trial_close(t);
     return ok || calc_place(m->error, n->at, n->len);
 }
 
@@ -355,8 +354,7 @@ static bool over_value(machine *m, const expr_node *n, value *out) {
     bool ok = at->along || range_ends(m, at, &name, &b.o);
     b.o.t = ok ? trial_open(m->c, m->error) : NULL;
     ok = b.o.t && over_run(m, n, &b, out);
-    if (b.o.t)
-        trial_close(b.o.t);
+    trial_close(b.o.t);
     m->c->over_depth--;
     out->d = *builtin_row(n->index)->name == 'i' ? dim_product(b.o.d, name.d) : b.o.d;
     return ok || calc_place(m->error, n->at, n->len);

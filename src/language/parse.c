@@ -739,6 +739,6 @@ definition *definition_parse(calc *c, lexer *lx, const char *label, size_t len, 
     }
     if (ok)
         return d;
-    counted_drop(&d->base);
+    counted_drop(d);
     return NULL;
 }

@@ -31,6 +31,8 @@ void trial_reset(trial *t) {
 }
 
 void trial_close(trial *t) {
+    if (!t)
+        return;
     calc *c = t->c;
     scene_also_used(t->outer, scene_answered_by(c->now)); /* perhaps one beside it */
     c->now = t->outer;
@@ -200,7 +202,7 @@ bool trial_along_next(trial_along *a, calc_error *error) {
     do {
         if (!trace_next(&a->trace, error))
             return false;
-        a->now = (instant){.run = trace_now(&a->trace), .beside = &a->beside};
+        a->now = (instant){a->trace.run, a->trace.levels, &a->beside};
     } while (a->now.run->time < a->first || a->now.run->time > a->last);
     s->now = &a->now;
     scene_moved(s);

@@ -27,7 +27,7 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error);
 bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, calc_error *error);
 /* Back to the scene as it was opened; names keep their values. */
 void trial_reset(trial *t);
-void trial_close(trial *t);
+void trial_close(trial *t); /* NULL too */
 
 /* NAME at the cursor as a parameter: an input that the scene takes, or a name; a new one is known to
  * expressions until the trial, or whoever called, drops it. */

@@ -124,7 +124,7 @@ void walk_more(walk *w) {
 }
 
 void walk_enter(walk *w, calc *c) {
-    w->now = (instant){.run = &w->run};
+    w->now = (instant){.run = &w->run, .levels = 1};
     w->outer = c->now;
     c->now = &w->scene;
     w->scene.now = &w->now;

@@ -87,8 +87,7 @@ static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *er
     trial *t = trial_open(l->host->calc, error);
     const bool ok =
         t && trial_set(t, &l->compared.by, l->compared.with[i], error) && take_side(l, s, along, error);
-    if (t)
-        trial_close(t);
+    trial_close(t);
     return ok;
 }
 

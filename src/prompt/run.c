@@ -50,10 +50,9 @@ static bool print_statement(shell *sh, lexer *lx) {
         ok = expr_eval(&sh->calc, &sh->list[i], &v, lx->error) &&
              column_fits(&sh->list[i], &columns[i], v, lx->error);
         si[i] = v.v;
-        sh->calc.ans = ok ? v : sh->calc.ans;
-        sh->calc.has_ans = sh->calc.has_ans || ok;
+        if (ok)
+            calc_answered(&sh->calc, v);
     }
-    progress_wipe();
     if (ok)
         ok = answer_values(&sh->set, sh->out, columns, si, count) || calc_no_memory(lx->error);
     columns_free(columns, count);

@@ -67,18 +67,6 @@ bool scene_contact(scene *s, fret_pressed *out, calc_error *error) {
 
 /* ---- the tangential state ---------------------------------------------------------------------- */
 
-/* Of a run, or of runs at all levels. */
-static sight end_of(const runner run[], unsigned levels) {
-    sight at[LEVELS], end;
-    run_sight(&run[0], &end);
-    if (levels == 1)
-        return end;
-    for (unsigned i = 0; i < levels; i++)
-        run_sight(&run[i], &at[i]);
-    sight_limit(at, &end);
-    return end;
-}
-
 bool scene_widest(scene *s, double *radius, calc_error *error) {
     scene_trace t;
     watch ends = watch_way(1);
@@ -119,9 +107,8 @@ static bool springs_state(scene *s, calc_error *error) {
             st = run_to(r, load.end);
     }
     if (!st.code)
-        s->answers.end = end_of(run, levels);
-    while (made)
-        engine_end(&run[--made].engine);
+        run_sight(run, levels, &s->answers.end);
+    runs_end(run, &made);
     return calc_status(error, &st);
 }
 
@@ -138,7 +125,7 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
         if (springs && !springs_state(s, error))
             return false;
         if (!springs)
-            a->end = end_of(s->now ? run : a->run, s->now ? 1 : a->levels);
+            run_sight(s->now ? s->now->run : a->run, s->now ? s->now->levels : a->levels, &a->end);
         a->state_ready = true;
     }
     s->used = used | USED(springs ? MODEL_SPRINGS : MODEL_MEMORY);
@@ -150,10 +137,9 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
 
 bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
     answers *a = &s->answers;
-    const runner *run = s->now ? s->now->run : NULL;
-    if (!s->now || a->state_ready || run->coarse || (!s->automatic && s->model == MODEL_CLOSED))
+    if (!s->now || a->state_ready || s->now->levels > 1 || (!s->automatic && s->model == MODEL_CLOSED))
         return scene_state(s, state, error);
-    engine_forces(&run->engine, &a->end.state);
+    engine_forces(&s->now->run->engine, &a->end.state);
     s->used |= USED(MODEL_MEMORY);
     *state = &a->end.state;
     return true;
@@ -322,10 +308,6 @@ bool trace_next(scene_trace *t, calc_error *error) {
         there = run_next(r, t->load.end);
         if (!calc_status(error, &r->status))
             return false;
-        if (i + 1 < t->levels)
-            run_sight(r, &t->coarse[i]);
-        else
-            r->coarse = i ? t->coarse : NULL;
     }
     return there;
 }
@@ -335,6 +317,5 @@ const runner *trace_now(const scene_trace *t) {
 }
 
 void trace_end(scene_trace *t) {
-    while (t->levels)
-        engine_end(&t->run[--t->levels].engine);
+    runs_end(t->run, &t->levels);
 }

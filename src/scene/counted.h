@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What several owners share: gap tables, definitions, load programs. Begins with a `counted`. */
+/* What several owners share: gap tables, definitions, load programs. Each begins with a `counted`; NULL is
+ * none. */
 #ifndef SCENE_COUNTED_H
 #define SCENE_COUNTED_H
 
@@ -11,13 +12,15 @@ struct counted {
     void (*end)(counted *self); /* frees it */
 };
 
-static inline void *counted_hold(counted *c) {
+static inline void *counted_hold(void *of) {
+    counted *c = of;
     if (c)
         c->users++;
     return c;
 }
 
-static inline void counted_drop(counted *c) {
+static inline void counted_drop(void *of) {
+    counted *c = of;
     if (c && --c->users == 0)
         c->end(c);
 }

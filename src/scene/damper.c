@@ -24,16 +24,8 @@ static bool peak_of(scene *s, value amplitude, peak *out, calc_error *error) {
     const bool by_force = dim_equal(amplitude.d, DIM_FORCE);
     const double v = (double)amplitude.v;
     fret_loading first;
-    if (!not_negative(by_force ? "FA" : "dxA", v, error) || !scene_contact(s, &out->contact, error))
-        return false;
-    fret_status st = by_force ? fret_loading_by_force(&out->contact, v, &first)
-                              : fret_loading_by_displacement(&out->contact, v, &first);
-    if (!st.code)
-        st = by_force ? fret_cycle_loss_by_force(&out->contact, v, &out->loss)
-                      : fret_cycle_loss_by_displacement(&out->contact, v, &out->loss);
-    if (st.code == FRET_GROSS_SLIP)
-        st.quantity = "FA";
-    if (!calc_status(error, &st))
+    if (!not_negative(by_force ? "FA" : "dxA", v, error) || !scene_contact(s, &out->contact, error) ||
+        !scene_loss(s, by_force, v, &out->loss, error) || !scene_loading(s, by_force, v, &first, error))
         return false;
     out->dxA = (double)first.dx;
     out->Fx = first.Fx;

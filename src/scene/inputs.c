@@ -169,7 +169,7 @@ shared_table *shared_table_make(struct fret_table *table, const char *name, smoo
 static void hold_all(const inputs *in) {
     for (input i = 0; in->bindings >> i; i++)
         counted_hold(in->bound[i]);
-    counted_hold(in->table ? &in->table->base : NULL);
+    counted_hold(in->table);
 }
 
 void inputs_copy(inputs *to, const inputs *from) {
@@ -180,7 +180,7 @@ void inputs_copy(inputs *to, const inputs *from) {
 void inputs_drop(inputs *in) {
     for (input i = 0; in->bindings >> i; i++)
         counted_drop(in->bound[i]);
-    counted_drop(in->table ? &in->table->base : NULL);
+    counted_drop(in->table);
     *in = (inputs){.geometry = NULL};
 }
 
@@ -261,7 +261,7 @@ void inputs_put(inputs *in, input which, double v) {
 
 void inputs_geometry(inputs *in, const geometry *g, const fret_gap *terms, shared_table *table) {
     inputs_unset(in, INPUT_GEOMETRY);
-    counted_drop(in->table ? &in->table->base : NULL);
+    counted_drop(in->table);
     in->table = table;
     in->geometry = g;
     if (terms)

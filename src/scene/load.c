@@ -51,12 +51,6 @@ bool scene_load_of(scene *s, load_view *out, calc_error *error) {
     return true;
 }
 
-static void drop_runs(answers *a) {
-    for (unsigned i = 0; i < LEVELS; i++)
-        engine_end(&a->run[i].engine);
-    a->levels = 0;
-}
-
 /* From the first swinging cycle on: by force, or to a displacement at constant F_N. */
 static bool goes_with_sine(const load_step *step) {
     return step->tangential == BY_FORCE || (step->tangential && !load_moves_normal(step));
@@ -82,7 +76,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
     /* more than are wanted: in chords, as a load that was refused would have had them */
     if (a->levels && ((a->run[0].engine.sine ? !sine : a->levels > wanted) ||
                       fret_contact_normal(a->run[0].engine.contact) != load->normal))
-        drop_runs(a);
+        runs_end(a->run, &a->levels);
     if (a->levels == 0) {
         a->run[0] = (runner){.load = load};
         st = engine_make(&a->run[0].engine, load->normal, load->mu);
@@ -98,7 +92,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
         a->levels++; /* to be dropped, too, if there is only half of it */
     }
     if (st.code)
-        drop_runs(a);
+        runs_end(a->run, &a->levels);
     return st;
 }
 
@@ -111,7 +105,7 @@ static fret_status run_levels(answers *a, const load_view *load) {
     if (!a->run[0].chorded)
         return st;
     a->chords = true; /* the contact opens: what is not the sine itself wants its limit */
-    drop_runs(a);
+    runs_end(a->run, &a->levels);
     st = raise_levels(a, load);
     return st.code ? st : run_levels(a, load);
 }
@@ -142,7 +136,7 @@ static bool run_up(scene *s, size_t *steps, calc_error *error) {
     if (single && st.code != FRET_INTERRUPTED)
         a->run[0] = before;
     else
-        drop_runs(a);
+        runs_end(a->run, &a->levels);
     a->chords = chords;
     return calc_status(error, &st);
 }
@@ -162,19 +156,32 @@ static bool can_wait(const scene *s, const load_step *step) {
 static const double DEEPEST = 1e8;
 
 static bool append_step(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
-    if (step->normal == BY_DISPLACEMENT && !(fabs(step->normal_value) < DEEPEST))
+    if (step->kind == LOAD_STEP && step->normal == BY_DISPLACEMENT && !(fabs(step->normal_value) < DEEPEST))
         return calc_fail(error, 0, 0, "dz = %.6g m: a step goes less than 1e8 m deep", step->normal_value);
     if (extra && s->end.cycles)
         program_freeze(s->program, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
     if (!program_append(s->program, &s->end, step, extra))
         return calc_no_memory(error);
+    program_to_inputs(step, extra, &s->in);
     if (extra) {
-        program_to_inputs(step, extra, &s->in);
         s->settled &= ~INPUT_CYCLE;
         s->answers.reach.last_cycle = s->end.steps - 1;
     }
     scene_moved(s);
     return true;
+}
+
+bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
+    const bool press = step->kind == LOAD_PRESS;
+    program *own = press ? program_make() : program_copy(s->program, s->end);
+    if (!own)
+        return calc_no_memory(error);
+    counted_drop(s->program);
+    s->program = own;
+    s->end = press ? (load_mark){0, 0} : s->end;
+    const bool ok = append_step(s, step, extra, error);
+    scene_forget(s, true);
+    return ok;
 }
 
 bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
@@ -231,9 +238,11 @@ bool scene_load_rows(scene *s, load_step step, const double *normal, const doubl
 }
 
 bool load_run(scene *s, const runner **run, calc_error *error) {
-    *run = s->now ? s->now->run : NULL;
-    if (s->now)
+    *run = NULL;
+    if (s->now) {
+        *run = &s->now->run[s->now->levels - 1];
         return true;
+    }
     if (!s->end.steps)
         return calc_missing(error, IN_FN);
     if (!catch_up(s, error))

@@ -42,7 +42,7 @@ program *program_copy(const program *from, load_mark mark) {
     for (size_t i = 0; p && i < mark.steps; i++) {
         const cycle_extra *extra = from->steps[i].kind == LOAD_CYCLE ? &from->cycles[at.cycles] : NULL;
         if (!program_append(p, &at, &from->steps[i], extra)) {
-            counted_drop(&p->base);
+            counted_drop(p);
             p = NULL;
         }
     }

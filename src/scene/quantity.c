@@ -10,7 +10,7 @@
 #define PRESS(member) .of = OF_PRESS, .at = offsetof(fret_press, member), .load = true
 #define LOADING(member)                                                                                      \
     .of = OF_LOADING, .at = offsetof(fret_loading, member), .at_state = offsetof(fret_state, member),        \
-    .load = true
+    .closed = scene_closed_state, .load = true
 #define STATE(member) .of = OF_STATE, .at_state = offsetof(fret_state, member), .load = true
 #define FOUNDATION(member)                                                                                   \
     .of = OF_FOUNDATION, .at = offsetof(fret_foundation, member), .reads = READS_MATERIAL
@@ -132,7 +132,7 @@ static const quantity quantities[] = {
                   {"Masing: (delta_1-delta_x)/2 = delta_first((F_1-F_x)/2), from the turning point (F_1, delta_1)", NULL, WHEN_LATER},
                   {"delta_x = mu eta int sigma dy, sigma = -u'(y)/(mu eta) along depths y = g(x); gross slip goes on from there", NULL, 0}}},
     {.name = "drig", .imposed = "step", .title = "tangential displacement at the rig", .keywords = "machine compliance", .d = LENGTH,
-     GETTER(get_drig), .reads = READS_TANGENTIAL, .load = true, .formulas = {{"drig = dx + Fx/K_rig", NULL, 0}}},
+     GETTER(get_drig), .closed = scene_closed_state, .reads = READS_TANGENTIAL, .load = true, .formulas = {{"drig = dx + Fx/K_rig", NULL, 0}}},
     {.name = "c", .title = "stick radius", .keywords = "slip annulus Cattaneo", .d = LENGTH, LOADING(c), CALLED(CALL_LOADING, F, FORCE),
      .reads = READS_TANGENTIAL,
      .formulas = {{"c/a = (1-F_x/(mu F_N))^(1/(n+k+1))", "(18)", WHEN_FIRST | WHEN_POWER},
@@ -145,7 +145,7 @@ static const quantity quantities[] = {
     {.name = "U", .title = "stored tangential energy", .keywords = "elastic", .d = ENERGY, STATE(U),
      .reads = READS_TANGENTIAL, .formulas = {{"U = 1/2 int c_T u^2 dx", NULL, 0}}},
     {.name = "dW", .title = "energy dissipated per cycle", .keywords = "hysteresis loop dissipation loss damping Mindlin",
-     .d = ENERGY, GETTER(scene_cycle_loss), CALLED(CALL_LOSS, FA, FORCE), .reads = READS_TANGENTIAL, .load = true,
+     .d = ENERGY, GETTER(scene_cycle_loss), .closed = scene_closed_loss, CALLED(CALL_LOSS, FA, FORCE), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"dW = [8 mu^2 (1+k) (n+k+1)^2 c0^k F_N^2/(n (2n+k+1) 2 c_T0 a^(k+1))] "
                    "[1-(1-t)^(1+q)-(1+q)/2 t (1+(1-t)^q)], t = FA/(mu F_N), q = n/(n+k+1); gross slip adds 4 mu F_N (dxA-dxmax)", "(27)", WHEN_STEADY | WHEN_POWER},
                   {"dW = 8 mu^2 eta int_c^a c_N (g(a)-g(x)) (g(x)-g(c)) dx; gross slip adds 4 mu F_N (dxA-dxmax)", "(26)", WHEN_STEADY},
@@ -417,7 +417,7 @@ static unsigned holds(const quantity *q, scene *s, bool call) {
         return when;
     if (reach->normal_varies)
         return when | WHEN_HISTORY;
-    if (q->get == scene_cycle_loss ? scene_closed_loss(s) : reach->first)
+    if (q->closed == scene_closed_loss ? scene_closed_loss(s) : reach->first)
         return when | WHEN_FIRST | WHEN_STEADY;
     return reach->alike ? when | WHEN_LATER : when;
 }
@@ -435,18 +435,14 @@ model_id quantity_model(const quantity *q, scene *s, bool call) {
     const model_id stepped = !s->automatic && models[s->model].steps ? s->model : MODEL_MEMORY;
     if (call)
         return q->by ? q->by : closed;
+    if (q->closed)
+        return q->closed(s) ? closed : stepped;
     switch (q->of) {
-    case OF_LOADING:
-        return scene_closed_state(s) ? closed : stepped;
     case OF_STATE:
         return stepped;
     case OF_PRESS:
         return holds(q, s, false) & WHEN_HISTORY ? stepped : closed;
     case OF_GETTER:
-        if (q->get == scene_cycle_loss)
-            return scene_closed_loss(s) ? closed : stepped;
-        if (q->get == get_drig)
-            return scene_closed_state(s) ? closed : stepped;
         return q->get == get_W1D ? MODEL_MEMORY : q->by ? q->by : closed;
     default:
         return closed;

@@ -69,6 +69,7 @@ typedef struct quantity {
     fret_status (*field)(const fret_field *of, fret_real r, fret_real *out);
     double (*invariant)(const fret_stress *of);
     bool (*call)(scene *s, value arg, long double *out, calc_error *error);
+    bool (*closed)(scene *s); /* does a closed form answer for the value, else what steps? NULL: `by` tells */
     model_id
         by; /* what answers for the function, or the getter; MODEL_CLOSED: the closed form, or polynomials */
     const char *argument;

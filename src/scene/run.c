@@ -35,10 +35,9 @@ static double next_point(const watch *w, const leg *l, double after) {
     return x > 1 + 1e-9 ? 2 : x > 1 - 1e-9 ? 1 : x;
 }
 
-static double next_time(const watch *w, const leg *l, double after) {
+static double next_time(const watch *w, const leg *l) {
     const double t = w->first + w->every * (double)w->sample, little = 1e-9 * w->every;
     const double end = w->turns && !l->chord ? 1 : 2;
-    (void)after;
     if (w->sample > w->last || t > l->end + little)
         return end;
     if (t > l->end - little)
@@ -46,27 +45,35 @@ static double next_time(const watch *w, const leg *l, double after) {
     return (t - l->begin) / (l->end - l->begin);
 }
 
-watch watch_points(unsigned points) {
-    return (watch){.next = next_point, .points = points};
-}
-
 static double next_part(const watch *w, const leg *l, double after) {
     return l->chord ? 1 : (floor(after * w->points + 1e-9) + 1) / w->points;
 }
 
+/* The part of the leg, 0..1, at which to look after the part `after`; beyond 1: not again. */
+static double next_look(const watch *w, const leg *l, double after) {
+    return w->kind == WATCH_POINTS  ? next_point(w, l, after)
+           : w->kind == WATCH_WAY   ? next_part(w, l, after)
+           : w->kind == WATCH_TIMES ? next_time(w, l)
+                                    : 2;
+}
+
+watch watch_points(unsigned points) {
+    return (watch){WATCH_POINTS, .points = points};
+}
+
 watch watch_way(unsigned points) {
-    return (watch){.next = next_part, .points = points};
+    return (watch){WATCH_WAY, .points = points};
 }
 
 watch watch_times(double first, double every, size_t last, bool turns) {
-    return (watch){.next = next_time, .first = first, .every = every, .last = last, .turns = turns};
+    return (watch){WATCH_TIMES, .first = first, .every = every, .last = last, .turns = turns};
 }
 
 static void look(runner *r, double time, bool turning) {
     watch *w = &r->watch;
     r->time = time;
     r->turning = turning;
-    while (w->next == next_time && w->sample <= w->last &&
+    while (w->kind == WATCH_TIMES && w->sample <= w->last &&
            w->first + w->every * (double)w->sample <= time + 1e-9 * w->every)
         w->sample++;
 }
@@ -152,7 +159,7 @@ static void close_period(runner *r) {
 /* On the leg; true: to the next look. */
 static bool move(runner *r) {
     const leg *l = &r->leg;
-    const double x = r->watch.next ? r->watch.next(&r->watch, l, r->part) : 2;
+    const double x = next_look(&r->watch, l, r->part);
     const bool inside = x < 1 && !l->sine;
     r->status = inside ? take_part(r, x) : step_of(r, &l->to);
     if (r->status.code)
@@ -197,7 +204,7 @@ static bool next_branch(runner *r) {
                             .end = r->time + 0.5,
                             .law = LEG_HALF,
                             .points = c->points ? (c->points + 1) / 2 : 0,
-                            .even = r->watch.next == next_point,
+                            .even = r->watch.kind == WATCH_POINTS,
                             .closes = sign > 0});
 }
 
@@ -285,11 +292,11 @@ static void next_part_of(runner *r, leg l) {
         k->node++;
     const double from = k->from, to = k->at[k->node + 1];
     k->end = to;
-    if (!r->watch.next)
+    if (r->watch.kind == WATCH_NOTHING)
         return;
     l.begin = l.origin + from / (2 * pi);
     l.end = l.origin + to / (2 * pi);
-    const double x = r->watch.next(&r->watch, &l, 0), at = from + (to - from) * x;
+    const double x = next_look(&r->watch, &l, 0), at = from + (to - from) * x;
     if (x < 1 && at - from > 1e-9 && to - at > 1e-9)
         k->end = at;
 }
@@ -333,7 +340,7 @@ static bool laps_repeat(const sight *a, const sight *b, unsigned left) {
 static void skip_repeats(runner *r) {
     run_place *k = &r->place;
     const unsigned left = r->item.extra.times - k->period;
-    const bool seen = r->watch.next && !r->watch.once;
+    const bool seen = r->watch.kind != WATCH_NOTHING && !r->watch.once;
     if (seen || !left)
         return;
     sight now = {.loss = r->cycle_loss};
@@ -360,7 +367,7 @@ static bool first_leg(runner *r) {
              .end = r->time + 0.25,
              .rig = c->step.tangential == BY_RIG,
              .law = LEG_RISE,
-             .even = r->watch.next == next_point};
+             .even = r->watch.kind == WATCH_POINTS};
     if (c->step.normal_value != 0) {
         l.to.normal_by = FRET_TO_FORCE;
         l.to.normal = (double)(now.FN + c->step.normal_value * harmonic(c->extra.phase));
@@ -501,7 +508,8 @@ static bool on_the_way(const load_view *load, size_t i) {
 
 /* Springs round otherwise. */
 static bool passes(const runner *r) {
-    return !r->within && !r->watch.next && !r->engine.springs && on_the_way(r->load, r->at.steps);
+    return !r->within && r->watch.kind == WATCH_NOTHING && !r->engine.springs &&
+           on_the_way(r->load, r->at.steps);
 }
 
 bool run_next(runner *r, load_mark end) {
@@ -575,7 +583,7 @@ static void to_limit(const sight at[LEVELS], size_t member, long double scale, f
     memcpy((char *)out + member, &v[0], sizeof v[0]);
 }
 
-void sight_limit(const sight at[LEVELS], sight *out) {
+static void sight_limit(const sight at[LEVELS], sight *out) {
     const long double loss[LEVELS] = {at[0].loss, at[1].loss, at[2].loss};
     long double unused;
     out->state = at[LEVELS - 1].state;
@@ -586,13 +594,19 @@ void sight_limit(const sight at[LEVELS], sight *out) {
     out->loss = run_limit(loss, &unused);
 }
 
-void run_sight(const runner *r, sight *out) {
-    sight at[LEVELS] = {{.loss = r->cycle_loss}};
-    engine_state(&r->engine, &at[0].state);
+void run_sight(const runner run[], unsigned levels, sight *out) {
+    sight at[LEVELS];
+    unsigned i = 0;
+    do {
+        engine_state(&run[i].engine, &at[i].state);
+        at[i].loss = run[i].cycle_loss;
+    } while (++i < levels);
     *out = at[0];
-    if (!r->coarse)
-        return;
-    at[LEVELS - 1] = *out;
-    memcpy(at, r->coarse, (LEVELS - 1) * sizeof *at);
-    sight_limit(at, out);
+    if (levels > 1)
+        sight_limit(at, out);
+}
+
+void runs_end(runner run[], unsigned *levels) {
+    while (*levels)
+        engine_end(&run[--*levels].engine);
 }

@@ -38,17 +38,15 @@ typedef struct leg {
     double origin;     /* of a chord: time at the beginning of its period */
 } leg;
 
-/* Where a run is to be looked at. next: the part of the leg, 0..1, at which to look after the part `after`;
- * beyond 1: not again. */
-typedef struct watch watch;
-struct watch {
-    double (*next)(const watch *w, const leg *l, double after); /* NULL: nowhere */
-    unsigned points;     /* watch_points: of a tangential leg that names none */
-    double first, every; /* watch_times */
+/* Where a run is to be looked at: as the functions below say. */
+typedef struct watch {
+    enum { WATCH_NOTHING, WATCH_POINTS, WATCH_WAY, WATCH_TIMES } kind;
+    unsigned points;     /* of WATCH_POINTS: of a tangential leg that names none */
+    double first, every; /* of WATCH_TIMES */
     size_t sample, last; /* next and last of them */
     bool turns;          /* turning points too */
     bool once;           /* a period that repeats the one before need not be seen again */
-};
+} watch;
 
 /* Every leg in so many parts. */
 watch watch_points(unsigned points);
@@ -94,7 +92,6 @@ typedef struct runner {
     engine engine;
     unsigned level;         /* a swinging period in RUN_CHORDS 2^level chords */
     watch watch;            /* its own: it counts */
-    const sight *coarse;    /* the same instant at the LEVELS - 1 coarser levels, or NULL */
     fret_status status;     /* why it does not go on */
     load_mark at;           /* next step of the program, and next of its cycles, or those that it is within */
     bool within;            /* the item: its first leg has begun */
@@ -112,10 +109,11 @@ typedef struct runner {
     fret_step way;     /* where its points lie */
 } runner;
 
-/* Now; its limit, where `coarse` is there. */
-void run_sight(const runner *r, sight *out);
-/* Of the same instant at all levels; what lies at the end of the path needs no limit. */
-void sight_limit(const sight at[LEVELS], sight *out);
+/* Now: of one run, or the limit of runs at all levels that are at the same instant. What lies at the end of
+ * the path needs no limit. */
+void run_sight(const runner run[], unsigned levels, sight *out);
+/* Of so many side by side none is left. */
+void runs_end(runner run[], unsigned *levels);
 
 /* On to the next look; false: it is at the end, or the status tells why it does not get there. The stop flag
  * is looked at wherever it is. */

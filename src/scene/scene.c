@@ -25,14 +25,13 @@ static void forget_fields(answers *a) {
 }
 
 static void answers_end(answers *a, bool keep) {
-    for (unsigned i = 0; i < LEVELS; i++)
-        engine_end(&a->run[i].engine);
+    runs_end(a->run, &a->levels);
     fret_contact_free(a->chorded);
     worn_gap *borrowed = a->worn;
     fret_normal *normal = a->normal, *k0 = a->k0;
     forget_fields(a);
     *a = (answers){.normal = NULL};
-    counted_drop(borrowed ? &borrowed->base : NULL); /* whose law runs and fields have borrowed */
+    counted_drop(borrowed); /* whose law runs and fields have borrowed */
     if (keep) {
         a->normal = normal;
         a->k0 = k0;
@@ -100,10 +99,10 @@ void scene_free(scene *s) {
     scene_forget(s, false);
     fret_normal_free(s->like);
     s->like = NULL;
-    counted_drop(s->wears ? (counted *)s->wears : NULL);
+    counted_drop(s->wears);
     s->wears = NULL;
     inputs_drop(&s->in);
-    counted_drop(s->program ? &s->program->base : NULL);
+    counted_drop(s->program);
     s->program = NULL;
     s->end = (load_mark){0, 0};
 }
@@ -112,9 +111,9 @@ void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
     to->like = from->like ? fret_normal_hold(from->like) : NULL;
-    counted_hold((counted *)to->wears);
+    counted_hold(to->wears);
     inputs_copy(&to->in, &from->in);
-    counted_hold(to->program ? &to->program->base : NULL);
+    counted_hold(to->program);
 }
 
 void scene_reset(scene *s, bool all) {
@@ -124,7 +123,7 @@ void scene_reset(scene *s, bool all) {
         return;
     }
     scene_forget(s, false);
-    counted_drop(s->program ? &s->program->base : NULL);
+    counted_drop(s->program);
     s->program = NULL;
     s->end = (load_mark){0, 0};
     inputs_unset(&s->in, INPUT_CYCLE | INPUT_PRESS);
@@ -134,7 +133,7 @@ void scene_reset(scene *s, bool all) {
 
 void scene_save(scene *s, scene_mark *m, bool move) {
     inputs_copy(&m->in, &s->in);
-    m->program = counted_hold(s->program ? &s->program->base : NULL);
+    m->program = counted_hold(s->program);
     m->end = s->end;
     m->answers = (answers){.normal = NULL};
     if (move) {
@@ -146,7 +145,7 @@ void scene_save(scene *s, scene_mark *m, bool move) {
 
 void scene_drop(scene_mark *m) {
     inputs_drop(&m->in);
-    counted_drop(m->program ? &m->program->base : NULL);
+    counted_drop(m->program);
     m->program = NULL;
     answers_end(&m->answers, false);
 }
@@ -288,23 +287,6 @@ bool scene_friction(scene *s, double *mu, calc_error *error) {
 }
 
 /* ---- the load ---------------------------------------------------------------------------------- */
-
-bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
-    program *own = step->kind == LOAD_PRESS ? program_make() : program_copy(s->program, s->end);
-    load_mark end = step->kind == LOAD_PRESS ? (load_mark){0, 0} : s->end;
-    if (!own || !program_append(own, &end, step, extra)) {
-        counted_drop(own ? &own->base : NULL);
-        return calc_no_memory(error);
-    }
-    if (extra && s->end.cycles)
-        program_freeze(own, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
-    program_to_inputs(step, extra, &s->in);
-    counted_drop(s->program ? &s->program->base : NULL);
-    s->program = own;
-    s->end = end;
-    scene_forget(s, true);
-    return true;
-}
 
 double scene_time(const scene *s) {
     return s->now ? s->now->run->time : program_time(s->program, s->end);

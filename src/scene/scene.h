@@ -70,9 +70,10 @@ typedef struct scene scene;
 typedef bool scene_definition(void *context, scene *s, input in, counted *definition, value *out,
                               calc_error *error);
 
-/* An instant on the way of a load: the run as it stands there. */
+/* An instant on the way of a load: the run as it stands there, or runs at all levels. */
 typedef struct instant {
     const runner *run;
+    unsigned levels;
     struct beside *beside; /* the same instant in other scenes (beside.h); NULL: it cannot be had */
 } instant;
 
@@ -243,7 +244,6 @@ bool scene_load_of(scene *s, load_view *out, calc_error *error);
 typedef struct scene_trace {
     load_view load;
     runner run[LEVELS];
-    sight coarse[LEVELS - 1];
     unsigned levels;
 } scene_trace;
 /* limit: that of swinging periods is wanted. False: there is nothing to end. */

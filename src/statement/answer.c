@@ -4,12 +4,14 @@
 
 #include <stdarg.h>
 
+#include "statement/progress.h"
 #include "text/lines.h"
 
 static const answer_form *const forms[] = {
     [FORMAT_TEXT] = &answer_as_text, [FORMAT_CSV] = &answer_as_csv, [FORMAT_JSON] = &answer_as_json};
 
 void answer_begin_as(answer *a, const settings *set, FILE *to, int format) {
+    progress_wipe();
     *a = (answer){.set = set, .to = to, .form = forms[format]};
 }
 

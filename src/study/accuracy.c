@@ -144,11 +144,6 @@ static bool by_sine(const bench *b) {
     return swings(b) && b->s->answers.levels == 1;
 }
 
-static void end_running(running *m) {
-    while (m->levels)
-        engine_end(&m->run[--m->levels].engine);
-}
-
 /* With midpoint weights some stiffness is missing where k < 0: the contact that carries F_N is wider. */
 static fret_status make_engine(const bench *b, model_family family, unsigned springs, engine *out) {
     const fret_normal *normal = b->load.normal;
@@ -171,7 +166,7 @@ static fret_status approach(const bench *b, runner *r) {
     return st.code ? st : run_item(r, &before);
 }
 
-static const watch nowhere = {.next = NULL};
+static const watch nowhere = {WATCH_NOTHING, .points = 0};
 
 /* `levels` numbers of chords, from level `first` on; none: the sine. The watch cuts every leg. */
 static fret_status begin_running(const bench *b, running *m, model_family family, unsigned springs,
@@ -188,7 +183,7 @@ static fret_status begin_running(const bench *b, running *m, model_family family
             st = approach(b, r);
     } while (m->levels < levels && !st.code);
     if (st.code)
-        end_running(m);
+        runs_end(m->run, &m->levels);
     return st;
 }
 
@@ -261,7 +256,7 @@ static bool measure_model(bench *b, model_family family, unsigned size, unsigned
     const bool ok = measure(b, family, size, loop ? area_cycle : stepped_cycle, &m);
     if (ok && loop)
         b->study->row[b->study->count - 1].size = m.looks / 2;
-    end_running(&m);
+    runs_end(m.run, &m.levels);
     *more = ok && affords(b, setting_up);
     return ok;
 }
@@ -307,7 +302,7 @@ static bool refined(bench *b, unsigned parts, long double *loss, long double *mo
     if (!st.code) {
         st = limit_cycle(&m, loss, moved);
         engine_state(&m.run[0].engine, &now);
-        end_running(&m);
+        runs_end(m.run, &m.levels);
     }
     if (*loss < nothing * now.U)
         *loss = 0;

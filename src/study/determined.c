@@ -2,6 +2,7 @@
 /* Eigenvectors of J^T J, its columns scaled to one length: directions that the data tell least of. */
 #include "study/determined.h"
 
+#include <gsl/gsl_blas.h>
 #include <gsl/gsl_eigen.h>
 #include <math.h>
 #include <stdio.h>
@@ -43,9 +44,9 @@ static const char *instead_of(const residuals *r, const size_t *shown, size_t co
 static bool cannot_tell(const residuals *r, const gsl_matrix *V, size_t v, calc_error *error) {
     char list[FIT_NAMES * (LEX_NAME + 6)] = "";
     size_t shown[FIT_NAMES], count = 0;
-    for (size_t i = 0; i < r->frees; i++)
-        if (r->free[i] < r->of->count && fabs(gsl_matrix_get(V, i, v)) > 0.05)
-            shown[count++] = r->free[i];
+    for (size_t i = 0; i < r->of->count; i++)
+        if (fabs(gsl_matrix_get(V, i, v)) > 0.05)
+            shown[count++] = i;
     for (size_t i = 0; i < count; i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s",
                  i == 0           ? ""
@@ -77,21 +78,22 @@ static void covariance(const gsl_matrix *V, const gsl_vector *e, const double *n
 static bool decompose(const residuals *r, gsl_matrix *N, gsl_matrix *V, gsl_vector *e,
                       gsl_eigen_symmv_workspace *w, double C[UNKNOWNS][UNKNOWNS], calc_error *error) {
     static const double apart = 1e-5;
-    const size_t p = r->frees;
+    const size_t p = r->unknowns;
+    const gsl_matrix_const_view J = gsl_matrix_const_view_array(r->slopes, r->count, p);
     double norm[UNKNOWNS], most = 0;
-    residuals_products(r, NULL, NULL, N);
+    gsl_blas_dsyrk(CblasLower, CblasTrans, 1, &J.matrix, 0, N);
     for (size_t i = 0; i < p; i++) {
         norm[i] = sqrt(gsl_matrix_get(N, i, i));
         most = fmax(most, norm[i]);
     }
     for (size_t i = 0; i < p; i++) {
-        if (!(norm[i] > 1e-9 * most) && r->free[i] < r->of->count)
+        if (!(norm[i] > 1e-9 * most) && i < r->of->count)
             return calc_fail(error, 0, 0, "the data do not determine %s: nothing in them depends on it",
-                             r->of->name[r->free[i]].text);
+                             r->of->name[i].text);
         norm[i] = norm[i] > 0 ? norm[i] : 1;
     }
     for (size_t i = 0; i < p; i++)
-        for (size_t j = 0; j < p; j++)
+        for (size_t j = 0; j <= i; j++)
             gsl_matrix_set(N, i, j, gsl_matrix_get(N, i, j) / (norm[i] * norm[j]));
     gsl_eigen_symmv(N, e, V, w); /* finite: it converges */
     gsl_eigen_symmv_sort(e, V, GSL_EIGEN_SORT_VAL_DESC);
@@ -102,7 +104,7 @@ static bool decompose(const residuals *r, gsl_matrix *N, gsl_matrix *V, gsl_vect
 }
 
 bool determined(residuals *r, double C[UNKNOWNS][UNKNOWNS], calc_error *error) {
-    const size_t p = r->frees;
+    const size_t p = r->unknowns;
     if (!residuals_slopes(r))
         return false;
     gsl_matrix *N = gsl_matrix_alloc(p, p), *V = gsl_matrix_alloc(p, p);

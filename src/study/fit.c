@@ -19,19 +19,19 @@ enum { ITERATIONS = 200, BEGINNINGS = 4 };
 static const double visible = 1e-6;  /* residuals of a loop, as a part of it */
 static const double rounding = 1e-9; /* of equations, as a part of their sides */
 
-typedef struct state {
+typedef struct fitting {
     residuals r;
     bool bounded[UNKNOWNS];
-    double size;                         /* of the sides at the present values; of a loop, of F_x */
-    gsl_multilarge_nlinear_workspace *w; /* of as many unknowns as vary */
+    double size; /* of the sides at the present values; of a loop, of F_x */
+    gsl_multilarge_nlinear_workspace *w;
     unsigned iterations;
-} state;
+} fitting;
 
 /* ---- for the solver ---------------------------------------------------------------------------- */
 
 static void put_unknowns(residuals *r, const gsl_vector *q) {
-    for (size_t i = 0; i < r->frees; i++)
-        r->q[r->free[i]] = gsl_vector_get(q, i);
+    for (size_t i = 0; i < r->unknowns; i++)
+        r->q[i] = gsl_vector_get(q, i);
 }
 
 static int gsl_residuals(const gsl_vector *q, void *context, gsl_vector *f) {
@@ -52,10 +52,10 @@ static int gsl_slopes(CBLAS_TRANSPOSE_t way, const gsl_vector *q, const gsl_vect
     put_unknowns(r, q);
     if (!residuals_slopes(r))
         return GSL_EFAILED;
-    if (way == CblasNoTrans)
-        residuals_along(r, u, v);
-    if (way == CblasTrans || N)
-        residuals_products(r, u, way == CblasTrans ? v : NULL, N);
+    const gsl_matrix_const_view J = gsl_matrix_const_view_array(r->slopes, r->count, r->unknowns);
+    gsl_blas_dgemv(way, 1, &J.matrix, u, 0, v);
+    if (N)
+        gsl_blas_dsyrk(CblasLower, CblasTrans, 1, &J.matrix, 0, N);
     return GSL_SUCCESS;
 }
 
@@ -75,7 +75,7 @@ static void put_at_start(residuals *r) {
 }
 
 /* How far the sides move when a name does, as a part of their size, to where they have values. */
-static double effect(state *s, size_t i, double by) {
+static double effect(fitting *s, size_t i, double by) {
     residuals *r = &s->r;
     double most = 0;
     r->scale[i] = by; /* q = 2 and q = 0 are then the start, more or less by that */
@@ -92,7 +92,7 @@ static double effect(state *s, size_t i, double by) {
 
 /* The size of a name is its own value, where a change by as much shows in the sides. A value near 0 tells no
  * size: that is looked for by decades, and is what would move the sides by a tenth. */
-static double scale_of(state *s, size_t i) {
+static double scale_of(fitting *s, size_t i) {
     static const double clear = 1e-3, visible_part = 1e-6, decades = 64;
     const double own = fabs(s->r.start[i]);
     double lo = -decades, hi = decades;
@@ -112,9 +112,9 @@ static double scale_of(state *s, size_t i) {
 }
 
 /* At the present values; a name that is a ratio, or has a range, has its scale. */
-static void choose_scales(state *s) {
+static void choose_scales(fitting *s) {
     residuals *r = &s->r;
-    s->size = r->of->left ? r->largest : largest_force(r);
+    s->size = r->of->sides ? r->largest : largest_force(r);
     for (size_t i = 0; i < r->of->count; i++)
         if (!r->ratio[i] && !s->bounded[i])
             r->scale[i] = scale_of(s, i);
@@ -130,7 +130,7 @@ static void choose_unit(residuals *r) {
 /* The sum of squares of some rows at these names, turning points as measured; infinite where there is none.
  */
 static double glance(residuals *r, const double *at) {
-    const size_t rows = r->of->left ? r->of->rows : branches_glance(&r->loop);
+    const size_t rows = r->of->sides ? r->of->rows : branches_glance(&r->loop);
     double sum = 0;
     memcpy(r->start, at, r->of->count * sizeof *at);
     put_at_start(r);
@@ -159,7 +159,7 @@ static bool spanned(const residuals *r, size_t name, double *lo, double *hi) {
 /* The start that is given is one of many: others about it, by so many decades or over a range, evenly, then
  * closer to the best of them. Every other one takes a name that may be an offset from what its columns span.
  * False: none is better. */
-static bool seek(state *s, double *best, double farthest) {
+static bool seek(fitting *s, double *best, double farthest) {
     enum { SAMPLES = 24, ROUNDS = 8 };
     residuals *r = &s->r;
     const size_t names = r->of->count;
@@ -195,14 +195,14 @@ static bool seek(state *s, double *best, double farthest) {
 }
 
 /* Scales of the names, from the values that are given. */
-static bool read_start(state *s, double *start, calc_error *error) {
+static bool read_start(fitting *s, double *start, calc_error *error) {
     residuals *r = &s->r;
     const fit_question *of = r->of;
     for (size_t i = 0; i < of->count; i++) {
         const knob *k = &of->name[i];
         double lo = -(double)INFINITY, hi = (double)INFINITY;
-        if (!ask_present(of->c, k, &start[i]))
-            return ask_lacks(of->c, k, " to start from", "", error);
+        if (!knob_present(of->c, k, &start[i]))
+            return knob_lacks(of->c, k, " to start from", "", error);
         if (k->is_input)
             input_range(k->in, &lo, &hi);
         if (of->from)
@@ -214,7 +214,7 @@ static bool read_start(state *s, double *start, calc_error *error) {
     return true;
 }
 
-static bool begin_fit(state *s, const double *start, calc_error *error) {
+static bool begin_fit(fitting *s, const double *start, calc_error *error) {
     residuals *r = &s->r;
     const size_t names = r->of->count;
     r->has_slopes = false;
@@ -250,7 +250,7 @@ static void go_back(residuals *r, const residuals *to) {
 /* A scale taken at the start may be wrong: where another name is 0 there, nothing may depend on this one. So
  * scales are taken anew where the fit has ended, and where one differs much, or the residuals have become
  * small beside their unit, the fit is repeated. */
-static bool begin_again(state *s, bool *again, calc_error *error) {
+static bool begin_again(fitting *s, bool *again, calc_error *error) {
     residuals *r = &s->r;
     const residuals before = *r;
     *again = false;
@@ -276,16 +276,17 @@ static bool begin_again(state *s, bool *again, calc_error *error) {
 /* GSL stops where it makes no progress, and where its steps are small. The first is the end where the step of
  * each name that is left is small beside its standard error, or beside the name itself; the second, unless
  * that step promises more than a standard error, and cannot be taken: a kink, which no slope tells. */
-static bool arrived(state *s, bool small, calc_error *error) {
+static bool arrived(fitting *s, bool small, calc_error *error) {
     residuals *r = &s->r;
     const gsl_vector *f = gsl_multilarge_nlinear_residual(s->w);
-    const size_t p = r->frees;
+    const size_t p = r->unknowns;
     double C[UNKNOWNS][UNKNOWNS], pull[UNKNOWNS], promised = 0;
     gsl_vector_view of = gsl_vector_view_array(pull, p);
     bool ok = true;
     if (!determined(r, C, error))
         return false;
-    residuals_products(r, f, &of.vector, NULL);
+    const gsl_matrix_const_view J = gsl_matrix_const_view_array(r->slopes, r->count, p);
+    gsl_blas_dgemv(CblasTrans, 1, &J.matrix, f, 0, &of.vector);
     const double v = pow(gsl_blas_dnrm2(f), 2) / (double)(r->count - p);
     for (size_t i = 0; i < p; i++) {
         double step = 0;
@@ -300,7 +301,7 @@ static bool arrived(state *s, bool small, calc_error *error) {
 }
 
 /* In place of GSL's driver, which an interrupt would not end. */
-static int drive(state *s) {
+static int drive(fitting *s) {
     int status = GSL_CONTINUE, info;
     for (int i = 0; i < ITERATIONS && status == GSL_CONTINUE; i++) {
         const int step = gsl_multilarge_nlinear_iterate(s->w);
@@ -313,21 +314,17 @@ static int drive(state *s) {
     return status == GSL_SUCCESS ? GSL_SUCCESS : GSL_EMAXITER;
 }
 
-/* From r->q to the least, of those that vary; a solver's status. Error: out of memory, or all has ended. */
-static int descend(state *s, calc_error *error) {
+/* From r->q to the least; a solver's status. Error: out of memory, or all has ended. */
+static int descend(fitting *s, calc_error *error) {
     const gsl_multilarge_nlinear_parameters method = gsl_multilarge_nlinear_default_parameters();
     residuals *r = &s->r;
     gsl_multilarge_nlinear_fdf fdf = {
-        .f = gsl_residuals, .df = gsl_slopes, .n = r->count, .p = r->frees, .params = r};
+        .f = gsl_residuals, .df = gsl_slopes, .n = r->count, .p = r->unknowns, .params = r};
     double q[UNKNOWNS];
-    const gsl_vector_view from = gsl_vector_view_array(q, r->frees);
-    for (size_t i = 0; i < r->frees; i++)
-        q[i] = r->q[r->free[i]];
-    if (!s->w || s->w->p != r->frees) {
-        if (s->w)
-            gsl_multilarge_nlinear_free(s->w);
-        s->w = gsl_multilarge_nlinear_alloc(gsl_multilarge_nlinear_trust, &method, r->count, r->frees);
-    }
+    const gsl_vector_view from = gsl_vector_view_array(q, r->unknowns);
+    memcpy(q, r->q, sizeof q);
+    if (!s->w)
+        s->w = gsl_multilarge_nlinear_alloc(gsl_multilarge_nlinear_trust, &method, r->count, r->unknowns);
     if (!s->w)
         return calc_no_memory(error), GSL_ENOMEM;
     int status = gsl_multilarge_nlinear_init(&from.vector, &fdf, s->w);
@@ -338,7 +335,7 @@ static int descend(state *s, calc_error *error) {
     return status;
 }
 
-static bool settle(state *s, calc_error *error) {
+static bool settle(fitting *s, calc_error *error) {
     const int status = descend(s, error);
     return !error->raised && arrived(s, !status, error);
 }
@@ -346,7 +343,7 @@ static bool settle(state *s, calc_error *error) {
 /* A drift, an offset or a model that does not fit leaves residuals that go together from row to row. */
 static void look_for_drift(const residuals *r, const gsl_vector *f, fit_answer *out) {
     const size_t n = r->of->rows;
-    const double size = r->of->left ? INFINITY : largest_force(r);
+    const double size = r->of->sides ? INFINITY : largest_force(r);
     double squares = 0, products = 0, before = 0;
     for (size_t i = 0; i < n; i++) {
         const double now = gsl_vector_get(f, i);
@@ -358,7 +355,7 @@ static void look_for_drift(const residuals *r, const gsl_vector *f, fit_answer *
     out->drifts = out->rms > visible * size && out->together > 0.5 && out->together > 4 / sqrt((double)n);
 }
 
-static bool judge_fit(state *s, fit_answer *out, calc_error *error) {
+static bool judge_fit(fitting *s, fit_answer *out, calc_error *error) {
     residuals *r = &s->r;
     const size_t p = r->of->count;
     const gsl_vector *f = gsl_multilarge_nlinear_residual(s->w);
@@ -380,7 +377,7 @@ static bool judge_fit(state *s, fit_answer *out, calc_error *error) {
     return ok;
 }
 
-static bool run_from(state *s, const double *start, fit_answer *out, calc_error *error) {
+static bool run_from(fitting *s, const double *start, fit_answer *out, calc_error *error) {
     bool again = true;
     if (!begin_fit(s, start, error))
         return false;
@@ -393,11 +390,11 @@ static bool run_from(state *s, const double *start, fit_answer *out, calc_error 
 /* From the start that is given, and from the best of many; the least wins. What is wrong from the first may
  * be right from the other. A loop knows better than what is given, which is for where that leads astray;
  * values close to the answer need no other. */
-static bool run_fit(state *s, fit_answer *out, calc_error *error) {
+static bool run_fit(fitting *s, fit_answer *out, calc_error *error) {
     static const double near = 1, far = 4; /* farther off the same may come again, as waves do */
     residuals *r = &s->r;
     const fit_question *of = r->of;
-    const bool loop = !of->left && !of->from;
+    const bool loop = !of->sides && !of->from;
     double start[FIT_NAMES] = {0}, other[FIT_NAMES];
     fit_answer second;
     if (!read_start(s, start, error))
@@ -420,6 +417,7 @@ static bool run_fit(state *s, fit_answer *out, calc_error *error) {
         return false;
     *error = first;
     go_back(r, &there);
+    r->has_slopes = false;
     return ok;
 }
 
@@ -427,7 +425,7 @@ static bool run_fit(state *s, fit_answer *out, calc_error *error) {
 
 /* A fit at its end, whose names are tried beside that. */
 typedef struct profile {
-    state *s;
+    fitting *s;
     double q[UNKNOWNS], C[UNKNOWNS][UNKNOWNS], v, least;
     size_t name;
     double error; /* of the name, in q */
@@ -460,16 +458,13 @@ static double profiled(const profile *p, double by) {
     double end = start;
     if (!isfinite(start) || r->unknowns == 1)
         return start;
-    r->frees = 0;
-    for (size_t j = 0; j < r->unknowns; j++)
-        if (j != p->name)
-            r->free[r->frees++] = j;
+    r->held = p->name;
+    r->has_slopes = false;
     descend(p->s, r->p.error);
     if (!r->p.error->raised)
         end = (pow(gsl_blas_dnrm2(gsl_multilarge_nlinear_residual(p->s->w)), 2) - p->least) / p->v;
-    r->frees = 0;
-    for (size_t j = 0; j < r->unknowns; j++)
-        r->free[r->frees++] = j;
+    r->held = r->unknowns;
+    r->has_slopes = false;
     return fmin(start, end);
 }
 
@@ -498,7 +493,7 @@ static bool is_even(const profile *p, double side) {
     return fabs(grown(p, side) - 1) < near || fabs(profiled(p, side) - 1) < part;
 }
 
-static bool find_intervals(state *s, fit_answer *out, calc_error *error) {
+static bool find_intervals(fitting *s, fit_answer *out, calc_error *error) {
     residuals *r = &s->r;
     profile p = {.s = s};
     memcpy(p.q, r->q, sizeof p.q);
@@ -542,7 +537,7 @@ static bool keep_points(residuals *r, fit_points *p, calc_error *error) {
     r->loop.F = p->y;
     const bool ok = residuals_at(r, r->out);
     memcpy(p->residual, r->out, n * sizeof *p->residual);
-    for (size_t i = 0; i < n && !r->of->left; i++) {
+    for (size_t i = 0; i < n && !r->of->sides; i++) {
         p->left[i] = r->of->loop.Fx[i];
         p->right[i] = p->left[i] - p->residual[i];
     }
@@ -555,7 +550,7 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     if (question->rows <= question->count)
         return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", question->rows,
                          question->count);
-    state *s = calloc(1, sizeof *s);
+    fitting *s = calloc(1, sizeof *s);
     if (!s)
         return calc_no_memory(error);
     residuals *r = &s->r;

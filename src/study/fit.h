@@ -3,7 +3,7 @@
 #ifndef STUDY_FIT_H
 #define STUDY_FIT_H
 
-#include "study/fit_question.h"
+#include "study/residuals.h"
 
 typedef struct fit_answer {
     double value[FIT_NAMES];

@@ -98,8 +98,8 @@ static bool set_to(probe *p, const cause *c, double x, calc_error *error) {
     knob k = {.is_input = c->kind == CAUSE_INPUT, .in = c->in, .name = c->own, .d = c->v.d};
     if (c->kind != CAUSE_STEP)
         return trial_set(p->t, &k, x, error);
-    counted_drop(&s->program->base);
-    s->program = counted_hold(&p->own->base);
+    counted_drop(s->program);
+    s->program = counted_hold(p->own);
     *c->step = x;
     scene_forget(s, true);
     return true;
@@ -206,10 +206,9 @@ bool influences(calc *c, const expr *e, long double result, const quantity *call
         return calc_no_memory(error);
     find_causes(c, e, p.own, call, argument, out);
     bool ok = (p.t = trial_open(c, error)) && probe_all(&p, out);
-    if (p.t) {
+    if (p.t)
         p.t->scene.used = 0; /* none of this has answered */
-        trial_close(p.t);
-    }
-    counted_drop(p.own ? &p.own->base : NULL);
+    trial_close(p.t);
+    counted_drop(p.own);
     return ok;
 }

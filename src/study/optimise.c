@@ -9,7 +9,6 @@
 #include <math.h>
 
 #include "number/least.h"
-#include "study/points.h"
 
 /* Names are turned into parts of their ranges, 0 to 1. */
 enum { N = OPTIMISE_NAMES, LINE = 16, EDGE_EVALUATIONS = 60, ROUNDS = 8, SIMPLEX_STEPS = 400 };
@@ -347,7 +346,7 @@ static bool search_several(search *s, optimise_end end[N]) {
 /* ---- Newton's method --------------------------------------------------------------------------- */
 
 /* Of f(x+jh)+f(x-jh)-2f(x) over h^2: sixth order. */
-static const long double second_weight[ASK_SLOPES] = {3 / 2.0L, -3 / 20.0L, 1 / 90.0L};
+static const long double second_weight[POINTS_SLOPES] = {3 / 2.0L, -3 / 20.0L, 1 / 90.0L};
 
 static long double moved(search *s, size_t i, double by, size_t j, double also) {
     place to = s->best;
@@ -363,9 +362,9 @@ static bool differences(search *s, const size_t *free, size_t count, const doubl
     for (size_t a = 0; a < count; a++) {
         const size_t i = free[a];
         long double slope = 0, bend = 0;
-        for (int j = 1; j <= ASK_SLOPES; j++) {
+        for (int j = 1; j <= POINTS_SLOPES; j++) {
             const long double up = moved(s, i, j * h[i], i, 0), down = moved(s, i, -j * h[i], i, 0);
-            slope += ask_slope[j - 1] * (up - down);
+            slope += points_slope[j - 1] * (up - down);
             bend += second_weight[j - 1] * ((up - s->best.f) + (down - s->best.f));
         }
         gsl_vector_set(g, a, (double)(slope / h[i]));
@@ -390,7 +389,7 @@ static bool newton_step(search *s, const size_t *free, size_t count, gsl_vector 
     place to = s->best;
     for (size_t a = 0; a < count; a++) {
         const double u = to.u[free[a]], rest = fmin(u, 1 - u);
-        h[free[a]] = fmin(ask_step(1e-3, u, 1), 0.05 * rest); /* of the range */
+        h[free[a]] = fmin(points_step(1e-3, u, 1), 0.05 * rest); /* of the range */
         if (h[free[a]] < 1e-9)
             return false;
     }
@@ -514,7 +513,7 @@ bool optimise(const optimise_question *question, optimise_answer *out, calc_erro
     *out = (optimise_answer){.value = 0};
     gsl_set_error_handler_off();
     for (size_t i = 0; i < question->count; i++)
-        s.ratios[i] = ask_in_ratios(question->lo[i], question->hi[i]);
+        s.ratios[i] = points_ratios(question->lo[i], question->hi[i]);
     const bool ok = points_open(&s.p, question->c, question->name, question->count, question->e, 1, error) &&
                     answer_optimum(&s, out, error);
     points_close(&s.p);

@@ -4,7 +4,7 @@
 #ifndef STUDY_OPTIMISE_H
 #define STUDY_OPTIMISE_H
 
-#include "study/ask.h"
+#include "study/points.h"
 
 enum { OPTIMISE_NAMES = 3 };
 

@@ -3,13 +3,64 @@
 #include "study/points.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "number/real.h"
 #include "study/team.h"
 #include "text/clock.h"
 
 enum { PORTION = 256 }; /* points of a part, at most */
+
+/* ---- knobs ------------------------------------------------------------------------------------- */
+
+bool knob_present(calc *c, const knob *k, double *v) {
+    long double now;
+    if (!k->is_input) {
+        const own_name *row = &c->names.row[k->name];
+        *v = (double)row->v.v;
+        return row->known && !row->definition;
+    }
+    if (!scene_get(c->now, k->in, &now, error_quiet()))
+        return false;
+    *v = (double)now;
+    return true;
+}
+
+bool knob_lacks(const calc *c, const knob *k, const char *what_for, const char *advice, calc_error *error) {
+    const definition *d = k->is_input ? NULL : (const definition *)c->names.row[k->name].definition;
+    if (!d)
+        return calc_fail(error, 0, 0, "%s has no value%s%s", k->text, what_for, advice);
+    if (d->parameters)
+        return calc_fail(error, 0, 0, "%s is a function: it has no value%s%s", k->text, what_for, advice);
+    return calc_fail(error, 0, 0, "%s has no value of its own%s (it follows %s := %.*s)%s", k->text, what_for,
+                     k->text, LEX_SHOWN(strlen(d->text)), d->text, advice);
+}
+
+double points_step(double part, double x, double scale) {
+    return part * fmax(fabs(x), scale);
+}
+
+const long double points_slope[POINTS_SLOPES] = {3 / 4.0L, -3 / 20.0L, 1 / 60.0L};
+
+bool points_ratios(double lo, double hi) {
+    return lo > 0 && hi > 0 && (hi >= 10 * lo || lo >= 10 * hi);
+}
+
+long double points_place(long double lo, long double hi, bool ratios, long double part) {
+    if (part == 1)
+        return hi;
+    return ratios ? lo * fret_pow(hi / lo, part) : lo + (hi - lo) * part;
+}
+
+void knob_text(const knob *k, double v, char text[KNOB_TEXT]) {
+    char number[CALC_VALUE_TEXT];
+    calc_value_text(k->d, v, number);
+    snprintf(text, KNOB_TEXT, "%s = %s", k->text, number);
+}
+
+/* ---- life -------------------------------------------------------------------------------------- */
 
 bool points_open(points *p, calc *c, const knob *knobs, size_t count, const expr *e, size_t n,
                  calc_error *error) {
@@ -24,8 +75,7 @@ bool points_open(points *p, calc *c, const knob *knobs, size_t count, const expr
 }
 
 bool points_anew(points *p) {
-    if (p->t)
-        trial_close(p->t);
+    trial_close(p->t);
     p->t = trial_open(p->c, p->error);
     for (size_t i = 0; i < p->count; i++)
         p->now[i] = (long double)NAN;
@@ -40,8 +90,7 @@ void points_dismiss(points *p) {
 void points_close(points *p) {
     points_dismiss(p);
     calc_word(p->c, p->error);
-    if (p->t)
-        trial_close(p->t);
+    trial_close(p->t);
     free(p->now);
     free(p->v);
 }
@@ -133,12 +182,6 @@ bool points_keep_sides(points *p, const value v[2], dim *d, bool *known) {
     dim_describe(v[1].d, is, sizeof is);
     dim_describe(*d, wants, sizeof wants);
     return calc_fail(p->error, right->at, right->len, "the left side is %s, the right side is %s", wants, is);
-}
-
-long double points_place(long double lo, long double hi, bool ratios, long double part) {
-    if (part == 1)
-        return hi;
-    return ratios ? lo * fret_pow(hi / lo, part) : lo + (hi - lo) * part;
 }
 
 /* ---- a run of them ----------------------------------------------------------------------------- */

@@ -7,6 +7,32 @@
 
 #include "language/trial.h"
 
+/* ---- what is moved ---- */
+
+/* The value of the knob now, if it has one. */
+bool knob_present(calc *c, const knob *k, double *v);
+/* It has none, `to start from`: the error says so, why, where a live definition stands for it, and what to
+ * do. */
+bool knob_lacks(const calc *c, const knob *k, const char *what_for, const char *advice, calc_error *error);
+
+/* The step of a difference quotient at x: this part of the size of the name there. That is |x|, and where it
+ * is less the scale, without which the step would come to nothing at 0: what else tells how far the name
+ * goes, be it its deviation, the range that is searched or what the data show. */
+double points_step(double part, double x, double scale);
+/* Weights of f(x+jh)-f(x-jh) in a slope, over h: sixth order. */
+enum { POINTS_SLOPES = 3 };
+extern const long double points_slope[POINTS_SLOPES];
+
+/* Is a range searched in ratios? The place of a part 0..1 of it, evenly or, both ends on one side of 0, so.
+ */
+bool points_ratios(double lo, double hi);
+long double points_place(long double lo, long double hi, bool ratios, long double part);
+/* "mu = 0.3" */
+enum { KNOB_TEXT = LEX_NAME + CALC_VALUE_TEXT + 4 };
+void knob_text(const knob *k, double v, char text[KNOB_TEXT]);
+
+/* ---- points ---- */
+
 /* A column of a table as a name of expressions. */
 typedef struct column_knob {
     knob name;
@@ -28,7 +54,7 @@ typedef struct points {
     long double *now, *next; /* knobs as they are set, and as they come */
     value *v;
     struct team *team;
-    bool alone; /* there is none to be had */
+    bool alone; /* no team is to be begun */
     size_t done, watched;
     double taken; /* seconds, for those that have been watched */
 } points;
@@ -51,7 +77,7 @@ bool points_set(points *p, const long double x[]);
 /* The expressions in the scene as it stands. What has no value is NaN; false: one has none, or all has ended.
  */
 bool points_look(points *p, value v[]);
-/* These two. */
+/* points_set, then points_look. */
 bool points_at(points *p, const long double x[], value v[]);
 /* Takes an error as that of a point, or as the end; false. */
 bool points_failed(points *p, const calc_error *error);
@@ -61,9 +87,6 @@ bool points_keeps(points *p, size_t i, dim of, dim *d, bool *known);
 /* Expressions 0 and 1 as two sides to be compared: the same of the left one, and the right one is like it; a
  * bare 0 is. */
 bool points_keep_sides(points *p, const value v[2], dim *d, bool *known);
-
-/* The place of a part 0..1 of a range, evenly or, both ends on one side of 0, in ratios. */
-long double points_place(long double lo, long double hi, bool ratios, long double part);
 
 /* Points 0, 1, ...: both are called in their order. */
 typedef struct points_run {

@@ -18,19 +18,27 @@ typedef struct bulk {
 
 typedef struct picture {
     const refinement *r;
-    size_t n;
-    long double *part, *value; /* n rows */
-    bool *halve;               /* the interval behind a point */
+    size_t n, width;  /* rows; numbers of a row: the part, then the values */
+    long double *row; /* in their order */
+    bool *halve;      /* the interval behind a point */
+    double *sorted;
     bulk *of;
 } picture;
 
-static bulk bulk_of(const picture *p, size_t column, double *sorted) {
+static long double part_at(const picture *p, size_t i) {
+    return p->row[i * p->width];
+}
+
+static double value_at(const picture *p, size_t i, size_t column) {
+    return (double)p->row[i * p->width + 1 + column];
+}
+
+static bulk bulk_of(const picture *p, size_t column) {
+    double *sorted = p->sorted;
     size_t n = 0;
-    for (size_t i = 0; i < p->n; i++) {
-        const double v = (double)p->value[i * p->r->count + column];
-        if (isfinite(v))
-            sorted[n++] = v;
-    }
+    for (size_t i = 0; i < p->n; i++)
+        if (isfinite(value_at(p, i, column)))
+            sorted[n++] = value_at(p, i, column);
     if (!n)
         return (bulk){0, 0};
     qsort(sorted, n, sizeof *sorted, fret_ascending);
@@ -44,17 +52,13 @@ static bulk bulk_of(const picture *p, size_t column, double *sorted) {
     return (bulk){(lo + hi) / 2, hi - lo > noise ? hi - lo : 0};
 }
 
-static double value_at(const picture *p, size_t i, size_t column) {
-    return (double)p->value[i * p->r->count + column];
-}
-
 /* Off the picture, as near a pole? */
 static bool is_far(const bulk *b, double v) {
     return fabs(v - b->middle) > 2 * b->height;
 }
 
 static void mark(picture *p, size_t i) {
-    if (p->part[i + 1] - p->part[i] > narrow)
+    if (part_at(p, i + 1) - part_at(p, i) > narrow)
         p->halve[i] = true;
 }
 
@@ -69,7 +73,8 @@ static void mark_column(picture *p, size_t column) {
         if (i == 0 || !isfinite(here) || !isfinite(next))
             continue;
         const double last = value_at(p, i - 1, column);
-        const double t = (double)((p->part[i] - p->part[i - 1]) / (p->part[i + 1] - p->part[i - 1]));
+        const long double width = part_at(p, i + 1) - part_at(p, i - 1);
+        const double t = (double)((part_at(p, i) - part_at(p, i - 1)) / width);
         if (!isfinite(last) || !(fabs(here - (last + (next - last) * t)) > off_line * b->height))
             continue;
         if (!is_far(b, last) || !is_far(b, here))
@@ -79,74 +84,63 @@ static void mark_column(picture *p, size_t column) {
     }
 }
 
-/* The middles of marked intervals come between their ends, from the back so that nothing is overwritten. */
-static void merge(picture *p, size_t more, const long double *part, const long double *value) {
-    const size_t count = p->r->count, row = count * sizeof *value;
-    for (size_t i = p->n, to = p->n + more, k = more; i-- > 0;) {
-        if (i + 1 < p->n && p->halve[i]) {
-            k--, to--;
-            p->part[to] = part[k];
-            memcpy(p->value + to * count, value + k * count, row);
-        }
-        to--;
-        p->part[to] = p->part[i];
-        memmove(p->value + to * count, p->value + i * count, row);
-    }
-    p->n += more;
+static int by_part(const void *a, const void *b) {
+    const long double x = *(const long double *)a, y = *(const long double *)b;
+    return (x > y) - (x < y);
 }
 
-/* One round: more gets how many points have been added. */
-static bool halve(picture *p, long double *part, long double *value, size_t *more) {
+/* Those behind the others are new. */
+static bool take_rows(picture *p, size_t more) {
+    const bool ok = p->r->evaluate(p->r->context, p->row + p->n * p->width, more);
+    p->n += more;
+    qsort(p->row, p->n, p->width * sizeof *p->row, by_part);
+    return ok;
+}
+
+/* One round: the middles of marked intervals come, *more of them. */
+static bool halve(picture *p, size_t *more) {
     memset(p->halve, 0, p->n * sizeof *p->halve);
     for (size_t j = 0; j < p->r->count; j++)
         mark_column(p, j);
     *more = 0;
     for (size_t i = 0; i + 1 < p->n && p->n + *more < POINTS; i++)
         if (p->halve[i])
-            part[(*more)++] = (p->part[i] + p->part[i + 1]) / 2;
+            p->row[(p->n + (*more)++) * p->width] = (part_at(p, i) + part_at(p, i + 1)) / 2;
     if (p->n + *more >= POINTS) /* a curve that bends everywhere is drawn as it is */
         *more = 0;
-    if (!p->r->evaluate(p->r->context, part, *more, value))
-        return false;
-    if (*more)
-        merge(p, *more, part, value);
-    return true;
+    return take_rows(p, *more);
 }
 
-static bool run_rounds(picture *p, double *sorted, long double *part, long double *value) {
-    for (size_t i = 0; i < p->n; i++)
-        p->part[i] = (long double)i / (long double)(p->n - 1);
-    if (!p->r->evaluate(p->r->context, p->part, p->n, p->value))
+static bool run_rounds(picture *p) {
+    const size_t even = p->r->steps + 1;
+    for (size_t i = 0; i < even; i++)
+        p->row[i * p->width] = (long double)i / (long double)p->r->steps;
+    if (!take_rows(p, even))
         return false;
     for (size_t j = 0; j < p->r->count; j++)
-        p->of[j] = bulk_of(p, j, sorted);
+        p->of[j] = bulk_of(p, j);
     size_t more = 1;
     for (int round = 0; round < ROUNDS && more; round++)
-        if (!halve(p, part, value, &more))
+        if (!halve(p, &more))
             return false;
     for (size_t i = 0; i < p->n; i++)
-        if (!p->r->give(p->r->context, p->part[i], p->value + i * p->r->count))
+        if (!p->r->give(p->r->context, part_at(p, i), p->row + i * p->width + 1))
             return false;
     return true;
 }
 
 bool refine(const refinement *r, calc_error *error) {
-    const size_t room = r->steps + 1 > POINTS ? r->steps + 1 : POINTS;
-    picture p = {.r = r, .n = r->steps + 1};
-    p.part = malloc(room * sizeof *p.part);
-    p.value = malloc(room * r->count * sizeof *p.value);
-    p.halve = malloc(room * sizeof *p.halve);
-    p.of = malloc(r->count * sizeof *p.of);
-    double *sorted = malloc(room * sizeof *sorted);
-    long double *part = malloc(room * sizeof *part), *value = malloc(room * r->count * sizeof *value);
-    bool ok = p.part && p.value && p.halve && p.of && sorted && part && value;
-    ok = ok ? run_rounds(&p, sorted, part, value) : calc_no_memory(error);
-    free(p.part);
-    free(p.value);
+    const size_t room = r->steps + 1 > POINTS ? r->steps + 1 : POINTS, width = 1 + r->count;
+    picture p = {.r = r,
+                 .width = width,
+                 .row = malloc(room * width * sizeof *p.row),
+                 .halve = malloc(room * sizeof *p.halve),
+                 .sorted = malloc(room * sizeof *p.sorted),
+                 .of = malloc(r->count * sizeof *p.of)};
+    const bool ok = p.row && p.halve && p.sorted && p.of ? run_rounds(&p) : calc_no_memory(error);
+    free(p.row);
     free(p.halve);
+    free(p.sorted);
     free(p.of);
-    free(sorted);
-    free(part);
-    free(value);
     return ok;
 }

@@ -9,8 +9,9 @@
 typedef struct refinement {
     size_t count; /* values of a row; one that is not finite is a gap */
     size_t steps; /* even ones to begin with */
-    /* Fills rows x count values; false: an error, or stopped. */
-    bool (*evaluate)(void *context, const long double *part, size_t rows, long double *values);
+    /* Of so many rows, each the part and behind it room for the values, fills these; false: an error, or
+     * stopped. */
+    bool (*evaluate)(void *context, long double *row, size_t rows);
     /* Takes the rows in the end, in their order. */
     bool (*give)(void *context, long double part, const long double *values);
     void *context;

@@ -182,7 +182,7 @@ bool residuals_at(residuals *r, double *out) {
     r->evaluations++;
     if (r->stride)
         memset(out, 0, r->count * sizeof *out);
-    return r->of->left ? equations(r, out) : loop_run(r, out);
+    return r->of->sides ? equations(r, out) : loop_run(r, out);
 }
 
 /* ---- slopes ------------------------------------------------------------------------------------ */
@@ -199,7 +199,7 @@ static size_t banded(const residuals *r) {
 
 static void put_slopes(residuals *r, size_t unknown, size_t begin, size_t end) {
     for (size_t row = begin; row < end; row++)
-        r->slopes[row * r->unknowns + unknown] = r->above[row];
+        r->slopes[row * r->unknowns + unknown] = r->above[row] / r->unit;
 }
 
 /* The differences that have been found, in the rows that the unknown is felt in; others stay 0. */
@@ -224,16 +224,16 @@ static bool at_moved(residuals *r, size_t first, size_t every, size_t end, doubl
 }
 
 static void no_slope(const residuals *r, size_t i) {
-    char at[ASK_TEXT] = "a turning point";
+    char at[KNOB_TEXT] = "a turning point";
     if (i < r->of->count)
-        ask_text(&r->of->name[i], residuals_unknown(r, i), at);
+        knob_text(&r->of->name[i], residuals_unknown(r, i), at);
     calc_fail(r->p.error, 0, 0, "no value close beside %s, for the derivative: %s", at, r->p.none.text);
 }
 
 /* Differences about q; at the end of the scene, where one of the two has no value, from q to the other. In
  * r->above. */
 static bool differences(residuals *r, size_t first, size_t every, size_t end) {
-    const double h = ask_step(apart / 2, r->q[first], 1);
+    const double h = points_step(apart / 2, r->q[first], 1);
     double hi = h, lo = -h;
     const bool above = at_moved(r, first, every, end, hi, r->above),
                below = at_moved(r, first, every, end, lo, r->below);
@@ -263,7 +263,10 @@ bool residuals_slopes(residuals *r) {
         const size_t every = comb ? FELT : 1, end = comb ? names + bands : first + 1;
         if (comb && first >= names + FELT)
             continue;
-        differences(r, first, every, end);
+        if (first == r->held)
+            memset(r->above, 0, r->count * sizeof *r->above);
+        else
+            differences(r, first, every, end);
         for (size_t i = first; i < end; i += every)
             keep_slopes(r, i);
     }
@@ -271,37 +274,6 @@ bool residuals_slopes(residuals *r) {
     memcpy(r->now, r->q, sizeof r->now);
     r->has_slopes = !r->p.error->raised;
     return r->has_slopes;
-}
-
-void residuals_products(const residuals *r, const gsl_vector *u, gsl_vector *v, gsl_matrix *N) {
-    if (v)
-        gsl_vector_set_zero(v);
-    if (N)
-        gsl_matrix_set_zero(N);
-    for (size_t row = 0; row < r->count; row++) {
-        const double *slope = r->slopes + row * r->unknowns;
-        for (size_t i = 0; i < r->frees; i++) {
-            const double own = slope[r->free[i]] / r->unit;
-            if (own == 0) /* most are, of many turning points */
-                continue;
-            if (v)
-                *gsl_vector_ptr(v, i) += own * gsl_vector_get(u, row);
-            for (size_t j = 0; j <= i && N; j++)
-                *gsl_matrix_ptr(N, i, j) += own * slope[r->free[j]] / r->unit;
-        }
-    }
-    for (size_t i = 0; i < r->frees && N; i++)
-        for (size_t j = 0; j < i; j++)
-            gsl_matrix_set(N, j, i, gsl_matrix_get(N, i, j));
-}
-
-void residuals_along(const residuals *r, const gsl_vector *u, gsl_vector *v) {
-    for (size_t row = 0; row < r->count; row++) {
-        double sum = 0;
-        for (size_t i = 0; i < r->frees; i++)
-            sum += r->slopes[row * r->unknowns + r->free[i]] * gsl_vector_get(u, i);
-        gsl_vector_set(v, row, sum / r->unit);
-    }
 }
 
 /* ---- opening ----------------------------------------------------------------------------------- */
@@ -326,13 +298,9 @@ static bool open_points(residuals *r, calc_error *error) {
         r->knobs[i] = of->name[i];
     for (size_t j = 0; j < of->columns; j++)
         r->knobs[of->count + j] = of->column[j].name;
-    if (of->left) {
-        r->sides[0] = *of->left;
-        r->sides[1] = *of->right;
-    }
-    const size_t columns = of->left ? of->columns : 0;
+    const size_t columns = of->sides ? of->columns : 0;
     const bool ok =
-        points_open(&r->p, of->c, r->knobs, of->count + columns, r->sides, of->left ? 2 : 0, error);
+        points_open(&r->p, of->c, r->knobs, of->count + columns, of->sides, of->sides ? 2 : 0, error);
     if (ok)
         r->p.t->scene.gaps = true;
     r->p.all = passes * of->rows;
@@ -359,12 +327,11 @@ static bool open_loop(residuals *r, calc_error *error) {
 
 bool residuals_open(residuals *r, const fit_question *of, calc_error *error) {
     *r = (residuals){.of = of, .unknowns = of->count, .count = of->rows, .unit = 1};
-    if (!open_points(r, error) || (!of->left && !open_loop(r, error)))
+    if (!open_points(r, error) || (!of->sides && !open_loop(r, error)))
         return false;
-    for (size_t i = 0; i < r->unknowns; i++) {
+    for (size_t i = 0; i < r->unknowns; i++)
         r->q[i] = 1;
-        r->free[r->frees++] = i;
-    }
+    r->held = r->unknowns;
     r->memory = calloc((3 + r->unknowns) * r->count, sizeof *r->memory);
     r->out = r->memory;
     if (!r->memory)

@@ -49,15 +49,15 @@ typedef struct rows {
     double r, f;            /* units [m] */
 } rows;
 
-typedef struct trial {
+typedef struct candidate {
     size_t pieces, unknowns;
     gsl_bspline_workspace *spline;
-    gsl_vector *ends, *c, *right, *whole, *basis;
-    gsl_matrix *normal, *factor, *slopes;
+    gsl_vector *ends, *c, *right, *whole;
+    gsl_matrix *normal, *factor;
     double rms, worst, at;
     bool grows;         /* so does g(x): (r f')' >= 0 */
     double falls, drop; /* where f' < 0, and by how much f falls in all */
-} trial;
+} candidate;
 
 static bool rows_make(rows *all, const double *r, const double *f, size_t count, calc_error *error) {
     *all = (rows){.row = malloc(count * sizeof *all->row), .at = malloc(count * sizeof *all->at)};
@@ -81,35 +81,30 @@ static bool rows_make(rows *all, const double *r, const double *f, size_t count,
 
 /* ---- one fit ----------------------------------------------------------------------------------- */
 
-static void trial_end(trial *t) {
+static void candidate_end(candidate *t) {
     if (t->spline)
         gsl_bspline_free(t->spline);
     gsl_vector_free(t->ends);
     gsl_vector_free(t->c);
     gsl_vector_free(t->right);
     gsl_vector_free(t->whole);
-    gsl_vector_free(t->basis);
     gsl_matrix_free(t->normal);
     gsl_matrix_free(t->factor);
-    gsl_matrix_free(t->slopes);
-    *t = (trial){.pieces = 0};
+    *t = (candidate){.pieces = 0};
 }
 
-static bool trial_begin(trial *t, const rows *all, size_t pieces, calc_error *error) {
+static bool candidate_begin(candidate *t, const rows *all, size_t pieces, calc_error *error) {
     const size_t unknowns = pieces + ORDER - 1 - FIXED + 1; /* and the offset */
-    *t = (trial){.pieces = pieces,
-                 .unknowns = unknowns,
-                 .spline = gsl_bspline_alloc(ORDER, pieces + 1),
-                 .ends = gsl_vector_alloc(pieces + 1),
-                 .c = gsl_vector_calloc(unknowns),
-                 .right = gsl_vector_alloc(unknowns),
-                 .whole = gsl_vector_alloc(unknowns),
-                 .basis = gsl_vector_alloc(ORDER),
-                 .normal = gsl_matrix_calloc(unknowns, unknowns),
-                 .factor = gsl_matrix_alloc(unknowns, unknowns),
-                 .slopes = gsl_matrix_alloc(ORDER, 2)};
-    if (!t->spline || !t->ends || !t->c || !t->right || !t->whole || !t->basis || !t->normal || !t->factor ||
-        !t->slopes)
+    *t = (candidate){.pieces = pieces,
+                     .unknowns = unknowns,
+                     .spline = gsl_bspline_alloc(ORDER, pieces + 1),
+                     .ends = gsl_vector_alloc(pieces + 1),
+                     .c = gsl_vector_calloc(unknowns),
+                     .right = gsl_vector_alloc(unknowns),
+                     .whole = gsl_vector_alloc(unknowns),
+                     .normal = gsl_matrix_calloc(unknowns, unknowns),
+                     .factor = gsl_matrix_alloc(unknowns, unknowns)};
+    if (!t->spline || !t->ends || !t->c || !t->right || !t->whole || !t->normal || !t->factor)
         return calc_no_memory(error);
     for (size_t i = 0; i <= pieces; i++)
         gsl_vector_set(t->ends, i, i ? all->at[i * (all->distinct - 1) / pieces] : 0);
@@ -123,13 +118,15 @@ typedef struct line {
     size_t at[ORDER + 1], count;
 } line;
 
-static line line_at(const trial *t, double r) {
+static line line_at(const candidate *t, double r) {
     line out = {.count = 0};
+    double at[ORDER];
+    gsl_vector_view basis = gsl_vector_view_array(at, ORDER);
     size_t first;
-    gsl_bspline_basis(r, t->basis, &first, t->spline);
+    gsl_bspline_basis(r, &basis.vector, &first, t->spline);
     for (size_t j = first; j < first + ORDER; j++)
         if (j >= FIXED) {
-            out.v[out.count] = gsl_vector_get(t->basis, j - first);
+            out.v[out.count] = at[j - first];
             out.at[out.count++] = j - FIXED;
         }
     out.v[out.count] = 1;
@@ -137,14 +134,14 @@ static line line_at(const trial *t, double r) {
     return out;
 }
 
-static double residual(const trial *t, const line *x, double f) {
+static double residual(const candidate *t, const line *x, double f) {
     for (size_t j = 0; j < x->count; j++)
         f -= x->v[j] * gsl_vector_get(t->c, x->at[j]);
     return f;
 }
 
 /* Moves the unknowns to where the rest is least. begin: the normal equations too. */
-static bool improve(trial *t, const rows *all, bool begin, file_stop stop, calc_error *error) {
+static bool improve(candidate *t, const rows *all, bool begin, file_stop stop, calc_error *error) {
     gsl_vector_set_zero(t->right);
     for (size_t i = 0; i < all->count; i++) {
         const line x = line_at(t, all->row[i].r);
@@ -169,7 +166,7 @@ static bool improve(trial *t, const rows *all, bool begin, file_stop stop, calc_
     return true;
 }
 
-static void judge_profile(trial *t, const rows *all) {
+static void judge_profile(candidate *t, const rows *all) {
     double squares = 0;
     t->worst = -1;
     for (size_t i = 0; i < all->count; i++) {
@@ -185,20 +182,22 @@ static void judge_profile(trial *t, const rows *all) {
 }
 
 /* f and f' at the end of a piece. */
-static void end_of(const trial *t, size_t i, double *f, double *slope) {
+static void end_of(const candidate *t, size_t i, double *f, double *slope) {
+    double at[ORDER][2];
+    gsl_matrix_view basis = gsl_matrix_view_array(at[0], ORDER, 2);
     size_t first;
-    gsl_bspline_basis_deriv(gsl_vector_get(t->ends, i), 1, t->slopes, &first, t->spline);
+    gsl_bspline_basis_deriv(gsl_vector_get(t->ends, i), 1, &basis.matrix, &first, t->spline);
     *f = *slope = 0;
     for (size_t j = first; j < first + ORDER && i > 0; j++)
         if (j >= FIXED) {
             const double c = gsl_vector_get(t->c, j - FIXED);
-            *f += c * gsl_matrix_get(t->slopes, j - first, 0);
-            *slope += c * gsl_matrix_get(t->slopes, j - first, 1);
+            *f += c * at[j - first][0];
+            *slope += c * at[j - first][1];
         }
 }
 
 /* f' is a parabola on each piece: f falls least and most at its zeros and at the ends. */
-static void look_for_fall(trial *t) {
+static void look_for_fall(candidate *t) {
     double f0, s0, f1 = 0, s1 = 0, top = 0, top_at = 0;
     t->grows = true;
     t->drop = 0;
@@ -341,7 +340,7 @@ static bool nonnegative(const gsl_matrix *M, const gsl_vector *right, gsl_vector
 }
 
 /* c = T e for second differences e, which are not to be negative; the offset is its own. */
-static bool make_convex(trial *t, const rows *all) {
+static bool make_convex(candidate *t, const rows *all) {
     const size_t n = t->unknowns;
     gsl_matrix *T = gsl_matrix_calloc(n, n), *AT = gsl_matrix_alloc(n, n), *M = gsl_matrix_alloc(n, n);
     gsl_vector *e = gsl_vector_alloc(n), *right = gsl_vector_alloc(n);
@@ -372,13 +371,13 @@ static bool make_convex(trial *t, const rows *all) {
 
 /* Would noise alone have moved the convex profile so far from the nearest one? Its squares are greater by the
  * noise of at most all unknowns. */
-static bool noise_alone(const trial *t, const rows *all, double nearest) {
+static bool noise_alone(const candidate *t, const rows *all, double nearest) {
     const double p = (double)t->unknowns, left = (double)all->count - p;
     return t->rms * t->rms <= nearest * nearest * (1 + (p + 4 * sqrt(2 * p)) / left);
 }
 
-static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, calc_error *error) {
-    if (!trial_begin(t, all, pieces, error))
+static bool attempt(candidate *t, const rows *all, size_t pieces, file_stop stop, calc_error *error) {
+    if (!candidate_begin(t, all, pieces, error))
         return false;
     for (int pass = 0; pass < 2; pass++)
         if (!improve(t, all, pass == 0, stop, error))
@@ -404,7 +403,7 @@ static bool attempt(trial *t, const rows *all, size_t pieces, file_stop stop, ca
 /* ---- how many pieces --------------------------------------------------------------------------- */
 
 /* Most profiles that fall were measured beyond the rim; not one that falls from the apex, or far below it. */
-static const char *advice(const trial *t) {
+static const char *advice(const candidate *t) {
     double end, slope;
     end_of(t, t->pieces, &end, &slope);
     if (t->falls == 0 || end < -t->drop / 2)
@@ -412,7 +411,7 @@ static const char *advice(const trial *t) {
     return t->pieces == 1 ? "leave out what lies beyond" : "leave out what lies beyond, or take fewer pieces";
 }
 
-static bool rises(const trial *t, const rows *all, calc_error *error) {
+static bool rises(const candidate *t, const rows *all, calc_error *error) {
     char where[CALC_VALUE_TEXT], drop[CALC_VALUE_TEXT];
     calc_value_text(DIM_LENGTH, t->falls * all->r, where);
     calc_value_text(DIM_LENGTH, t->drop * all->f, drop);
@@ -428,7 +427,7 @@ static size_t most_pieces(const rows *all, size_t most) {
 }
 
 /* Of those tried, the fewest that come within; else those with the least error of prediction. */
-static bool choose_pieces(trial *t, const rows *all, smoothing how, file_stop stop, calc_error *error) {
+static bool choose_pieces(candidate *t, const rows *all, smoothing how, file_stop stop, calc_error *error) {
     const size_t most = most_pieces(all, SMOOTH_PIECES_TRIED);
     const bool freely = how.by == SMOOTH_FREELY;
     char wanted[CALC_VALUE_TEXT], got[CALC_VALUE_TEXT];
@@ -445,7 +444,7 @@ static bool choose_pieces(trial *t, const rows *all, smoothing how, file_stop st
         pieces = score < best ? i : pieces;
         best = fmin(score, best);
         least = fmin(least, t->rms * all->f);
-        trial_end(t);
+        candidate_end(t);
     }
     if (freely)
         return attempt(t, all, pieces, stop, error) && rises(t, all, error);
@@ -459,7 +458,7 @@ static bool choose_pieces(trial *t, const rows *all, smoothing how, file_stop st
 
 /* ---- the answer -------------------------------------------------------------------------------- */
 
-static bool hand_out(const trial *t, const rows *all, smooth_answer *out, calc_error *error) {
+static bool hand_out(const candidate *t, const rows *all, smooth_answer *out, calc_error *error) {
     const size_t n = t->pieces + 1;
     out->pieces = t->pieces;
     out->r = malloc(3 * n * sizeof *out->r);
@@ -481,7 +480,7 @@ static bool hand_out(const trial *t, const rows *all, smooth_answer *out, calc_e
     return true;
 }
 
-static bool choose(trial *t, const rows *all, smoothing how, file_stop stop, calc_error *error) {
+static bool choose(candidate *t, const rows *all, smoothing how, file_stop stop, calc_error *error) {
     const size_t most = most_pieces(all, SMOOTH_PIECES_MOST);
     if (most == 0)
         return calc_fail(error, 0, 0, "%zu different r are too few to smooth", all->distinct);
@@ -495,12 +494,12 @@ static bool choose(trial *t, const rows *all, smoothing how, file_stop stop, cal
 bool smooth(const double *r, const double *f, size_t count, smoothing how, file_stop stop, smooth_answer *out,
             calc_error *error) {
     rows all;
-    trial t = {.pieces = 0};
+    candidate t = {.pieces = 0};
     *out = (smooth_answer){.pieces = 0};
     gsl_set_error_handler_off();
     const bool ok = rows_make(&all, r, f, count, error) && choose(&t, &all, how, stop, error) &&
                     hand_out(&t, &all, out, error);
-    trial_end(&t);
+    candidate_end(&t);
     free(all.row);
     free(all.at);
     return ok;

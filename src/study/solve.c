@@ -10,7 +10,6 @@
 #include "number/array.h"
 #include "number/least.h"
 #include "number/root.h"
-#include "study/points.h"
 
 /* Intervals of the scan, and of the one where sides that jump or swing want more of them; halvings to an edge
  * of what the scene allows; evaluations of the method, where a root of high order would take many more. */
@@ -23,7 +22,6 @@ typedef struct place {
 typedef struct search {
     const solve_question *of;
     points p;
-    expr sides[2]; /* left and right */
     dim d;
     bool known, ratios;
     double lo, hi; /* searched */
@@ -90,8 +88,8 @@ static bool choose_range(search *s, calc_error *error) {
         } else {
             char advice[LEX_NAME + 60];
             snprintf(advice, sizeof advice, ": solve %s for ... from LO to HI", k->text);
-            if (!ask_present(s->of->c, k, &now))
-                return ask_lacks(s->of->c, k, " to search around", advice, error);
+            if (!knob_present(s->of->c, k, &now))
+                return knob_lacks(s->of->c, k, " to search around", advice, error);
             if (now == 0 && k->is_input && k->in == IN_NW)
                 now = 1e4; /* of 0 on, which is most often */
             if (now == 0)
@@ -101,7 +99,7 @@ static bool choose_range(search *s, calc_error *error) {
             s->hi = now * 1e3;
         }
     }
-    s->ratios = ask_in_ratios(s->lo, s->hi) || ask_in_ratios(-s->lo, -s->hi);
+    s->ratios = points_ratios(s->lo, s->hi) || points_ratios(-s->lo, -s->hi);
     return true;
 }
 
@@ -292,10 +290,10 @@ static bool look_for_roots(search *s, unsigned places) {
 /* ---- no root ----------------------------------------------------------------------------------- */
 
 static bool no_root(search *s, calc_error *error) {
-    const expr *left = s->of->left;
+    const expr *left = s->of->sides;
     const knob *k = &s->of->name;
     place best = {.f = (double)NAN};
-    char from[CALC_VALUE_TEXT], to[CALC_VALUE_TEXT], off[CALC_VALUE_TEXT], there[ASK_TEXT];
+    char from[CALC_VALUE_TEXT], to[CALC_VALUE_TEXT], off[CALC_VALUE_TEXT], there[KNOB_TEXT];
     bool alike = true, below = false, above = false;
     for (unsigned i = 0; i <= s->places; i++) {
         if (!isnan(s->at[i].f) && !(fabs(s->at[i].f) >= fabs(best.f)))
@@ -321,12 +319,12 @@ static bool no_root(search *s, calc_error *error) {
     if (s->edged && fabs(s->edge.f) <= fabs(best.f))
         best = s->edge;
     calc_value_text(s->d, best.f, off);
-    ask_text(k, best.x, there);
+    knob_text(k, best.x, there);
     calc_fail(error, left->at, left->len,
               "no root from %s = %s to %s: the left side stays %s the right, nearest by %s at %s", k->text,
               from, to, best.f < 0 ? "below" : "above", off + (best.f < 0), there);
     if (s->edged) {
-        ask_text(k, s->edge.x, there);
+        knob_text(k, s->edge.x, there);
         calc_append(s->of->c, error, ", and the scene ends at %s: %s", there, s->why.text);
     }
     return false;
@@ -363,9 +361,9 @@ static bool find_root(search *s, unsigned i, double *x) {
 }
 
 static bool only_jumps(search *s, double x, calc_error *error) {
-    char there[ASK_TEXT];
-    ask_text(&s->of->name, x, there);
-    return calc_fail(error, s->of->left->at, s->of->left->len,
+    char there[KNOB_TEXT];
+    knob_text(&s->of->name, x, there);
+    return calc_fail(error, s->of->sides->at, s->of->sides->len,
                      "no root: the sides jump past each other at %s", there);
 }
 
@@ -401,7 +399,7 @@ static bool several(search *s, calc_error *error) {
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "",
                  i == LISTED ? "..." : text);
     }
-    return calc_fail(error, s->of->left->at, s->of->left->len,
+    return calc_fail(error, s->of->sides->at, s->of->sides->len,
                      "several roots, %s = %s: choose by from LO to HI", s->of->name.text, list);
 }
 
@@ -422,10 +420,10 @@ static bool answer_root(search *s, solve_answer *out, calc_error *error) {
 }
 
 bool solve(const solve_question *question, solve_answer *out, calc_error *error) {
-    search s = {.of = question, .sides = {*question->left, *question->right}, .nearest = {.f = (double)NAN}};
+    search s = {.of = question, .nearest = {.f = (double)NAN}};
     *out = (solve_answer){.jumps = false};
-    const bool ok =
-        points_open(&s.p, question->c, &question->name, 1, s.sides, 2, error) && answer_root(&s, out, error);
+    const bool ok = points_open(&s.p, question->c, &question->name, 1, question->sides, 2, error) &&
+                    answer_root(&s, out, error);
     points_close(&s.p);
     return ok;
 }

@@ -3,14 +3,14 @@
 #ifndef STUDY_SOLVE_H
 #define STUDY_SOLVE_H
 
-#include "study/ask.h"
+#include "study/points.h"
 
 typedef struct solve_question {
     calc *c;
     knob name;
-    const expr *left, *right;
-    bool given;    /* the range is */
-    double lo, hi; /* it */
+    const expr *sides; /* left and right */
+    bool given;        /* the range is */
+    double lo, hi;     /* it */
 } solve_question;
 
 typedef struct solve_answer {

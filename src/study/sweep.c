@@ -11,7 +11,7 @@
 #include "language/trial.h"
 #include "study/refine.h"
 
-typedef struct state {
+typedef struct curve_run {
     const sweep *s;
     sweep_job *job;
     size_t curve;
@@ -20,23 +20,23 @@ typedef struct state {
     /* of the range */
     size_t first, end; /* rows of the curve that are wanted */
     size_t rows;
-    const long double *part; /* where each row is in it, 0..1; NULL: evenly */
-    long double *out;        /* of all rows; NULL: they go to the job as soon as they are there */
-} state;
+    /* rows as refine has them, each its place 0..1 and its values; NULL: even ones, which go to the job */
+    long double *refined;
+} curve_run;
 
-static void say_where(state *st, long double x) {
+static void say_where(curve_run *st, long double x) {
     const sweep *s = st->s;
     char at[120], with[60 + LEX_NAME] = "";
     calc_amount(st->range.d, x, 6, at, sizeof at);
     if (s->curves) {
         snprintf(with, sizeof with, ", %s = ", s->with.text);
-        calc_amount(s->with.d, s->value[st->curve], 6, with + strlen(with), sizeof with - strlen(with));
+        calc_amount(s->with.d, sweep_with(s, st->curve), 6, with + strlen(with), sizeof with - strlen(with));
     }
     snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->var.text, at, with);
 }
 
 /* Adds the place to an error that ends the sweep; of gaps the first one's reason is kept. */
-static void say_why(state *st, const calc_error *why, long double x) {
+static void say_why(curve_run *st, const calc_error *why, long double x) {
     sweep_job *job = st->job;
     const bool ends = job->error->raised;
     if ((ends && job->error->stop) || (!ends && job->missing.raised))
@@ -63,7 +63,7 @@ static void find_dim(sweep_job *job, size_t i) {
         is_its_dim(job, i, d);
 }
 
-static void fits(state *st, size_t i, dim d, long double x) {
+static void fits(curve_run *st, size_t i, dim d, long double x) {
     sweep_job *job = st->job;
     if (is_its_dim(job, i, d))
         return;
@@ -78,7 +78,7 @@ static void fits(state *st, size_t i, dim d, long double x) {
 }
 
 /* NaN: a gap, whose dimension another row may have told. */
-static void take_value(state *st, size_t i, const value *v, long double x) {
+static void take_value(curve_run *st, size_t i, const value *v, long double x) {
     st->row[i] = v->v;
     if (isnan(v->v)) {
         find_dim(st->job, i);
@@ -88,7 +88,7 @@ static void take_value(state *st, size_t i, const value *v, long double x) {
     fits(st, i, v->d, x);
 }
 
-static bool take_row(state *st, size_t row, long double x, const value v[], const calc_error *why) {
+static bool take_row(curve_run *st, size_t row, long double x, const value v[], const calc_error *why) {
     sweep_job *job = st->job;
     if (why)
         say_why(st, why, x);
@@ -96,9 +96,9 @@ static bool take_row(state *st, size_t row, long double x, const value v[], cons
         take_value(st, i, &v[i], x);
     if (job->error->raised)
         return false;
-    if (st->out)
-        memcpy(st->out + row * job->count, st->row, job->count * sizeof *st->row);
-    return st->out || job->row(job->context, st->s, st->curve, x, st->row);
+    if (st->refined)
+        memcpy(st->refined + row * (job->count + 1) + 1, st->row, job->count * sizeof *st->row);
+    return st->refined || job->row(job->context, st->s, st->curve, x, st->row);
 }
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
@@ -108,21 +108,27 @@ long double sweep_value(const sweep *s, const sweep_range *r, long double part) 
                      : points_place(r->lo, r->hi, s->log, part);
 }
 
+long double sweep_with(const sweep *s, size_t curve) {
+    return s->across ? sweep_value(s->across, &s->ends, (long double)curve / (long double)s->across->steps)
+                     : s->value[curve];
+}
+
 /* The name's value in that row of a table, or its number. */
 static long double row_of(const sweep_rows *at, size_t row) {
     return at->names == 1 ? (long double)at->column[0].v[row] : (long double)(row + 1);
 }
 
-static long double place(const state *st, size_t row) {
+static long double place(const curve_run *st, size_t row) {
     return sweep_value(st->s, &st->range,
-                       st->part ? st->part[row] : (long double)(st->first + row) / (long double)st->s->steps);
+                       st->refined ? st->refined[row * (st->job->count + 1)]
+                                   : (long double)(st->first + row) / (long double)st->s->steps);
 }
 
 static void give_swept(void *context, size_t row, long double x[]) {
-    const state *st = context;
+    const curve_run *st = context;
     const sweep *s = st->s;
     if (s->curves)
-        *x++ = s->value[st->curve];
+        *x++ = sweep_with(s, st->curve);
     for (size_t i = 0; s->at && i < s->at->names; i++)
         *x++ = s->at->column[i].v[st->first + row];
     if (!s->at)
@@ -131,34 +137,33 @@ static void give_swept(void *context, size_t row, long double x[]) {
 
 static bool take_swept(void *context, size_t row, const long double x[], const value v[],
                        const calc_error *why) {
-    state *st = context;
+    curve_run *st = context;
     const sweep_rows *at = st->s->at;
     return take_row(st, row, at ? row_of(at, st->first + row) : x[st->s->curves > 0], v, why);
 }
 
-static bool run_all(state *st) {
+static bool run_all(curve_run *st) {
     return points_go(&st->job->p,
                      &(points_run){.count = st->rows, .give = give_swept, .take = take_swept, .context = st});
 }
 
 /* ---- even rows, or where they are wanted ------------------------------------------------------- */
 
-static bool evaluate_rows(void *context, const long double *part, size_t rows, long double *out) {
-    state *st = context;
-    st->part = part;
+static bool evaluate_rows(void *context, long double *row, size_t rows) {
+    curve_run *st = context;
+    st->refined = row;
     st->rows = rows;
-    st->out = out;
     return run_all(st);
 }
 
 static bool give_part(void *context, long double part, const long double *values) {
-    state *st = context;
+    curve_run *st = context;
     return st->job->row(st->job->context, st->s, st->curve, sweep_value(st->s, &st->range, part), values);
 }
 
 /* The unit of the range may differ from curve to curve. A name must have a value of it here too, where rows
  * come from a team: dimensions of gaps are asked for in this process. */
-static bool begin_range(state *st) {
+static bool begin_range(curve_run *st) {
     points *p = &st->job->p;
     const size_t i = st->s->curves > 0;
     knob *var = &st->job->knobs[i];
@@ -174,7 +179,7 @@ static bool begin_range(state *st) {
     return var->is_input || points_put(p, i, st->range.lo, p->error);
 }
 
-static bool run_range(state *st) {
+static bool run_range(curve_run *st) {
     if (!begin_range(st))
         return false;
     st->rows = (st->end < st->s->steps + 1 ? st->end : st->s->steps + 1) - st->first;
@@ -190,13 +195,14 @@ static bool run_range(state *st) {
 
 /* ---- along a load ------------------------------------------------------------------------------ */
 
-static bool look_along(state *st, double time) {
+static bool look_along(curve_run *st, double time) {
     points *p = &st->job->p;
     const bool all = points_look(p, p->v);
     return take_row(st, 0, time, p->v, all ? NULL : &p->none) && !calc_stopped(p->c->scene.stop, p->error);
 }
 
-bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
+/* Appends the load of the range to the program of a trial; `from` gets where it begins. */
+static bool try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
     scene *tried = &t->scene;
     *from = tried->end;
     if (!tried->end.steps)
@@ -209,11 +215,11 @@ bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_er
     return true;
 }
 
-static bool run_along(state *st) {
+static bool run_along(curve_run *st) {
     const sweep *s = st->s;
     trial *t = st->job->p.t;
     load_mark from = t->scene.end;
-    if (s->what == ALONG_LOAD && !sweep_try_load(t, &st->range, &from, st->job->error))
+    if (s->what == ALONG_LOAD && !try_load(t, &st->range, &from, st->job->error))
         return false;
     trial_along a;
     calc_error error;
@@ -234,7 +240,7 @@ size_t sweep_length(const sweep *s) {
 }
 
 /* Which rows of the curve are wanted; false: none. */
-static bool is_wanted(state *st) {
+static bool is_wanted(curve_run *st) {
     sweep_job *job = st->job;
     const size_t rows = st->s->steps + 1, before = job->before;
     job->before += rows;
@@ -243,12 +249,12 @@ static bool is_wanted(state *st) {
     return st->first < st->end && st->first < rows;
 }
 
-static bool run_curve(state *st) {
+static bool run_curve(curve_run *st) {
     const sweep *s = st->s;
     points *p = &st->job->p;
     if (!is_wanted(st))
         return true;
-    if (!points_anew(p) || (s->curves && !points_put(p, 0, s->value[st->curve], p->error)))
+    if (!points_anew(p) || (s->curves && !points_put(p, 0, sweep_with(s, st->curve), p->error)))
         return false;
     st->range = (sweep_range){.lo = 0};
     bool ok = s->range(s, &st->range, p->error);
@@ -262,7 +268,7 @@ static bool run_curve(state *st) {
 
 static bool run_curves(const sweep *s, sweep_job *job) {
     const size_t curves = s->curves ? s->curves : 1;
-    state st = {.s = s, .job = job, .row = malloc(job->count * sizeof *st.row)};
+    curve_run st = {.s = s, .job = job, .row = malloc((job->count + 1) * sizeof *st.row)};
     bool ok = st.row || calc_no_memory(job->error);
     for (; st.curve < curves && ok; st.curve++)
         ok = run_curve(&st);
@@ -270,7 +276,8 @@ static bool run_curves(const sweep *s, sweep_job *job) {
     return ok;
 }
 
-static bool open_sweep(const sweep *s, sweep_job *job, size_t rows) {
+static bool open_sweep(const sweep *s, sweep_job *job) {
+    const size_t rows = sweep_length(s);
     size_t count = 0;
     error_clear(&job->missing);
     job->values = job->before = 0;
@@ -284,51 +291,31 @@ static bool open_sweep(const sweep *s, sweep_job *job, size_t rows) {
         job->knobs[count++] = s->var;
     const bool ok = points_open(&job->p, job->c, job->knobs, count, job->expressions, job->count, job->error);
     job->p.all = job->to < rows ? job->to - job->from : rows;
+    job->p.alone = !job->count; /* whoever takes the rows looks at the scene */
     return ok;
 }
 
-static bool close_sweep(sweep_job *job, bool ok) {
+bool sweep_run(const sweep *s, sweep_job *job) {
+    const bool ok = open_sweep(s, job) && run_curves(s, job);
     points_close(&job->p);
-    if (!ok || job->values > 0 || job->from > 0 || job->to < job->before)
+    if (!ok || !job->count || job->values > 0 || job->from > 0 || job->to < job->before)
         return ok;
     *job->error = job->missing;
     return calc_append(job->c, job->error, " (%s)", job->where), false;
 }
 
-bool sweep_run(const sweep *s, sweep_job *job) {
-    const bool ok = open_sweep(s, job, sweep_length(s)) && run_curves(s, job);
-    return close_sweep(job, ok);
-}
-
 /* ---- over two names ---------------------------------------------------------------------------- */
-
-bool grid_run(const grid *g, sweep_job *job) {
-    sweep_range ends = {.lo = 0};
-    sweep s = g->a;
-    if (!g->b.range(&g->b, &ends, job->error))
-        return false;
-    s.with = g->b.var;
-    s.with.d = ends.d;
-    s.curves = 1;
-    bool ok = open_sweep(&s, job, (g->a.steps + 1) * (g->b.steps + 1));
-    for (size_t j = 0; j <= g->b.steps && ok; j++) {
-        s.value[0] = sweep_value(&g->b, &ends, (long double)j / (long double)g->b.steps);
-        ok = run_curves(&s, job);
-    }
-    return close_sweep(job, ok);
-}
 
 static bool keep(void *context, const sweep *s, size_t curve, long double x, const long double *values) {
     grid_values *to = context;
-    (void)curve;
     to->a[to->at % to->rows] = x;
-    to->b[to->at / to->rows] = s->value[0];
+    to->b[curve] = sweep_with(s, curve);
     memcpy(to->v + to->at++ * to->count, values, to->count * sizeof *values);
     return true;
 }
 
-bool grid_keep(const grid *g, sweep_job *job, grid_values *out) {
-    *out = (grid_values){.rows = g->a.steps + 1, .across = g->b.steps + 1, .count = job->count};
+bool grid_keep(const sweep *s, sweep_job *job, grid_values *out) {
+    *out = (grid_values){.rows = s->steps + 1, .across = s->curves, .count = job->count};
     out->a = calloc(out->rows, sizeof *out->a);
     out->b = calloc(out->across, sizeof *out->b);
     out->v = calloc(out->rows * out->across, out->count * sizeof *out->v);
@@ -336,7 +323,7 @@ bool grid_keep(const grid *g, sweep_job *job, grid_values *out) {
         return calc_no_memory(job->error);
     job->row = keep;
     job->context = out;
-    return grid_run(g, job);
+    return sweep_run(s, job);
 }
 
 void grid_values_free(grid_values *values) {

@@ -39,11 +39,13 @@ struct sweep {
     /* Evaluates the range where expressions see what this curve sees. */
     bool (*range)(const sweep *s, sweep_range *out, calc_error *error);
     void *context;
-    /* with NAME = v1, v2, ... */
+    /* with NAME = v1, v2, ..., or for NAME = LO .. HI a second time */
     knob with;
+    size_t curves; /* at least 1; 0: no such name */
     long double value[SWEEP_VALUES];
     size_t value_at[SWEEP_VALUES], value_len[SWEEP_VALUES]; /* their places in the statement */
-    size_t curves;                                          /* at least 1; 0: no `with` */
+    const sweep *across;                                    /* of a grid, in place of these; or NULL */
+    sweep_range ends;                                       /* of that one */
 };
 
 /* One row: x is the value of the name, or the time; a value that cannot be had is NaN. False ends the sweep.
@@ -53,8 +55,8 @@ typedef bool sweep_row(void *context, const sweep *s, size_t curve, long double 
 typedef struct sweep_job {
     calc *c;
     const expr *expressions;
-    size_t count;
-    dim *d; /* of the expressions; those with known[i] must come out so */
+    size_t count; /* 0: whoever takes the rows looks at p.t->scene */
+    dim *d;       /* of the expressions; those with known[i] must come out so */
     bool *known;
     const char *const *units; /* how those are called; NULL, or NULL each: in SI */
     size_t from, to;          /* the rows that are wanted of all; to = 0: all of them */
@@ -75,17 +77,12 @@ size_t sweep_length(const sweep *s);
  * without any value, of which all rows are wanted. */
 bool sweep_run(const sweep *s, sweep_job *job);
 
-/* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */
+/* The value of the name at a part 0..1 of its range, of a list the one nearest to it; and of the name of the
+ * curves. */
 long double sweep_value(const sweep *s, const sweep_range *r, long double part);
-/* Appends the load of a range to the program of a trial; `from` gets where it begins. */
-bool sweep_try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error);
+long double sweep_with(const sweep *s, size_t curve);
 
-/* Expressions over two names at once: sweeps over the first, one for each value of the second. */
-typedef struct grid {
-    sweep a, b; /* both for NAME = LO .. HI */
-} grid;
-
-/* Its values as they come, the first name running faster. */
+/* The values of a grid as they come, the first name running faster. */
 typedef struct grid_values {
     size_t rows, across; /* of the first name, of the second */
     size_t count;        /* expressions */
@@ -93,10 +90,8 @@ typedef struct grid_values {
     long double *a, *b, *v;
 } grid_values;
 
-/* As sweep_run; rows see the second name and its value as `with` of the sweep. */
-bool grid_run(const grid *g, sweep_job *job);
-/* The same, kept; to be freed whatever comes. */
-bool grid_keep(const grid *g, sweep_job *job, grid_values *out);
+/* As sweep_run, kept; to be freed whatever comes. */
+bool grid_keep(const sweep *s, sweep_job *job, grid_values *out);
 void grid_values_free(grid_values *values);
 
 #endif

@@ -7,8 +7,6 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "study/points.h"
-
 typedef struct state {
     const uncertainty_question *of;
     points p;
@@ -48,14 +46,14 @@ static bool derivative(state *s, const double *x, size_t i, double h, long doubl
         up[k] = down[k] = x[k];
     for (size_t k = 0; k < s->of->expressions; k++)
         slope[k] = 0;
-    for (int j = 1; j <= ASK_SLOPES; j++) {
+    for (int j = 1; j <= POINTS_SLOPES; j++) {
         up[i] = x[i] + j * h;
         down[i] = x[i] - j * h;
         if (!all_at(s, up, above) || !all_at(s, down, below))
             return false;
         const long double apart = up[i] - down[i]; /* as it has been rounded */
         for (size_t k = 0; k < s->of->expressions; k++)
-            slope[k] += 2 * j * ask_slope[j - 1] * (above[k].v - below[k].v) / apart;
+            slope[k] += 2 * j * points_slope[j - 1] * (above[k].v - below[k].v) / apart;
     }
     return true;
 }
@@ -64,7 +62,7 @@ static bool derivative(state *s, const double *x, size_t i, double h, long doubl
  * do. */
 static bool derivative_of(state *s, const double *x, size_t i, long double slope[UNCERTAIN_VALUES],
                           const calc_error *error) {
-    const double h = ask_step(1e-3, x[i], 0.1 * s->of->deviation[i]),
+    const double h = points_step(1e-3, x[i], 0.1 * s->of->deviation[i]),
                  steps[] = {h, 1e-3 * h, 1e-3 * fabs(x[i])};
     for (size_t k = 0; k < sizeof steps / sizeof *steps && steps[k] > 0 && !error->raised; k++)
         if (derivative(s, x, i, steps[k], slope))
@@ -164,8 +162,7 @@ static bool take_drawn(void *context, size_t i, const long double x[], const val
     (void)x;
     if (why && !m->answer->missing.raised)
         m->answer->missing = *why;
-    if (!of->take)
-        count_sample(m, v);
+    count_sample(m, v);
     return keep_dims(m->s, v) && (!of->take || of->take(of->context, of->from + i, v));
 }
 
@@ -184,10 +181,9 @@ static bool monte_carlo(state *s, uncertainty_answer *out, const calc_error *err
     if (of->given)
         count_given(&m);
     else
-        points_go(&s->p, &(points_run){.count = of->take ? of->to - of->from : of->samples,
-                                       .give = draw_sample,
-                                       .take = take_drawn,
-                                       .context = &m});
+        points_go(&s->p,
+                  &(points_run){
+                      .count = of->to - of->from, .give = draw_sample, .take = take_drawn, .context = &m});
     for (size_t k = 0; k < of->expressions; k++) {
         uncertain *u = &out->value[k];
         u->mean = u->samples > 0 ? u->mean : NAN;
@@ -203,8 +199,8 @@ bool uncertainty(const uncertainty_question *question, uncertainty_answer *out, 
     error_clear(&out->missing);
     gsl_set_error_handler_off();
     for (size_t i = 0; i < question->count; i++)
-        if (!ask_present(question->c, &question->name[i], &out->x[i]))
-            return ask_lacks(question->c, &question->name[i], "", "", error);
+        if (!knob_present(question->c, &question->name[i], &out->x[i]))
+            return knob_lacks(question->c, &question->name[i], "", "", error);
     const bool ok = points_open(&s.p, question->c, question->name, question->count, question->e,
                                 question->expressions, error) &&
                     first_order(&s, out, error) && monte_carlo(&s, out, error);

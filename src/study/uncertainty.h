@@ -4,7 +4,7 @@
 #ifndef STUDY_UNCERTAINTY_H
 #define STUDY_UNCERTAINTY_H
 
-#include "study/ask.h"
+#include "study/points.h"
 
 enum { UNCERTAIN_NAMES = 12, UNCERTAIN_VALUES = 20 };
 
@@ -18,14 +18,12 @@ typedef struct uncertainty_question {
     size_t count;
     const expr *e;
     size_t expressions;
-    unsigned samples; /* of the Monte Carlo; 0: none */
+    unsigned samples; /* of the Monte Carlo */
     unsigned seed;
-    const double *const *given; /* the values of all samples, by expression; NULL: they are drawn */
-    /* or samples from the first on and before the other go there, and no sum is made: a sample depends on the
-     * seed and its number alone; NULL: they do not */
-    uncertainty_take *take;
+    const double *const *given; /* the values of all samples, by expression; NULL: they are drawn: */
+    size_t from, to; /* from the first on and before the other: each by the seed and its number alone */
+    uncertainty_take *take; /* is told of each; or NULL */
     void *context;
-    size_t from, to;
 } uncertainty_question;
 
 typedef struct uncertain {

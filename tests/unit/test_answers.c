@@ -99,7 +99,7 @@ static bool ask_trace(scene *s, double v[VALUES]) {
     if (!trace_begin(&t, s, watch_points(100), true, fresh()))
         return false;
     while (trace_next(&t, &error)) {
-        run_sight(trace_now(&t), &now);
+        run_sight(t.run, t.levels, &now);
         v[0] += (double)now.state.dx * trace_now(&t)->time;
         v[1] += (double)now.state.W;
         v[2]++;
@@ -138,7 +138,7 @@ static bool ask_stiffness(scene *s, double v[VALUES]) {
     if (!trace_begin(&t, s, watch_points(3), false, fresh()))
         return false;
     while (ok && trace_next(&t, &error)) {
-        const instant now = {.run = trace_now(&t)};
+        const instant now = {.run = t.run, .levels = t.levels};
         const fret_state *state;
         long double kn = 0;
         s->now = &now;

@@ -15,13 +15,13 @@ typedef struct curve {
     double x[ROOM], y[ROOM][COLUMNS];
 } curve;
 
-static bool evaluate(void *context, const long double *part, size_t rows, long double *values) {
+static bool evaluate(void *context, long double *row, size_t rows) {
     curve *c = context;
     c->calls += rows;
     c->most = rows > c->most ? rows : c->most;
-    for (size_t i = 0; i < rows; i++)
+    for (size_t i = 0; i < rows; i++, row += 1 + COLUMNS)
         for (int j = 0; j < COLUMNS; j++)
-            values[i * COLUMNS + (size_t)j] = c->f((double)part[i], j);
+            row[1 + j] = c->f((double)row[0], j);
     return !c->fail_at || c->calls < c->fail_at;
 }
 
