@@ -436,7 +436,7 @@ const char *model_text(size_t id) {
                          "gap that those before leave, and is as long as an error of 1e-3 of volume and\n"
                          "largest depth lets it be.\n\n" EXAMPLE "cycle FA=20 N\n"
                          "    fret> wear alpha=1e4 um^3/J; wear cycles 10000; Vwear\n"
-                         "    Vwear = 192.418 um^3\n",
+                         "    Vwear = 192.42 um^3\n",
     };
     return texts[id];
 }

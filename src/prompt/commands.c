@@ -182,7 +182,7 @@ const command commands[] = {
              "    fret> wear cycles 1000; set digits 3\n"
              "    fret> Vwear, hwear(0.95*a), hwear(0.95*a) at Nw=2000\n"
              "    Vwear = 241 um^3\n"
-             "    hwear(0.95*a) = 9.13 nm\n"
+             "    hwear(0.95*a) = 9.14 nm\n"
              "    hwear(0.95*a) = 17.2 nm\n"},
     {.name = "rig",
      .run = do_rig,
