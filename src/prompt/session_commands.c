@@ -56,10 +56,6 @@ bool do_save(shell *sh, lexer *lx, said *all) {
     target t;
     const bool history = *all->list[0].of->name;
     const span *name = &all->list[0].hole[0];
-    char file[FILE_NAME];
-    hole_file(lx, name, file);
-    if (!history && !strcmp(file, "history"))
-        return calc_fail(lx->error, name->at, name->len, "save history to which file? (./history is one)");
     if (history && sh->replaying)
         return true;
     if (history && !sh->typed.to)
