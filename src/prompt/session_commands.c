@@ -2,7 +2,6 @@
 /* Commands on the session itself: scripts, settings, the end; and those that keep it: save, record, and
  * replay, which runs a kept one beside it. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "plot/script.h"
 #include "prompt/show.h"
