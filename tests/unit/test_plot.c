@@ -507,8 +507,9 @@ static void bounded(void) {
     plot_thin(s, PLOT_WRITTEN);
     extremes(s, of);
     CHECK(of[0] == 0 && of[1] == N - 1 && of[2] == -99 && of[3] == 99);
+    const double points = N, parts = PLOT_WRITTEN / 4; /* a part keeps four points */
     for (size_t i = 1; i < s->count; i++)
-        CHECK(s->x[i] - s->x[i - 1] < 2.5 * N / (PLOT_WRITTEN / 4.0)); /* stretches of two such */
+        CHECK(s->x[i] - s->x[i - 1] < 2.5 * points / parts); /* stretches of two such */
     plot_figure_free(&f);
 }
 
