@@ -52,9 +52,10 @@ const char *lead_from(const char *word) {
     return NULL;
 }
 
-/* Arguments of functions and of commands are no quantities, but have a dimension too. */
+/* Arguments of functions and of commands are no quantities, but have a dimension too. A quantity may be one
+ * "within the cycle". */
 static dim dimension_of(const calc *c, const char *name) {
-    const quantity *q = quantity_find(name, strlen(name));
+    const quantity *q = quantity_find(name, strcspn(name, " "));
     if (q)
         return quantity_dim(q, &c->scene);
     for (size_t i = 0; (q = quantity_row(i)); i++)
@@ -83,7 +84,7 @@ static void word_status(const calc *c, calc_error *error) {
         snprintf(text, size, "%s", rule);
         return;
     }
-    const dim d = dimension_of(c, strcmp(name, RUN_FX_OF_CYCLE) ? name : "Fx");
+    const dim d = dimension_of(c, name);
     for (int digits = 6; digits <= 17; digits++) { /* as many as tell them apart */
         calc_amount(d, st->value, digits, given, sizeof given);
         calc_amount(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, digits, limit, sizeof limit);

@@ -478,8 +478,14 @@ bool run_item_next(runner *r) {
         if (seen && !r->status.code)
             return true;
     }
-    if (r->status.code == FRET_GROSS_SLIP && r->item.step.kind == LOAD_CYCLE)
+    if (r->item.step.kind != LOAD_CYCLE)
+        return false;
+    if (r->status.code == FRET_GROSS_SLIP)
         r->status.quantity = r->item.step.normal_value == 0 ? "FA" : RUN_FX_OF_CYCLE;
+    if (r->status.code == FRET_NEGATIVE) { /* a leg may go further than the swing */
+        r->status.quantity = RUN_FN_OF_CYCLE;
+        r->status.value = (double)(r->place.FN - r->item.step.normal_value);
+    }
     return false;
 }
 

@@ -20,7 +20,9 @@ typedef struct load_view {
     void (*pulse)(void); /* or NULL */
 } load_view;
 
-#define RUN_FX_OF_CYCLE "Fx within the cycle" /* what slides under a swinging normal force, in errors */
+/* What slides or parts under a swinging normal force, in errors. */
+#define RUN_FX_OF_CYCLE "Fx within the cycle"
+#define RUN_FN_OF_CYCLE "FN within the cycle"
 
 /* A part of the load without a corner. Time is 0 at the press, 1 more each step, a quarter to the first peak
  * of a cycle, 1 more each period. */
