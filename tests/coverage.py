@@ -22,7 +22,7 @@ import latency
 
 B = "build/coverage"
 # build of their own, or reach nothing more
-SLOW = ("hard", "packaging", "portable", "programs", "fuzz", "house")
+SLOW = ("hard", "packaging", "portable", "programs", "fuzz", "house", "python", "oscillator")
 MARK = re.compile(r"/\* unreached: ")
 MARKED_LINE = re.compile(r"\s*/\* unreached: .*\*/$")
 
