@@ -284,7 +284,7 @@ static bool steady_reference(bench *b) {
     if (!calc_status(b->error, &st))
         return false;
     if (!(study->value > 0)) /* a general gap, and less slip than a long double tells from none */
-        return calc_fail(b->error, 0, 0, "the load is too small: no model of this gap can tell dW from 0");
+        return calc_fail(b->error, 0, 0, "dW is 0, or so small that no model of this gap can tell it from 0");
     snprintf(study->reference, sizeof study->reference, "quadrature in long double");
     study->automatic = fret_normal_is_power(b->contact.normal) ? "closed form"
                                                                : "closed form, with polynomials over the gap";
