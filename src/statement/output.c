@@ -168,15 +168,15 @@ static double read_back(const char *text) {
 
 void format_exact(value v, char *buf, size_t size) {
     enum { LEAST = 6, MOST = 17 };
-    const double want = (double)v.v;
+    const value kept = {(double)v.v, v.d}; /* so that what is read back is written alike */
     for (int digits = LEAST; digits <= MOST; digits++) {
-        format_value(&(settings){.digits = digits}, v, buf, size);
-        if (read_back(buf) == want)
+        format_value(&(settings){.digits = digits}, kept, buf, size);
+        if (read_back(buf) == kept.v)
             return;
     }
     char unit_text[COLUMN_UNIT];
     dim_unit(v.d, unit_text, sizeof unit_text);
-    snprintf(buf, size, "%.*g%s%s", MOST, want, *unit_text ? " " : "", unit_text);
+    snprintf(buf, size, "%.*g%s%s", MOST, (double)kept.v, *unit_text ? " " : "", unit_text);
 }
 
 /* ---- columns ----------------------------------------------------------------------------------- */

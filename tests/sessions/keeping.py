@@ -76,6 +76,7 @@ SCENES = (
     "material steel; second rigid; geometry sum 2:50 m^-1, 4:2e6 m^-3; mu = 0.2; press a=0.1 mm; step dz=1 um dx=20 nm",
     "material PTFE; geometry flat-rounded b=1 mm R=10 mm; friction 0.1; press dz=1 um",
     "k = 0.5, c0 = 2 mm",
+    "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=5 mm; friction 0.4; press FN=100 N; most = dxmax",  # of more digits than are kept
 )
 ASKED = "show\nshow variables\nset digits 17\nFN, dz, a\nFx, dx, c, W, U\ndW\nkt, kn\nhistory"
 
@@ -248,6 +249,9 @@ def saved(tests):
                           "source %s\n" % name + ASKED)
         tests.check("a scene comes back to the last bit: " + scene[:40], first.stdout == again.stdout and
                     first.stdout.count("\n") > 1, "%s\n%s" % (tests.report(first), tests.report(again)))
+        same = tests.run("-c", "source %s\nsave %s.again" % (name, name))
+        with open(name, encoding="utf-8") as f, open(name + ".again", encoding="utf-8") as g:
+            tests.check("and is saved alike: " + scene[:40], f.read() == g.read(), tests.report(same))
     for name in ("history.fret", "history", "off.txt"):
         command = "record" if name == "off.txt" else "save"
         done = tests.run("-c", "mu = 0.1; %s %s" % (command, name))
