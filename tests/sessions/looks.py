@@ -326,6 +326,15 @@ def moving(tests):
     done = tests.run("-c", SCENE + "animate Fx against dx along cycle FA=10 N | Fx along cycle FA=10 N frames 3 to " + path)
     tests.check("one load, said twice", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
     fails(tests, "animate loop | W1D along cycle", "the figures of an animation go along one load")
+    for figures in ("p(r) for r = 0 mm .. 0.2 mm for FN = 10 N .. 100 N", "p(r) for r = 0 mm .. 0.2 mm title \"t\" for FN = 10 N .. 100 N | springs for FN = 10 N .. 100 N",
+                    "profile for R = 5 mm .. 10 mm"):
+        done = tests.run("-c", pressed + "animate %s frames 3 to %s\nFN" % (figures, path))
+        tests.check("over an input: " + figures, done.returncode == 0 and frames_of(path) in (2, 3) and done.stdout == "FN = 100 N\n", tests.report(done))
+    done = tests.run("-c", pressed + "animate p(r) for r = 0 mm .. 0.2 mm for FN = 10 N .. 100 N frames 3")
+    tests.check("the title tells of the last", "FN = 100 N" in done.stdout, tests.report(done))
+    fails(tests, "animate p(r) for r = 0 m .. a for FN = 1 N .. 2 N | p(r) for r = 0 m .. a for mu = 0.1 .. 0.2",
+          "the figures of an animation go along one load, or one input", pressed)
+    fails(tests, "animate p(r) for r = 0 mm .. 1 mm for FN = 10 N .. -100 N frames 3", "FN = -45 N must be positive", pressed)
     fails(tests, "animate loop to x.png", "an animation goes to a .gif file or to the terminal")
     fails(tests, "animate loop frames 1", "an animation takes 2 frames or more")
     fails(tests, "animate springs", "there is no load yet", "material steel; geometry sphere R=10 mm; friction 0.4\n")
