@@ -225,7 +225,7 @@ $(B)/program.o: $(call OBJ,$(filter-out src/prompt/main.c,$(PROG)) $(CORE)) $(B)
 	ld -r -o $@ $^
 	objcopy $(foreach call,$(FUZZ_CALLS),--redefine-sym $(call)=fuzz_$(call)) $@
 $(B)/fuzz: tests/fuzz/fuzz.c $(B)/program.o
-	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -fsanitize=fuzzer -o $@ $^ $(LIBS)
+	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -fsanitize=fuzzer -o $@ $(filter %.c %.o,$^) $(LIBS)
 fuzz: deps-check
 	@$(MAKE) --no-print-directory -s fuzz-build $(B)/fret
 	@PYTHONDONTWRITEBYTECODE=1 python3 tests/fuzz/fuzzing.py build/asan/fuzz $(FUZZ)
