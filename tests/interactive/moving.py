@@ -291,9 +291,10 @@ def mice(tests):
     live.wait(lambda s: pulled() != first, 5)
     live.child.send(at(32, 30, 12) + at(0, 30, 12, "m"))
     tests.check("several events at a time", live.wait(lambda s: pulled() != first and pulled()[0].endswith("um")), live.screen.text())
-    live.child.send(at(35, 20, 12))
+    live.key("f", "forces Fx and FN")  # what came before it has been seen
     before = pulled()
-    live.key("f", "forces Fx and FN")
+    live.child.send(at(35, 20, 12))
+    live.key("f", "displacements dx and dz")
     tests.check("let go", pulled() == before, live.screen.text())
     live.says("quit")
     live.gone()
