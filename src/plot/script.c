@@ -324,7 +324,8 @@ static void set_margins(scribe *s, const plot_figure *f) {
 static void with_curve(scribe *s, const plot_panel *p, size_t at, const char *how) {
     const plot_series *c = p->series[at];
     size_t style = plot_style_of(p, at), mark = style / LOOKS;
-    double line = s->kind->line * s->scale;
+    const double wide = p->map.nx ? 3 : 1; /* over a map: its border hides a line of its own width */
+    const double line = wide * s->kind->line * s->scale;
     if (c->thin) {
         fprintf(s->to, "lines lw %.3g lc rgb '#707070' dt solid", 0.5 * line);
         return;
