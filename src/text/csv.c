@@ -30,12 +30,12 @@ void csv_free(csv *c) {
 /* ---- the text ---------------------------------------------------------------------------------- */
 
 /* Lines that end by carriage returns alone are one line to others. */
-static bool read_text(csv *c, file_stop stop, size_t *len, calc_error *error) {
+static bool read_text(csv *c, size_t *len, calc_error *error) {
     file_in in;
     file_text all;
     file_got got = FILE_GOT_END;
     bool ok = true;
-    if (!file_in_open(&in, c->path, stop, error))
+    if (!file_in_open(&in, c->path, c->stop, error))
         return false;
     if (!file_text_open(&all)) {
         file_in_close(&in);
@@ -75,7 +75,6 @@ typedef struct table_line {
 typedef struct finder {
     csv *c;
     calc_error *error;
-    file_stop stop;
     table_line *list;
     size_t count;
     unsigned long long usual; /* the numbers of a row */
@@ -138,7 +137,7 @@ static bool cut_lines(finder *t, size_t len) {
     t->c->row = malloc(lines * sizeof *t->c->row);
     if (!t->list || !t->c->row)
         return calc_no_memory(t->error);
-    for (size_t at = 0, number = 1, n; at < len; at += n + 1, number++) {
+    for (size_t at = 0, number = 1, n; at < len && !*t->c->stop; at += n + 1, number++) {
         n = strcspn(text + at, "\n");
         if (says_something(text + at, n) && (n != 5 || memcmp(text + at, "sep=", 4)))
             t->list[t->count++] =
@@ -181,7 +180,7 @@ static void find_usual(finder *t) {
         size_t weight;
     } kind[KINDS] = {{0, 0}};
     size_t kinds = 0, most = 0;
-    for (size_t i = 0; i < t->count; i++) {
+    for (size_t i = 0; i < t->count && !*t->c->stop; i++) {
         table_line *l = &t->list[i];
         if (l->comment)
             continue;
@@ -573,7 +572,7 @@ static bool find_table(finder *t, size_t len) {
         return false;
     c->separator = choose_separator(t);
     find_usual(t);
-    if (calc_stopped(t->stop, t->error))
+    if (calc_stopped(c->stop, t->error))
         return false;
     const size_t begin = t->usual ? find_begin(t, &header) : NO_LINE;
     const bool ok =
@@ -587,14 +586,14 @@ static bool find_table(finder *t, size_t len) {
 
 bool csv_read(const char *path, file_stop stop, csv *c, calc_error *error) {
     size_t len;
-    *c = (csv){.path = strdup(path)};
+    *c = (csv){.path = strdup(path), .stop = stop};
     finder *t = calloc(1, sizeof *t);
     if (!c->path || !t) {
         free(t);
         return calc_no_memory(error);
     }
-    *t = (finder){.c = c, .error = error, .stop = stop};
-    const bool ok = read_text(c, stop, &len, error) && find_table(t, len);
+    *t = (finder){.c = c, .error = error};
+    const bool ok = read_text(c, &len, error) && find_table(t, len);
     free(t->list);
     free(t);
     return ok;
@@ -687,6 +686,7 @@ bool csv_load(csv *c, csv_values *column, calc_error *error) {
             ok = trouble(column, error, "%.200s:%zu: expected a number as %.60s, not '%.*s'", c->path,
                          row->line, column->name, LEX_SHOWN(f.f.len), f.f.text);
         v[i] = f.v;
+        ok = ok && !calc_stopped(c->stop, error);
     }
     if (ok && column->trouble)
         ok = calc_fail(error, 0, 0, "%s", column->trouble);

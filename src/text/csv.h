@@ -30,6 +30,7 @@ typedef struct csv_row {
 
 typedef struct csv {
     char *path, *text;
+    file_stop stop;
     const char *encoding; /* NULL: one that leaves nothing to tell */
     char separator;       /* ' ': blanks and tabs */
     size_t columns, rows;
@@ -47,8 +48,8 @@ typedef struct csv {
  * follows it on a line of its own or behind the last number, is no part of it. Columns are parted by
  * semicolons, tabs, commas or blanks, whichever parts the most numbers; where it is no comma, a comma within
  * a number is a decimal one. A number that may have a mark of thousands, as `1.500` in a file with `950,5`,
- * is wrong. Fields may stand in quotation marks. Reading stops when `stop` is set. Errors name file and line.
- * Free with csv_free whatever comes. */
+ * is wrong. Fields may stand in quotation marks. Reading, as that of columns later, stops when `stop` is set.
+ * Errors name file and line. Free with csv_free whatever comes. */
 bool csv_read(const char *path, file_stop stop, csv *out, calc_error *error);
 void csv_free(csv *c);
 

@@ -62,7 +62,8 @@ size_t encoding_decode(iconv_t by, size_t unit, char *from, size_t *len, char *t
 static void unmangle(char *text, size_t *len) {
     size_t n = 0;
     for (size_t i = 0; i < *len; i++) {
-        if (!strncmp(text + i, "\xc3\x82\xc2\xb5", 4) || !strncmp(text + i, "\xc3\x82\xc2\xb0", 4))
+        if (text[i] == '\xc3' &&
+            (!strncmp(text + i, "\xc3\x82\xc2\xb5", 4) || !strncmp(text + i, "\xc3\x82\xc2\xb0", 4)))
             i += 2;
         text[n++] = text[i];
     }

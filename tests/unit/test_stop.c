@@ -4,8 +4,13 @@
 #include "fret/fret.h"
 #include "histories.h"
 
+#include <unistd.h>
+
 #include "places.h"
 #include "study/jenkins.h"
+#define unit calc_unit /* a name that tests have too */
+#include "text/csv.h"
+#undef unit
 #include "unit.h"
 
 enum { ROWS = 2000 };
@@ -173,6 +178,26 @@ static void check_elements(const fret_material *material) {
     stop = 0;
 }
 
+/* A column that is read: none, then all of it. */
+static void check_column(void) {
+    char name[] = "/tmp/fret-unit-XXXXXX";
+    const int fd = mkstemp(name);
+    static const char text[] = "r [mm],f [um]\n1,2\n3,4\n";
+    csv c;
+    calc_error error;
+    error_clear(&error);
+    CHECK(fd >= 0 && write(fd, text, sizeof text - 1) == (ssize_t)(sizeof text - 1) && !close(fd));
+    CHECK(csv_read(name, &stop, &c, &error) && c.rows == 2);
+    stop = 1;
+    CHECK(!csv_column(&c, "f", &error) && error.stop);
+    stop = 0;
+    error_clear(&error);
+    const csv_values *values = csv_column(&c, "f", &error);
+    CHECK(values && values->v[1] == 4e-6);
+    csv_free(&c);
+    CHECK(!unlink(name));
+}
+
 int main(int argc, char **argv) {
     unit_start("stop", argc, argv);
     const fret_material steel = {.body = {{.E0 = 210e9, .nu = 0.3}, {.E0 = 210e9, .nu = 0.3}}, .c0 = 1};
@@ -190,6 +215,7 @@ int main(int argc, char **argv) {
     stop = 0;
     CHECK_OK(fret_cycle_loss_by_force(&contact, 1, &loss));
     CHECK(loss > 0);
+    CASE(check_column());
     CASE(check_memory(normal));
     CASE(check_questions(normal, &contact));
     CASE(check_springs(normal));
