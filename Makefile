@@ -37,6 +37,7 @@ PROG  := $(filter-out src/prompt/prompt_$(if $(filter no,$(READLINE)),readline,p
 # scripts/demos and scripts/paper as C, for `demo`
 PAPER   := $(wildcard scripts/paper/*.txt)
 SCRIPTS := $(wildcard scripts/demos/*.txt) $(PAPER)
+TOPICS  := $(wildcard scripts/help/*.txt)
 UNIT  := $(wildcard tests/unit/test_*.c)
 HARD  := $(wildcard tests/hard/*.c)
 # the oracle of the hard cases needs MPFR, which the rest does without
@@ -77,9 +78,9 @@ $(B)/libfret.a: $(call OBJ,$(CORE))
 $(B)/libfret.so: $(call SHARED,$(CORE))
 	$(CC) $(CFLAGS_ALL) $(LDFLAGS) -shared $(if $(DARWIN),-Wl$(COMMA)-install_name$(COMMA)$(LIBDIR)/$(SONAME),-Wl$(COMMA)-soname$(COMMA)$(SONAME)) -o $@ $^ $(LIBS_CORE)
 
-$(B)/scripts.c: scripts/embed $(SCRIPTS)
+$(B)/scripts.c: scripts/embed $(SCRIPTS) $(TOPICS)
 	@mkdir -p $(@D)
-	@sh scripts/embed $(SCRIPTS) > $@.part && mv $@.part $@
+	@{ echo '#include "statement/scripts.h"'; sh scripts/embed scripts $(SCRIPTS) && sh scripts/embed topics $(TOPICS); } > $@.part && mv $@.part $@
 
 $(B)/scripts.o: $(B)/scripts.c
 	$(CC) $(CFLAGS_ALL) -c $< -o $@

@@ -22,7 +22,8 @@ typedef struct entry {
     const char *kind;            /* before its summary, or NULL */
     char numbers[LINE_LABEL];    /* the summary, where there is no other */
     const char *summary;
-    const char *keywords, *text; /* searched too; text only where nothing else is found; or NULL */
+    const char *keywords;            /* searched too; or NULL */
+    const char *text, *const *lines; /* only where nothing else is found */
 } entry;
 
 /* ---- quantities -------------------------------------------------------------------------------- */
@@ -273,18 +274,12 @@ static void lead_help(FILE *to, size_t i) {
 }
 
 static entry topic_entry(size_t i) {
-    const topic *t = topic_row(i);
-    return (entry){
-        .command = "help ", .name = t->name, .summary = t->summary, .keywords = t->keywords, .text = t->text};
-}
-
-static void topic_help(FILE *to, size_t i) {
-    const topic *t = topic_row(i);
-    if (t->text)
-        fputs(t->text, to);
-    if (t->print)
-        t->print(to);
-    fprintf(to, "\n%s", t->example);
+    const script *t = &topics[i];
+    return (entry){.command = "help ",
+                   .name = t->name,
+                   .summary = t->title,
+                   .keywords = t->line[TOPIC_KEYWORDS],
+                   .lines = t->line + TOPIC_TEXT};
 }
 
 /* ---- the table --------------------------------------------------------------------------------- */
@@ -298,7 +293,7 @@ typedef struct subject {
 /* clang-format off */
 static const subject subjects[] = {
     {command_name, command_entry, command_help},
-    {topic_name, topic_entry, topic_help},
+    {topic_name, topic_entry, help_topic},
     {setting_name, setting_entry, setting_help},
     {model_name, model_entry, model_help},
     {geometry_name, geometry_entry, geometry_help},
@@ -393,9 +388,16 @@ static bool contains(const char *text, const char *word) {
     return text && *text;
 }
 
+static bool is_within(const entry *e, const char *word) {
+    const char *const *line = e->lines;
+    while (line && *line && !contains(*line, word))
+        line++;
+    return contains(e->text, word) || (line && *line);
+}
+
 static bool is_about(const entry *e, const char *word, bool deep) {
     return contains(e->name, word) || contains(e->kind, word) || contains(e->numbers, word) ||
-           contains(e->summary, word) || contains(e->keywords, word) || (deep && contains(e->text, word));
+           contains(e->summary, word) || contains(e->keywords, word) || (deep && is_within(e, word));
 }
 
 /* About each of the words, ended by an empty one. */

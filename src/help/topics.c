@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Topics of help: one row each. Touches nothing. */
+/* What help takes from tables for its topics, and what it tells of models. Touches nothing. */
 #include "help/topics.h"
 
 #include <string.h>
 
-#include "help/texts.h"
 #include "language/expr.h"
-#include "statement/scripts.h"
 #include "text/characters.h"
 #include "text/lines.h"
 
@@ -136,26 +134,16 @@ void help_cite(FILE *to) {
           to);
 }
 
-static void paper(FILE *to) {
+static void reference_line(FILE *to) {
     help_wrapped(to, reference, 0, 4);
-    fputs("\nIts equations, and the quantities that they make; `cite` has it as BibTeX.\n"
-          "`explain NAME` puts the numbers of the scene in; `demo fig04` to `demo fig13`\n"
-          "and `demo s1` to `demo s3` draw the figures and videos.\n\n",
-          to);
+}
+
+static void equation_lines(FILE *to) {
     for (int i = 1; i <= EQUATIONS + APPENDIX; i++) {
         char number[16];
         snprintf(number, sizeof number, i > EQUATIONS ? "(A%d)" : "(%d)", i > EQUATIONS ? i - EQUATIONS : i);
         equation(to, number, i > EQUATIONS ? NULL : equations[i]);
     }
-    fputs("\nSlips of the paper, as this program reads it:\n"
-          "  (13),(27)  are for two equal elastic bodies; here they hold for any two\n"
-          "  (19)       beyond first loading the test needs the trial displacement of\n"
-          "             the spring, u + d(delta_x), not delta_x\n"
-          "  (22)       tells the loss on the first branch only; here it is W1D, signed\n"
-          "  (26),(27)  come out negative; dW is the positive energy dissipated\n"
-          "  Fig. 12    `k = -0.5, 1, 0.5` in its text means k = -0.5, 0, 0.5\n"
-          "  Section 3  `exponentially` is a power law: dW ~ FA^3 at small FA\n",
-          to);
 }
 
 /* ---- lessons ----------------------------------------------------------------------------------- */
@@ -174,18 +162,16 @@ static void paper_line(FILE *to, const script *s) {
     help_wrapped(to, text, 4, 8);
 }
 
-static void teaching(FILE *to) {
+static void lessons(FILE *to) {
     enum { QUESTION = 200 };
     char text[QUESTION];
-    fputs("The lessons in their order, ten minutes each or less: their questions and the\n"
-          "answers. `demo NAME` plays one, `demo NAME to FILE.html` is a handout of it, and\n"
-          "`help lessons` tells how to write your own.\n",
-          to);
+    bool any = false;
     for (const script *s = scripts; s->name; s++) {
         const char *const *answer = s->answer;
         if (!answer)
             continue;
-        fprintf(to, "\n%-10s  ", s->name);
+        fprintf(to, "%s%-10s  ", any ? "\n" : "", s->name);
+        any = true;
         help_wrapped(to, s->title, 12, 12);
         for (const char *const *line = s->line; *line && *answer; line++)
             if (!strncmp(*line, "ask \"", 5)) {
@@ -199,211 +185,31 @@ static void teaching(FILE *to) {
     }
 }
 
-/* ---- the table --------------------------------------------------------------------------------- */
+/* ---- topics ------------------------------------------------------------------------------------ */
 
-static const topic topics[] = {
-    {.name = "expressions",
-     .summary = "arithmetic, names of your own, functions",
-     .keywords = "variable definition function operator live what-if",
-     .text = expressions_text,
-     .print = functions,
-     .example = "    fret> x = 3 mm; half(u) := u/2\n"
-                "    fret> half(x) + 20 um in mm, sqrt(2)^-2\n"
-                "    half(x) + 20 um = 1.52 mm\n"
-                "    sqrt(2)^-2 = 0.5\n"
-                "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-                "    fret> a, (a at FN=200 N)/a\n"
-                "    a = 186.626 um\n"
-                "    (a at FN=200 N)/a = 1.25992\n"
-                "    fret> (integral 2*pi*r*p(r) for r = 0 m .. a)\n"
-                "    (integral 2*pi*r*p(r) for r = 0 m .. a) = 100 N\n"
-                "    fret> cycle FA=20 N\n"
-                "    fret> (maximum qx(0.15 mm) along cycle) in MPa\n"
-                "    (maximum qx(0.15 mm) along cycle) = 326.252 MPa\n"},
-    {.name = "units",
-     .summary = "units and their prefixes",
-     .keywords = "dimension SI prefix",
-     .print = help_units,
-     .example = "    fret> geometry sphere R=1/2 inch; R\n"
-                "    R = 12.7 mm\n"
-                "    fret> 3 kg*(2 m/(1 s))^2/2, 60*pi N\n"
-                "    3 kg*(2 m/(1 s))^2/2 = 6 J\n"
-                "    60*pi N = 188.496 N\n"
-                "    fret> 1 ksi in MPa, 0.3N/mm^2, 90 deg, 5 %\n"
-                "    1 ksi = 6.89476 MPa\n"
-                "    0.3N/mm^2 = 300 kPa\n"
-                "    90 deg = 90 deg\n"
-                "    5 % = 0.05\n"},
-    {.name = "quantities",
-     .summary = "inputs, results and functions of the scene",
-     .keywords = "input result variable stress loop",
-     .print = quantities,
-     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-                "    fret> a, c(20 N), dW(20 N), p(0.1 mm)\n"
-                "    a = 186.626 um\n"
-                "    c(20 N) = 148.125 um\n"
-                "    dW(20 N) = 1.90646 uJ\n"
-                "    p(0.1 mm) = 1.15747 GPa\n"},
-    {.name = "prompt",
-     .summary = "keys, completion, history, pasting",
-     .keywords = "readline history completion Tab inputrc paste shell",
-     .text = prompt_text,
-     .example = "    fret> ?pi\n"
-                "    pi: 3.14159...\n"},
-    {.name = "scripts",
-     .summary = "files of statements, options, the start-up file",
-     .keywords = "batch pipe start-up fretrc config replay transcript save",
-     .text = scripts_text,
-     .example = "    fret> friction 0.4; save friction.fret\n"
-                "    wrote friction.fret (26 B)\n"
-                "    fret> mu = 0.3; source friction.fret\n"
-                "    fret> mu\n"
-                "    mu = 0.4\n"},
-    {.name = "files",
-     .summary = "tables and figures that are read and written",
-     .keywords = "csv json export import Excel data png svg pdf save write history",
-     .text = files_text,
-     .example = "    $ cat gap.csv\n"
-                "    r [mm],f [um]\n"
-                "    0,0\n"
-                "    0.5,12.5\n"
-                "    1,50\n"
-                "    fret> material steel; geometry file gap.csv; friction 0.4\n"
-                "    fret> press FN=120 N; step Fx=15 N; step Fx=-15 N; W\n"
-                "    W = 394.215 nJ\n"
-                "    fret> history to loop.csv\n"
-                "    wrote loop.csv (221 B)\n"},
-    {.name = "lessons",
-     .summary = "how to write one: its questions, its file, a handout of it",
-     .keywords = "teach exercise ask demo handout class student quiz",
-     .text = lessons_text,
-     .example = "    $ cat ball.txt\n"
-                "    A ball on a flat\n"
-                "    # 100 N press it. How wide is the contact?\n"
-                "    material steel; geometry sphere R=10 mm; press FN=100 N\n"
-                "    ask \"Its radius a?\" = a in mm within 20 % hint \"a^2 = R dz\"\n"
-                "    fret> demo ./ball.txt\n"
-                "    A ball on a flat\n"
-                "    \n"
-                "    # 100 N press it. How wide is the contact?\n"
-                "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
-                "    Its radius a?\n"
-                "    a = 0.186626 mm\n"},
-    {.name = "teaching",
-     .summary = "the lessons in their order, their questions and answers",
-     .keywords = "teacher class course exercise solution handout lesson",
-     .print = teaching,
-     .example = "    $ fret -c 'demo pressing' | grep 'the radius'\n"
-                "    How large is the radius a of the contact?\n"
-                "    How many times the radius a?\n"},
-    {.name = "theory",
-     .summary = "what is computed, in a few words",
-     .keywords = "MDR Mindlin Cattaneo Hertz springs hysteresis loop dissipation partial slip memory diagram",
-     .text = theory_text,
-     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-                "    fret> step Fx=20 N\n"
-                "    fret> a, c, dx, dxmax\n"
-                "    a = 186.626 um\n"
-                "    c = 148.125 um\n"
-                "    dx = 625.995 nm\n"
-                "    dxmax = 1.6917 um\n"
-                "    fret> cycle FA=20 N\n"
-                "    fret> dW\n"
-                "    dW = 1.90646 uJ\n"},
-    {.name = "paper",
-     .summary = "every equation of the paper, and where it is here",
-     .keywords = "equation formula reference literature slip misprint",
-     .print = paper,
-     .example = "    fret> material E0=210 GPa nu=0.3; geometry sphere R=10 mm\n"
-                "    fret> kappa\n"
-                "    kappa = 2\n"},
-    {.name = "damper",
-     .summary = "asked backwards: the friction damper of a turbine blade",
-     .keywords = "blade optimum preload design damping uncertainty vibration",
-     .text = damper_text,
-     .example = "    fret> material E0=114 GPa nu=0.34 k=0.2 c0=0.1 mm\n"
-                "    fret> geometry sphere R=20 mm; friction 0.35; press FN=200 N\n"
-                "    fret> dxmax, dWd(1 um), loss_factor(1 um)\n"
-                "    dxmax = 3.05041 um\n"
-                "    dWd(1 um) = 5.1833 uJ\n"
-                "    loss_factor(1 um) = 0.0500898\n"
-                "    fret> maximize dWd(1 um) over FN = 1 N .. 400 N\n"
-                "    FN = 23.4964 N\n"
-                "    dWd(1 um) = 12.6519 uJ\n"
-                "    fret> FN = 25 N\n"
-                "    fret> dWd(1 um), Kp(1 um), loss_factor(1 um)\n"
-                "    dWd(1 um) = 12.6102 uJ\n"
-                "    Kp(1 um) = 8.90877 MN/m\n"
-                "    loss_factor(1 um) = 0.45056\n"
-                "    fret> uncertainty dWd(1 um) with mu +- 0.05, E0 +- 10 %, FN +- 10 %\n"
-                "    dWd(1 um) = 12.6102 uJ +- 1.98 uJ\n"
-                "        from mu 49.7 %, E0 49.8 %, FN 0.487 %\n"
-                "        Monte Carlo = 12.0474 uJ +- 1.96 uJ\n"
-                "    fret> solve mu for dWd(1 um) = 12 uJ from 0.05 to 0.3\n"
-                "    mu = 0.177743\n"
-                "    fret> export jenkins 6 to damper.h\n"
-                "    wrote damper.h (824 B)\n"
-                "    error of dW = 40.039 nJ\n"
-                "    relative = 0.00596088\n"},
-    {.name = "cracking",
-     .summary = "tension and slip over a cycle: where cracks may begin",
-     .keywords = "crack fatigue fretting Ruiz SWT Smith Watson Topper tension yield stress tensor",
-     .text = cracking_text,
-     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-                "    fret> cycle FA=20 N\n"
-                "    fret> maximize (maximum sxx(x, 0 m, 0 m) along cycle) over x = 0 m .. 1.5*a\n"
-                "    x = 186.626 um\n"
-                "    (maximum sxx(x, 0 m, 0 m) along cycle) = 827.851 MPa\n"
-                "    fret> Ruiz(x) := (maximum qx(abs(x))*slip(abs(x)) along cycle)\n"
-                "    fret> Ruiz(0.9*a)\n"
-                "    Ruiz(0.9*a) = 14.9162 N/m\n"},
-    {.name = "parts",
-     .summary = "one study in shares, over many cores or machines",
-     .keywords = "parallel cluster SLURM --part share array job uncertainty samples",
-     .text = parts_text,
-     .example = "    $ fret --format=csv --part 2/3 -c 'table x^2 for x = 1 .. 3 steps 2'\n"
-                "    2,4\n"},
-    {.name = "programs",
-     .summary = "from C, C++, Python, other programs, dynamics codes",
-     .keywords = "library libfret embed numpy JSON CSV harmonic balance Jenkins export oscillator",
-     .text = programs_text,
-     .example =
-         "    $ fret --format=json -c 'material steel; geometry sphere R=10 mm; press FN=100 N; a'\n"
-         "    {\"event\":\"press\",\"FN\":100,\"a\":0.00018662555784086242,\"dz\":3.4829098839413082e-06}\n"
-         "    {\"name\":\"a\",\"value\":0.00018662555784086242,\"unit\":\"m\"}\n"},
-    {.name = "exactness",
-     .summary = "how exact the numbers are, and how that is known",
-     .keywords = "accuracy error digits ulp precision verification published boundary elements speed",
-     .text = exactness_text,
-     .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
-                "    fret> set digits 15; a\n"
-                "    a = 186.625557840862 um\n"},
-    {.name = "news",
-     .summary = "what you may rely on, and what is new",
-     .keywords = "version release changes stability compatibility promise",
-     .text = news_text,
-     .example = "    $ fret --version\n"
-                "    fret 1.0.0\n"},
-    {.name = "limits",
-     .summary = "what the theory leaves out",
-     .keywords = "assumption coupling dissimilar mismatch half-space error accuracy validity",
-     .text = limits_text,
-     .example = "    fret> material steel; second aluminium; geometry sphere R=10 mm; friction 0.4\n"
-                "    fret> press FN=100 N; step Fx=10 N\n"
-                "    warning: the bodies are elastically dissimilar (mismatch 0.117): normal and tangential "
-                "contact are coupled, and these results are an approximation, kn up to 0.46 % too small "
-                "(help limits "
-                "tells of dW)\n"},
-};
-enum { TOPICS = sizeof topics / sizeof *topics };
-
-const topic *topic_row(size_t i) {
-    return i < TOPICS ? &topics[i] : NULL;
-}
+static const struct {
+    const char *line; /* of a topic: the table stands there */
+    void (*print)(FILE *to);
+} tables[] = {{"[functions]", functions},      {"[units]", help_units},         {"[quantities]", quantities},
+              {"[reference]", reference_line}, {"[equations]", equation_lines}, {"[lessons]", lessons}};
 
 const char *topic_name(size_t i) {
-    return i < TOPICS ? topics[i].name : NULL;
+    return topics[i].name;
 }
+
+void help_topic(FILE *to, size_t i) {
+    for (const char *const *line = topics[i].line + TOPIC_TEXT; *line; line++) {
+        size_t t = 0;
+        while (t < sizeof tables / sizeof *tables && strcmp(tables[t].line, *line) != 0)
+            t++;
+        if (t < sizeof tables / sizeof *tables)
+            tables[t].print(to);
+        else
+            fprintf(to, "%s\n", *line);
+    }
+}
+
+/* ---- models ------------------------------------------------------------------------------------ */
 
 /* Begins a transcript. */
 #define EXAMPLE "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; "

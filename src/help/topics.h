@@ -1,22 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What help tells beyond the tables of commands, quantities and units. */
+/* What help tells beyond the tables of commands, quantities and units: topics, a file of scripts/help each.
+ */
 #ifndef HELP_TOPICS_H
 #define HELP_TOPICS_H
 
-#include <stddef.h>
 #include <stdio.h>
 
-typedef struct topic {
-    const char *name;
-    const char *summary;
-    const char *keywords;    /* other words to find it by */
-    const char *text;        /* or NULL */
-    void (*print)(FILE *to); /* more, from a table; or NULL */
-    const char *example;     /* a transcript, indented by four */
-} topic;
+#include "statement/scripts.h"
 
-const topic *topic_row(size_t i); /* NULL after the last */
-const char *topic_name(size_t i);
+/* Of the lines of a topic the first tells other words to find it by, the second is empty. */
+enum { TOPIC_KEYWORDS, TOPIC_TEXT = 2 };
+
+const char *topic_name(size_t i); /* NULL after the last */
+/* Its text, in which tables stand in place of their names, and its example. */
+void help_topic(FILE *to, size_t i);
 
 /* The table of units, for `show` too. */
 void help_units(FILE *to);

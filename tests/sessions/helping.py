@@ -45,6 +45,7 @@ def run(tests):
         tests.check("help " + topic, done.returncode == 0 and done.stdout and not done.stderr, tests.report(done))
         wide = [line for line in done.stdout.splitlines()[1:] if len(line) > 80 and not line.startswith("    ")]
         tests.check("help %s fits a terminal" % topic, not wide, "\n".join(wide))
+        tests.check("help %s has its tables" % topic, not re.search(r"^\[\w+\]$", done.stdout, re.M), done.stdout)
         lines = [line[4:] for line in done.stdout.splitlines() if line.startswith("    ")]
         count = transcripts.examples(tests, "help " + topic, lines)
         tests.check("help %s has an example" % topic, count > 0 or topic not in shown, done.stdout)
