@@ -97,20 +97,19 @@ static const accuracy_row *good_springs(const accuracy_study *study) {
 static void advise(const accuracy_study *study, const char *separator, char *buf, size_t size) {
     const accuracy_row *row = &study->row[0], *springs = good_springs(study); /* auto's choice comes first */
     char error[40], t[40], ratio[40];
-    int n = 0;
+    *buf = 0;
     if (springs) {
         format_error(springs, error, sizeof error);
         calc_amount(DIM_TIME, springs->seconds, 3, t, sizeof t);
         const bool slower = springs->seconds >= row->seconds;
         format_ratio(slower ? springs->seconds / row->seconds : row->seconds / springs->seconds, ratio,
                      sizeof ratio);
-        n = snprintf(buf, size, "%lu springs: error %s in %s, %s times as %s as auto%s", springs->size, error,
-                     t, ratio, slower ? "long" : "fast", separator);
+        snprintf(buf, size, "%lu springs: error %s in %s, %s times as %s as auto%s", springs->size, error, t,
+                 ratio, slower ? "long" : "fast", separator);
     }
     format_error(row, error, sizeof error);
     calc_amount(DIM_TIME, row->seconds, 3, t, sizeof t);
-    snprintf(buf + n, size - (size_t)n, "auto picks: %s (%s): error %s in %s", study->automatic, study->why,
-             error, t);
+    text_add(buf, size, "auto picks: %s (%s): error %s in %s", study->automatic, study->why, error, t);
 }
 
 /* ---- printing ---------------------------------------------------------------------------------- */

@@ -111,7 +111,6 @@ bool same_dim(dim a, dim b) {
 
 csv_values *column_of_dim(csv *c, dim d, char *names, size_t size, size_t *count) {
     csv_values *one = NULL;
-    size_t n = 0;
     *names = 0;
     *count = 0;
     for (csv_values *v = c->column; v < c->column + c->columns; v++) {
@@ -119,8 +118,7 @@ csv_values *column_of_dim(csv *c, dim d, char *names, size_t size, size_t *count
             quantity_find(v->name, strlen(v->name)))
             continue;
         one = v;
-        if (n < size)
-            n += (size_t)snprintf(names + n, size - n, "%s%.60s", *count ? ", " : "", v->name);
+        text_add(names, size, "%s%.60s", *count ? ", " : "", v->name);
         ++*count;
     }
     return *count == 1 ? one : NULL;
@@ -296,28 +294,27 @@ bool columns_missed(const shell *sh, const lexer *lx, csv *data) {
 void columns_say(shell *sh, const csv *c, const char *more) {
     char text[CSV_COLUMNS * 160]; /* each clause is shorter */
     bool plain = c->plain && !c->encoding && !c->without && !c->words && !*more;
-    size_t n = (size_t)snprintf(text, sizeof text, "%zu row%s from line %zu", c->rows,
-                                c->rows == 1 ? "" : "s", c->row[0].line);
+    snprintf(text, sizeof text, "%zu row%s from line %zu", c->rows, c->rows == 1 ? "" : "s", c->row[0].line);
     for (size_t i = 0; i < c->columns; i++) {
         const csv_values *v = &c->column[i];
         if (!v->given)
             continue;
         plain = false;
         if (!v->v)
-            n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s not used", v->name);
+            text_add(text, sizeof text, ", %.60s not used", v->name);
         else if (*v->title)
-            n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s from \"%.60s\"", v->name, v->title);
+            text_add(text, sizeof text, ", %.60s from \"%.60s\"", v->name, v->title);
         else
-            n += (size_t)snprintf(text + n, sizeof text - n, ", %.60s from column %zu", v->name, i + 1);
+            text_add(text, sizeof text, ", %.60s from column %zu", v->name, i + 1);
     }
     if (c->without)
-        n += (size_t)snprintf(text + n, sizeof text - n, ", %zu row%s without a value left out", c->without,
-                              c->without == 1 ? "" : "s");
+        text_add(text, sizeof text, ", %zu row%s without a value left out", c->without,
+                 c->without == 1 ? "" : "s");
     if (c->words)
-        n += (size_t)snprintf(text + n, sizeof text - n, ", %zu line%s of words left out (line %zu)",
-                              c->words, c->words == 1 ? "" : "s", c->first_word);
+        text_add(text, sizeof text, ", %zu line%s of words left out (line %zu)", c->words,
+                 c->words == 1 ? "" : "s", c->first_word);
     if (c->encoding)
-        n += (size_t)snprintf(text + n, sizeof text - n, ", read as %s", c->encoding);
+        text_add(text, sizeof text, ", read as %s", c->encoding);
     if (!plain)
         shell_note(sh, "%.200s: %s%s%s", c->path, text, *more ? ", " : "", more);
 }

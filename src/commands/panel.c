@@ -101,9 +101,8 @@ static const char *title_of(const panel_job *job, size_t curve, size_t i, const 
         snprintf(title, TITLE, PLOT_EXPR "%s = %s" PLOT_END, job->s->with.text, number);
     else
         snprintf(title, TITLE, "%s", name);
-    const size_t n = strlen(title);
     if (part)
-        snprintf(title + n, TITLE - n, "%s%s", n ? ", " : "", part);
+        list_word(title, TITLE, ", ", part);
     return title;
 }
 
@@ -277,17 +276,16 @@ static void note_logarithms(shell *sh, const plot_panel *p) {
 static void shared_name(const panel_job *job, size_t first, size_t end, char *name, size_t size) {
     *name = 0;
     for (size_t i = first; i < end; i++) {
-        const size_t n = strlen(name);
         size_t before = first;
         while (before < i && strcmp(job->columns[before].name, job->columns[i].name))
             before++;
         if (before < i || (i < job->count && !is_main(job, i)))
             continue;
-        if (n + strlen(job->columns[i].name) + 3 > size) {
+        if (strlen(name) + strlen(job->columns[i].name) + 3 > size) {
             *name = 0;
             return;
         }
-        snprintf(name + n, size - n, "%s%s", n ? ", " : "", job->columns[i].name);
+        list_word(name, size, ", ", job->columns[i].name);
     }
 }
 

@@ -204,7 +204,7 @@ static bool fail_figure(const calc *c, lexer *lx, const grammar *row, const char
     if (!unknown || (next != T_END && next != T_BAR))
         return lex_fail(lx, "expected %s", wants);
     for (size_t i = 0; figure_name(i); i++)
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", figure_name(i));
+        list_word(all, sizeof all, ", ", figure_name(i));
     return lex_fail(lx, "there is no figure '%s': %s %s, or EXPR, ... for NAME = LO .. HI", word,
                     row->command, all);
 }

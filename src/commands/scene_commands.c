@@ -444,12 +444,12 @@ static void report_apex(shell *sh, const apex *top) {
 /* As `show` writes the columns again. */
 static bool write_choices(const lexer *lx, said *all, char text[CHOSEN], calc_error *error) {
     const heard *h;
-    size_t n = 0;
+    bool fits = true;
     *text = 0;
-    for (size_t i = 0; (h = said_of(all, "using", i)) && n < CHOSEN; i++)
-        n += (size_t)snprintf(text + n, CHOSEN - n, "%s%.*s=%.*s", i ? ", " : " using ", (int)h->hole[0].len,
-                              lx->text + h->hole[0].at, (int)h->hole[1].len, lx->text + h->hole[1].at);
-    return n < CHOSEN || calc_fail(error, 0, 0, "the names of the columns are too long");
+    for (size_t i = 0; (h = said_of(all, "using", i)) && fits; i++)
+        fits = text_add(text, CHOSEN, "%s%.*s=%.*s", i ? ", " : " using ", (int)h->hole[0].len,
+                        lx->text + h->hole[0].at, (int)h->hole[1].len, lx->text + h->hole[1].at);
+    return fits || calc_fail(error, 0, 0, "the names of the columns are too long");
 }
 
 static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {

@@ -172,13 +172,12 @@ static double describe_sine(const page *p, const quantity *q, bool call, model_i
     const bool limit = is_extrapolated(q, call);
     const double least = 1e-15;
     long double at[LEVELS];
-    const size_t n = strlen(text), room = MODEL_TEXT - n;
     if (model == MODEL_MEMORY && a->levels == 1) { /* all that it answers: no function of another load */
-        snprintf(text + n, room, ", the sine itself, event by event (exact)");
+        text_add(text, MODEL_TEXT, ", the sine itself, event by event (exact)");
         return least;
     }
     if (!by_chords(p, model, e, at)) {
-        snprintf(text + n, room, ", by %d chords a period of the sine%s", finest,
+        text_add(text, MODEL_TEXT, ", by %d chords a period of the sine%s", finest,
                  limit ? " and fewer, extrapolated" : "");
         return 0;
     }
@@ -188,11 +187,11 @@ static double describe_sine(const page *p, const quantity *q, bool call, model_i
                                               : 0),
                  good = round_up(fmax(unsure, least));
     if (limit)
-        snprintf(text + n, room,
+        text_add(text, MODEL_TEXT,
                  ", converged to %.0e (the sine itself, by %d chords a period and fewer, extrapolated)", good,
                  finest);
     else
-        snprintf(text + n, room, ", by %d chords a period of the sine, good to %.0e", finest, good);
+        text_add(text, MODEL_TEXT, ", by %d chords a period of the sine, good to %.0e", finest, good);
     return good;
 }
 
@@ -207,13 +206,13 @@ static void put_law(const page *p) {
     const scene *s = p->sh->calc.now;
     const struct fret_table *rows = s->answers.normal ? fret_normal_gap(s->answers.normal)->table : NULL;
     char text[MODEL_TEXT];
-    const int n =
-        scene_is_worn(s)
-            ? snprintf(text, sizeof text, "worn by blocks of cycles, good to some %.0e", WEAR_TOLERANCE)
-            : snprintf(text, sizeof text, "%s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
+    if (scene_is_worn(s))
+        snprintf(text, sizeof text, "worn by blocks of cycles, good to some %.0e", WEAR_TOLERANCE);
+    else
+        snprintf(text, sizeof text, "%s, good to %.0e", models[MODEL_PIECES].title, s->pieces_error);
     if (rows && fret_table_within(rows) > 0)
-        snprintf(text + n, sizeof text - (size_t)n, ", of %zu pieces within %.0e of the gap",
-                 fret_table_count(rows) - 1, fret_table_within(rows));
+        text_add(text, sizeof text, ", of %zu pieces within %.0e of the gap", fret_table_count(rows) - 1,
+                 fret_table_within(rows));
     answer_fact(p->out, "law of the gap", text);
 }
 
@@ -232,14 +231,13 @@ static model_id put_model(const page *p, const quantity *q, bool call, const exp
     char text[MODEL_TEXT];
     *sine = 0;
     name_model(p, model, text);
-    const size_t n = strlen(text);
     if (stepped && (q->reads & INPUT_BIT(IN_MU)) && swings(s))
         *sine = describe_sine(p, q, call, model, e, text);
     else if (model == MODEL_PIECES)
         snprintf(text, sizeof text, "%s, with %s over the gap", models[MODEL_CLOSED].title,
                  models[MODEL_PIECES].title);
     else if (model == MODEL_MEMORY)
-        snprintf(text + n, sizeof text - n, " (exact)");
+        text_add(text, sizeof text, " (exact)");
     answer_fact(p->out, "model", text);
     if ((model == MODEL_MEMORY || model == MODEL_PIECES) && s->used & USED(MODEL_PIECES))
         put_law(p);

@@ -50,7 +50,7 @@ static void when_text(const formula *f, bool others, char *buf, size_t size) {
     *buf = 0;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (f->when & words[i].when)
-            list_word(buf, size, words[i].text, false);
+            list_word(buf, size, ", ", words[i].text);
     if (f->when == WHEN_ALWAYS && others)
         snprintf(buf, size, "else");
 }
@@ -326,8 +326,7 @@ static size_t group_line(FILE *to, size_t i) {
     const command *c = command_row(i);
     fprintf(to, "    %-*s", GROUP - 4, c->group);
     do {
-        const size_t n = strlen(names);
-        snprintf(names + n, sizeof names - n, "%s%s", n ? " " : "", c->name);
+        list_word(names, sizeof names, " ", c->name);
         c = command_row(++i);
     } while (c && !c->group);
     help_wrapped(to, names, GROUP, GROUP);
@@ -346,7 +345,7 @@ static void overview(FILE *to) {
     for (size_t i = 0; command_row(i);)
         i = group_line(to, i);
     for (size_t i = 0; topic_name(i); i++)
-        list_word(names, sizeof names, topic_name(i), false);
+        list_word(names, sizeof names, ", ", topic_name(i));
     fputs("Topics: ", to);
     help_wrapped(to, names, 8, 8);
     fputs("help NAME tells of any quantity, unit, geometry, setting or model, such as\n"

@@ -96,7 +96,7 @@ static void equation(FILE *to, const char *number, const char *text) {
     snprintf(own, sizeof own, "%.*s", (int)strcspn(text, ";"), text);
     for (size_t i = 0; (q = quantity_row(i)); i++)
         if (quotes(q, number))
-            list_word(names, sizeof names, q->name, false);
+            list_word(names, sizeof names, ", ", q->name);
     enum { INDENT = 6 };
     help_wrapped(to, own, INDENT, INDENT);
     if (*names) {
@@ -156,7 +156,7 @@ static void paper_line(FILE *to, const script *s) {
     for (const char *const *line = s->line; *line; line++) {
         found = **line == '#' && (found || !strncmp(*line, word, sizeof word - 1));
         if (found)
-            snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", *text ? " " : "", *line + 2);
+            list_word(text, sizeof text, " ", *line + 2);
     }
     fputs("    ", to);
     help_wrapped(to, text, 4, 8);

@@ -193,12 +193,11 @@ static void save(live *l) {
 
 /* Both scenes, to the last digit. */
 static void comparison_text(const live *l, char *text, size_t size) {
-    size_t n = (size_t)snprintf(text, size, " with %s =", l->compared.by.text);
+    snprintf(text, size, " with %s =", l->compared.by.text);
     for (size_t i = 0; i < COMPARED; i++) {
         char in[32];
         const long double scale = unit_choose(l->compared.by.d, l->compared.with[i], 17, in, sizeof in);
-        n += (size_t)snprintf(text + n, size - n, "%s %.17Lg %s", i ? "," : "", l->compared.with[i] / scale,
-                              in);
+        text_add(text, size, "%s %.17Lg %s", i ? "," : "", l->compared.with[i] / scale, in);
     }
 }
 

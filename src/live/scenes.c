@@ -153,10 +153,8 @@ void live_begin(live *l) {
                  {!inputs_any(in, INPUT_BIT(IN_MU)), "friction 0.4"},
                  {!l->host->calc->scene.end.steps, "press FN=100 N"}};
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)
-        if (first[i].missing) {
-            const size_t n = strlen(line);
-            snprintf(line + n, sizeof line - n, "%s%s", n ? "; " : "", first[i].statement);
-        }
+        if (first[i].missing)
+            list_word(line, sizeof line, "; ", first[i].statement);
     if (!*line) {
         live_update(l);
     } else if (live_say(l, "%s", line)) { /* what they answer, as with `set timing on`, is no page */

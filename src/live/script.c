@@ -30,10 +30,9 @@ static void take_note(live *l) {
     for (; s->at < s->count && is_comment(s->line[s->at]); s->at++) {
         const char *text = s->line[s->at] + strspn(s->line[s->at], "# ");
         char shown[LIVE_LINE];
-        const size_t n = strlen(l->note);
         characters_shown(text, shown, sizeof shown);
         if (*text)
-            snprintf(l->note + n, sizeof l->note - n, "%s%s", n ? " " : "", shown);
+            list_word(l->note, sizeof l->note, " ", shown);
     }
     if (s->at == s->count && !*l->note)
         snprintf(l->note, sizeof l->note, "the end of the script");

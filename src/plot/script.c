@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "text/characters.h"
-#include "text/lines.h"
+#include "text/words.h"
 
 enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, HIGHER = 840, LEVELS = 9 };
 
@@ -68,7 +68,8 @@ const plot_kind *plot_kind_of(const char *file, calc_error *error) {
             return &kinds[i];
     char endings[80] = "";
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        list_word(endings, sizeof endings, kinds[i].ending, i + 1 == sizeof kinds / sizeof *kinds);
+        list_word(endings, sizeof endings, i + 1 == sizeof kinds / sizeof *kinds ? " or " : ", ",
+                  kinds[i].ending);
     calc_fail(error, 0, 0, "cannot tell the kind of picture from '%s': use %s", file, endings);
     return NULL;
 }

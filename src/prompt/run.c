@@ -291,21 +291,21 @@ void shell_report(shell *sh, const source *from, const char *text, size_t len, s
 
 /* With the models that have answered, in parentheses. */
 static void report_time(shell *sh, double t) {
-    char by[240] = "", *end = by + sizeof by, *p = by;
+    char by[240] = "";
     const scene *s = &sh->calc.scene;
     if (sh->replaying) /* no two runs agree */
         return;
     for (model_id i = 0; i < MODELS; i++)
         if (s->used & USED(i)) {
-            p += snprintf(p, (size_t)(end - p), "%s%s", p == by ? " (" : ", ", models[i].title);
+            text_add(by, sizeof by, "%s%s", *by ? ", " : " (", models[i].title);
             if (i == MODEL_PIECES)
-                p += snprintf(p, (size_t)(end - p), " to %.0e", s->pieces_error);
+                text_add(by, sizeof by, " to %.0e", s->pieces_error);
         }
     const unsigned repeated = s->answers.levels ? s->answers.run[0].repeated : 0;
     if (s->used & USED(MODEL_MEMORY) && repeated)
-        p += snprintf(p, (size_t)(end - p), ", %u period%s the last one run", repeated,
-                      repeated == 1 ? " repeats" : "s repeat");
-    shell_say(sh, "time: %.3g ms%s%s", 1e3 * t, by, p == by ? "" : ")");
+        text_add(by, sizeof by, ", %u period%s the last one run", repeated,
+                 repeated == 1 ? " repeats" : "s repeat");
+    shell_say(sh, "time: %.3g ms%s%s", 1e3 * t, by, *by ? ")" : "");
 }
 
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line) {

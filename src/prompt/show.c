@@ -11,7 +11,6 @@
 #include "statement/output.h"
 #include "statement/setting_table.h"
 #include "statement/text.h"
-#include "text/lines.h"
 
 /* ---- the scene as statements ------------------------------------------------------------------- */
 

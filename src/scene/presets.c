@@ -4,6 +4,8 @@
 
 #include <stdio.h>
 
+#include "text/words.h"
+
 static const char callister[] = "Callister, Materials Science and Engineering, appendix B";
 
 static const preset presets[] = {
@@ -34,9 +36,9 @@ const char *preset_name(size_t i) {
 }
 
 void preset_numbers(const preset *p, char text[PRESET_NUMBERS]) {
-    const int n = snprintf(text, PRESET_NUMBERS, "E0=%.10g GPa nu=%.10g", p->E0 / 1e9, p->nu);
+    snprintf(text, PRESET_NUMBERS, "E0=%.10g GPa nu=%.10g", p->E0 / 1e9, p->nu);
     if (p->yield > 0)
-        snprintf(text + n, PRESET_NUMBERS - (size_t)n, ", yield %.10g MPa", p->yield / 1e6);
+        text_add(text, PRESET_NUMBERS, ", yield %.10g MPa", p->yield / 1e6);
 }
 
 const char *second_name(size_t i) {

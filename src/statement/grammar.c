@@ -248,19 +248,18 @@ void grammar_usage(const grammar *f, char buf[GRAMMAR_USAGE]) {
 
 bool add_usage(calc_error *error, const grammar *f) {
     char usage[GRAMMAR_USAGE];
-    const size_t n = strlen(error->text);
+    const bool asks = error->text[strlen(error->text) - 1] == '?';
     grammar_usage(f, usage);
-    snprintf(error->text + n, sizeof error->text - n, "%susage: %s", error->text[n - 1] == '?' ? " " : "; ",
-             usage);
+    text_add(error->text, sizeof error->text, "%susage: %s", asks ? " " : "; ", usage);
     return false;
 }
 
 void grammar_clauses(const hole_row *row, char buf[GRAMMAR_USAGE]) {
-    size_t n = 0;
+    char one[GRAMMAR_USAGE];
     const char *line;
+    *buf = 0;
     for (size_t i = 0; (line = row->words(i)); i++) {
-        n += (size_t)snprintf(buf + n, GRAMMAR_USAGE - n, "%s", i ? " " : "");
-        takes_text(line, buf + n, GRAMMAR_USAGE - n);
-        n += strlen(buf + n);
+        takes_text(line, one, sizeof one);
+        list_word(buf, GRAMMAR_USAGE, " ", one);
     }
 }

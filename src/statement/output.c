@@ -143,10 +143,10 @@ void format_estimate(const column *c, int digits, const estimate *e, char text[E
     number_text(number[1], 3, (double)((e->uneven ? e->below : e->deviation) / scale));
     number_text(number[2], 3, (double)(e->above / scale));
     const char *blank = *unit_text ? " " : "";
-    int n = snprintf(text, ESTIMATE_TEXT, "%s%s%s %s%s%s%s", number[0], blank, unit_text,
-                     e->uneven ? "(-" : "+- ", number[1], blank, unit_text);
+    snprintf(text, ESTIMATE_TEXT, "%s%s%s %s%s%s%s", number[0], blank, unit_text, e->uneven ? "(-" : "+- ",
+             number[1], blank, unit_text);
     if (e->uneven)
-        snprintf(text + n, ESTIMATE_TEXT - (size_t)n, ", +%s%s%s)", number[2], blank, unit_text);
+        text_add(text, ESTIMATE_TEXT, ", +%s%s%s)", number[2], blank, unit_text);
 }
 
 /* The number of a literal such as `90 deg` as the language reads it. */

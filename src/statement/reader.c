@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "text/lines.h"
 #include "text/unit.h"
 
 /* ---- at the cursor ----------------------------------------------------------------------------- */
@@ -154,11 +153,7 @@ static void way_words(const grammar *f, const clause *of, char *buf, size_t size
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
         if (a->group == of->group && a->way == of->way) {
             clause_text(a, text);
-            snprintf(buf + strlen(buf), size - strlen(buf), "%s%s",
-                     !*buf         ? ""
-                     : a->argument ? " and "
-                                   : " ",
-                     text);
+            list_word(buf, size, a->argument ? " and " : " ", text);
         }
 }
 
@@ -301,14 +296,14 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
     if (!row->noun) { /* one of few */
         for (size_t i = 0; row->words(i); i++) {
             snprintf(word, sizeof word, "%s %s", h->of->name, row->words(i));
-            list_word(list, sizeof list, word, !row->words(i + 1));
+            list_word(list, sizeof list, row->words(i + 1) ? ", " : " or ", word);
         }
         return lex_fail(lx, "expected %s", list);
     }
     for (size_t i = 0; i < LISTED && row->words(i); i++)
-        list_word(list, sizeof list, row->words(i), false);
+        list_word(list, sizeof list, ", ", row->words(i));
     if (row->words(LISTED))
-        list_word(list, sizeof list, "...", false);
+        list_word(list, sizeof list, ", ", "...");
     if (!len)
         return lex_fail(lx, "which %s? one of %s", row->noun, list);
     const char *lead = lead_from(word), *near = lead ? lead : suggest(word, row->words);
@@ -740,7 +735,7 @@ static bool has_way(lexer *lx, const said *s) {
     if (a == end || s->count || a->optional || a->argument || !a->group)
         return true;
     for (; a < end; a++)
-        list_word(list, sizeof list, a->name, a + 1 == end);
+        list_word(list, sizeof list, a + 1 == end ? " or " : ", ", a->name);
     return lex_fail(lx, "expected %s", list);
 }
 

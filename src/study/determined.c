@@ -48,11 +48,7 @@ static bool cannot_tell(const residuals *r, const gsl_matrix *V, size_t v, calc_
         if (fabs(gsl_matrix_get(V, i, v)) > 0.05)
             shown[count++] = i;
     for (size_t i = 0; i < count; i++)
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s",
-                 i == 0           ? ""
-                 : i + 1 == count ? " and "
-                                  : ", ",
-                 r->of->name[shown[i]].text);
+        list_word(list, sizeof list, i + 1 == count ? " and " : ", ", r->of->name[shown[i]].text);
     if (count > 1)
         return calc_fail(error, 0, 0, "the data cannot tell %s apart: only a combination of them shows; %s",
                          list, instead_of(r, shown, count));

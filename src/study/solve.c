@@ -396,8 +396,7 @@ static bool several(search *s, calc_error *error) {
     char list[CALC_ERROR_TEXT / 2] = "", text[CALC_VALUE_TEXT];
     for (unsigned i = 0; i < s->roots && i <= LISTED; i++) {
         calc_value_text(s->of->name.d, s->root[i].x, text);
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "",
-                 i == LISTED ? "..." : text);
+        list_word(list, sizeof list, ", ", i == LISTED ? "..." : text);
     }
     return calc_fail(error, s->of->sides->at, s->of->sides->len,
                      "several roots, %s = %s: choose by from LO to HI", s->of->name.text, list);

@@ -625,13 +625,14 @@ void csv_rename(csv *c, csv_values *column, const char *name) {
 }
 
 void csv_names(const csv *c, char *buf, size_t size) {
-    size_t n = 0;
     *buf = 0;
-    for (size_t i = 0; i < c->columns && n < size; i++) {
+    for (size_t i = 0; i < c->columns; i++) {
         const csv_values *v = &c->column[i];
         const char *own = v->given ? v->title : v->name;
-        n += (size_t)(*own ? snprintf(buf + n, size - n, "%s%s", i ? ", " : "", own)
-                           : snprintf(buf + n, size - n, "%s%zu", i ? ", " : "", i + 1));
+        if (*own)
+            list_word(buf, size, ", ", own);
+        else
+            text_add(buf, size, "%s%zu", i ? ", " : "", i + 1);
     }
 }
 

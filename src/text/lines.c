@@ -32,11 +32,6 @@ bool begins_with_prompt(const char *line, size_t len) {
     return strip_prompt(line, &len) != line;
 }
 
-void list_word(char *buf, size_t size, const char *word, bool last) {
-    const size_t n = strlen(buf);
-    snprintf(buf + n, size - n, "%s%s", !n ? "" : last ? " or " : ", ", word);
-}
-
 void help_wrapped(FILE *to, const char *text, size_t at, size_t indent) {
     enum { WIDTH = 79 };
     for (size_t left = strlen(text); left > 0; at = indent) {

@@ -21,9 +21,6 @@ size_t shell_mark(const char *line, size_t len);
 /* End of the statement that begins at i: a `;`, a comment or the end of the line. */
 size_t shell_statement_end(const char *text, size_t i, size_t len);
 
-/* Adds a word to a list as messages have it, "a, b or c"; starts with an empty buf. */
-void list_word(char *buf, size_t size, const char *word, bool last);
-
 /* A text and the end of its line, broken at blanks before column 80. at: the column where it begins; the
  * lines that follow begin at `indent`. */
 void help_wrapped(FILE *to, const char *text, size_t at, size_t indent);

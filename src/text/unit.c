@@ -173,19 +173,14 @@ void dim_unit(dim d, char *buf, size_t size) {
         const char *name;
         double power;
     } base[] = {{"N", d.N}, {"m", d.m}, {"s", d.s}};
-    size_t n = 0;
     *buf = 0;
     for (size_t i = 0; i < sizeof base / sizeof *base; i++) {
-        const double power = n && base[i].power < 0 ? -base[i].power : base[i].power;
-        if (!(fabs(power) > 1e-9) || n >= size)
+        const double power = *buf && base[i].power < 0 ? -base[i].power : base[i].power;
+        if (!(fabs(power) > 1e-9))
             continue;
-        n += (size_t)snprintf(buf + n, size - n, "%s%s",
-                              !n                  ? ""
-                              : base[i].power < 0 ? "/"
-                                                  : "*",
-                              base[i].name);
-        if (fabs(power - 1) > 1e-9 && n < size)
-            n += (size_t)snprintf(buf + n, size - n, "^%.10g", power);
+        list_word(buf, size, base[i].power < 0 ? "/" : "*", base[i].name);
+        if (fabs(power - 1) > 1e-9)
+            text_add(buf, size, "^%.10g", power);
     }
 }
 

@@ -3,6 +3,8 @@
 #include "text/words.h"
 
 #include <assert.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 static size_t word_slot(const word_index *x, const char *word, size_t len) {
@@ -76,6 +78,19 @@ void takes_text(const char *takes, char *buf, size_t size) {
         else if (!(*p == '*' && p > takes && p[-1] == ']') && !(*p == '+' && p[1] == '='))
             buf[n++] = *p;
     strcpy(buf + n, more);
+}
+
+bool text_add(char *buf, size_t size, const char *format, ...) {
+    const size_t n = strlen(buf);
+    va_list args;
+    va_start(args, format);
+    const int more = vsnprintf(buf + n, size - n, format, args);
+    va_end(args);
+    return more >= 0 && (size_t)more < size - n;
+}
+
+void list_word(char *buf, size_t size, const char *between, const char *word) {
+    text_add(buf, size, "%s%s", *buf ? between : "", word);
 }
 
 bool same_but_case(const char *a, const char *b) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Looking words up in tables of names, and guessing what was meant. Touches nothing. */
+/* Looking words up in tables of names, guessing what was meant, and putting texts together. Touches nothing.
+ */
 #ifndef TEXT_WORDS_H
 #define TEXT_WORDS_H
 
@@ -28,6 +29,14 @@ const char *suggest(const char *typed, const char *(*name)(size_t i));
 
 /* What a row takes, as who reads it is told: without the marks of := and +=, and the most of a number. */
 void takes_text(const char *takes, char *buf, size_t size);
+
+/* Adds to the text in buf, as far as there is room. False: not all of it. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+bool text_add(char *buf, size_t size, const char *format, ...);
+/* Adds a word to a list, behind what parts it from the others; starts with an empty buf. */
+void list_word(char *buf, size_t size, const char *between, const char *word);
 
 bool same_but_case(const char *a, const char *b);
 /* One letter changed, missing or too many, or two swapped. */
