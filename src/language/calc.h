@@ -118,9 +118,7 @@ void calc_value_text(dim d, double v, char text[CALC_VALUE_TEXT]);
 /* Puts an error into words, once. */
 void calc_word(const calc *c, calc_error *error);
 /* Adds to the words. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
+LIKE_PRINTF(3, 4)
 void calc_append(const calc *c, calc_error *error, const char *format, ...);
 
 #endif

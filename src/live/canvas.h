@@ -4,6 +4,7 @@
 #define LIVE_CANVAS_H
 
 #include "plot/cells.h"
+#include "text/words.h"
 
 /* What is drawn. */
 typedef enum ink {
@@ -30,9 +31,7 @@ bool canvas_make(plot_cells *c, rect at);
 void canvas_show(plot_cells *c, rect at);
 
 /* Text in the rectangle's row, cut to its width; what does not show is written as \x1b. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 4, 5)))
-#endif
+LIKE_PRINTF(4, 5)
 void put_text(rect at, int row, ink of, const char *format, ...);
 
 /* What the screen shows, to be freed; NULL: out of memory. */

@@ -75,9 +75,7 @@ typedef struct live {
 double live_nice(double v);
 /* A number for a statement, in a unit that suits it. */
 void live_amount(double v, dim d, char *text, size_t size);
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
+LIKE_PRINTF(3, 4)
 void live_tell(live *l, bool bad, const char *format, ...);
 /* How many scenes are shown. */
 size_t live_sides(const live *l);
@@ -87,9 +85,7 @@ const shot *side_shown(const live *l, const side *s);
 /* ---- scenes.c: what the keys do, statements most of them ---- */
 
 /* Runs a line and tells what it says; false: an error. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
+LIKE_PRINTF(2, 3)
 bool live_say(live *l, const char *format, ...);
 bool live_say_line(live *l, const char *line);
 /* After a change: what is shown must follow; and does, before it is drawn or asked. */

@@ -109,9 +109,7 @@ void answer_part(answer *a, const char *name, char bracket);
 #define answer_item(a) answer_part(a, NULL, '{')
 void answer_up(answer *a);
 /* The same facts, for readers: of text alone, and where CSV is as text. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
+LIKE_PRINTF(2, 3)
 void answer_words(answer *a, const char *format, ...);
 /* A line of them, broken at blanks; what follows of it begins at `indent`. */
 void answer_line(answer *a, const char *text, size_t indent);

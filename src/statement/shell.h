@@ -71,9 +71,7 @@ FILE *shell_nowhere(calc_error *error);
 bool shell_unread(void);
 /* Things to be told that are no errors, on standard error, `before` it what they are; a program that reads
  * answers finds them among them, as `kind`. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 4, 5)))
-#endif
+LIKE_PRINTF(4, 5)
 void shell_tell(shell *sh, const char *kind, const char *before, const char *format, ...);
 #define shell_say(sh, ...) shell_tell(sh, "note", "", __VA_ARGS__)
 #define shell_note(sh, ...) shell_tell(sh, "note", "note: ", __VA_ARGS__)

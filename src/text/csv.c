@@ -332,11 +332,8 @@ static bool same_line(const finder *t, const table_line *a, const table_line *b)
 }
 
 /* What is wrong with a column, once. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-static bool
-trouble(csv_values *column, calc_error *error, const char *format, ...) {
+LIKE_PRINTF(3, 4)
+static bool trouble(csv_values *column, calc_error *error, const char *format, ...) {
     char text[CALC_ERROR_TEXT];
     va_list args;
     if (column->trouble)

@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "fret/status.h"
+#include "text/words.h"
 
 enum { CALC_ERROR_TEXT = 512 };
 
@@ -38,15 +39,11 @@ void error_clear(calc_error *error);
 #define error_quiet() (&(calc_error){.input = -1})
 
 /* These record the first error only. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 4, 5)))
-#endif
+LIKE_PRINTF(4, 5)
 void calc_raise(calc_error *error, size_t at, size_t len, const char *format, ...);
 void calc_raise_missing(calc_error *error, int input);
 /* What the system refused: the words, and its own behind them. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
+LIKE_PRINTF(3, 4)
 void calc_raise_errno(calc_error *error, int code, const char *format, ...);
 /* Gives the error a place where it has none. */
 void calc_put_place(calc_error *error, size_t at, size_t len);

@@ -7,6 +7,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* A function whose `text`-th argument is a format, for which those from `first` on are checked. */
+#if defined(__GNUC__)
+#define LIKE_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#else
+#define LIKE_PRINTF(text, first)
+#endif
+
 /* Finds a word in a table of names, name(0), name(1), ... until NULL. The index over them is made at the
  * first search; start it as {.name = name}. */
 enum { WORDS = 128 }; /* most names of a table */
@@ -31,9 +38,7 @@ const char *suggest(const char *typed, const char *(*name)(size_t i));
 void takes_text(const char *takes, char *buf, size_t size);
 
 /* Adds to the text in buf, as far as there is room. False: not all of it. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
+LIKE_PRINTF(3, 4)
 bool text_add(char *buf, size_t size, const char *format, ...);
 /* Adds a word to a list, behind what parts it from the others; starts with an empty buf. */
 void list_word(char *buf, size_t size, const char *between, const char *word);
