@@ -52,8 +52,8 @@ bool read_expression(shell *sh, lexer *lx, size_t i, column *c) {
     return ok;
 }
 
-bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c) {
-    return read_column(sh, lx, &sh->list[i], c) && at_end(lx);
+bool read_one_expression(shell *sh, lexer *lx, column *c) {
+    return read_column(sh, lx, &sh->list[0], c) && at_end(lx);
 }
 
 /* `1,5 mm` is two values: one may have been meant. */

@@ -12,9 +12,9 @@ bool read_expressions(shell *sh, lexer *lx, column *columns, size_t limit, size_
 /* The same of a part of the statement, and nothing else may stand there. */
 bool read_expressions_in(shell *sh, const lexer *lx, const span *part, column *columns, size_t limit,
                          size_t *count);
-/* One of them, at place i of the list; and nothing else. */
+/* One of them, at place i of the list; at the first, and nothing else. */
 bool read_expression(shell *sh, lexer *lx, size_t i, column *c);
-bool read_one_expression(shell *sh, lexer *lx, size_t i, column *c);
+bool read_one_expression(shell *sh, lexer *lx, column *c);
 /* One more name at the cursor, none twice, with a value where it is to be known; at most so many. */
 bool read_name(shell *sh, lexer *lx, bool known, size_t most, knob *names, size_t *count);
 /* EXPR = EXPR, the first two of the list. */

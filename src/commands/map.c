@@ -106,7 +106,7 @@ static bool run_map(shell *sh, lexer *lx, const sweep *s, column *c, const looks
 bool map_read(shell *sh, lexer *lx, said *all, column *c, grid_range *r) {
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     lex_next(&own);
-    return read_one_expression(sh, &own, 0, c) && grid_range_read(sh, lx, all, r, MAP_STEPS, MAP_STEPS);
+    return read_one_expression(sh, &own, c) && grid_range_read(sh, lx, all, r, MAP_STEPS, MAP_STEPS);
 }
 
 bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {

@@ -17,8 +17,6 @@
 #include "statement/text.h"
 #include "text/typeset.h"
 
-enum { TIMEOUT = 30 }; /* seconds for gnuplot */
-
 /* Of pictures: 16:9 with texts for the last row; 8.5 cm with texts of 9 points. */
 static const struct {
     int width, height;
@@ -79,7 +77,7 @@ static bool draw_on_page(shell *sh, plot_figure *f, calc_error *error) {
     file_text svg;
     if (!file_text_open(&svg))
         return calc_no_memory(error);
-    const plot_target to = {.out = svg.to, .terminal = PLOT_PAGE, .timeout = TIMEOUT, .stop = &shell_stop};
+    const plot_target to = {.out = svg.to, .terminal = PLOT_PAGE, .stop = &shell_stop};
     const bool ok = plot_draw(f, 1, &to, NULL, error);
     if (!file_text_close(&svg))
         return calc_no_memory(error);
@@ -107,7 +105,6 @@ static bool draw_off_page(shell *sh, lexer *lx, plot_figure *frame, size_t frame
                       .width = papers[sh->set.plot_paper].width,
                       .height = papers[sh->set.plot_paper].height,
                       .text = papers[sh->set.plot_paper].text,
-                      .timeout = TIMEOUT,
                       .stop = &shell_stop};
     if (!file && !to.columns)
         terminal_size(sh, &to.columns, &to.rows);

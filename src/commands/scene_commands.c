@@ -457,7 +457,7 @@ static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
     const heard *smoothly = said_of(s, "smooth", 0);
     smoothing how = {.by = SMOOTH_NOT};
     smooth_answer smoothed = {.pieces = 0};
-    apex top = {.both = false};
+    apex top = {.moved = false};
     csv data;
     how.height = said_of(s, "height", 0) != NULL;
     hole_file(lx, &s->list[0].hole[0], name);

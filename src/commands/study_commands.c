@@ -149,7 +149,7 @@ static bool optimum(shell *sh, lexer *lx, said *all, bool most) {
     column columns[OPTIMISE_NAMES + 1] = {{.name = NULL}}, optimised = {.name = NULL};
     long double si[OPTIMISE_NAMES + 1];
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
-    bool ok = read_one_expression(sh, &own, 0, &optimised) && read_over(sh, lx, all, &q) &&
+    bool ok = read_one_expression(sh, &own, &optimised) && read_over(sh, lx, all, &q) &&
               optimise(&q, &a, lx->error) && column_fits(q.e, &optimised, (value){a.value, a.d}, lx->error);
     for (size_t i = 0; i < q.count && ok; i++) {
         ok = knob_column(&columns[i], &q.name[i], lx->error);

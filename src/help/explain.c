@@ -83,7 +83,7 @@ static void explain_formula(const page *p, const quantity *q, bool call) {
     explain_title(p, q);
     snprintf(line, sizeof line, "    %s%s%s", set_in(f->text, set, sizeof set), f->equation ? "  " : "",
              f->equation ? f->equation : "");
-    answer_line(p->out, line, 8);
+    answer_line(p->out, line);
     answer_string(p->out, "formula", f->text);
     if (f->equation)
         answer_string(p->out, "equation", f->equation);

@@ -156,7 +156,7 @@ static bool open_seen(calc_error *error) {
     append_capability(own.farewell, sizeof own.farewell, "rmkx");
     append_capability(own.farewell, sizeof own.farewell, "cnorm");
     append_capability(own.farewell, sizeof own.farewell, "rmcup");
-    own.guard = file_guard_terminal(STDIN_FILENO, &modes, own.farewell);
+    own.guard = file_guard_terminal(&modes, own.farewell);
     if (cbreak() == ERR)
         return calc_fail(error, 0, 0, "the full-screen mode cannot have each key of this terminal");
     noecho();

@@ -101,8 +101,8 @@ static plot_pen pen_of(const pane *p, const char *dash, ink of) {
     return plot_pen_of(&p->cells, dash, (unsigned char)of);
 }
 
-static void draw_line(const pane *p, const char *dash, ink of, double x0, double y0, double x1, double y1) {
-    plot_pen pen = pen_of(p, dash, of);
+static void draw_dotted(const pane *p, ink of, double x0, double y0, double x1, double y1) {
+    plot_pen pen = pen_of(p, "1000", of);
     plot_pen_line(&pen, x0, y0, x1, y1);
 }
 
@@ -173,7 +173,7 @@ static void draw_springs(const pane *p) {
     const int below = p->cells.rows - 1;
     const double mx = (p->wide - 1) / 2.0, my = (below * p->cells.up - 1) / 2.0, kx = mx / p->most->a,
                  ky = my / p->most->bound;
-    draw_line(p, "1000", INK_FRAME, 0, my, p->wide - 1, my);
+    draw_dotted(p, INK_FRAME, 0, my, p->wide - 1, my);
     for (int way = -1; way <= 1; way += 2) {
         const double step = way * kx * s->a / (double)SHOT_SAMPLES;
         plot_pen above = pen_of(p, "10", INK_BOUND), under = above, u = pen_of(p, "1", INK_STICK);
@@ -204,10 +204,10 @@ static void draw_loop(const pane *p) {
     const shot *s = p->shot;
     const double mx = (p->wide - 1) / 2.0, my = (p->high - 1) / 2.0, kx = mx / p->most->dx,
                  ky = my / p->most->Fx;
-    draw_line(p, "1000", INK_FRAME, 0, my, p->wide - 1, my);
-    draw_line(p, "1000", INK_FRAME, mx, 0, mx, p->high - 1);
-    draw_line(p, "1000", INK_BOUND, 0, my - ky * s->slip, p->wide - 1, my - ky * s->slip);
-    draw_line(p, "1000", INK_BOUND, 0, my + ky * s->slip, p->wide - 1, my + ky * s->slip);
+    draw_dotted(p, INK_FRAME, 0, my, p->wide - 1, my);
+    draw_dotted(p, INK_FRAME, mx, 0, mx, p->high - 1);
+    draw_dotted(p, INK_BOUND, 0, my - ky * s->slip, p->wide - 1, my - ky * s->slip);
+    draw_dotted(p, INK_BOUND, 0, my + ky * s->slip, p->wide - 1, my + ky * s->slip);
     plot_pen path = pen_of(p, "1", INK_CURVE);
     const track *t = &p->side->way.path;
     const double until = s->time + 1e-9;

@@ -114,7 +114,7 @@ static bool exceeds(const asymmetry *a, const asymmetry *least_of_all) {
 }
 
 bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error) {
-    *out = (apex){.both = false};
+    *out = (apex){.moved = false};
     place *p = malloc((rows + 1) * sizeof *p);
     if (!p)
         return calc_no_memory(error);
@@ -125,7 +125,6 @@ bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error) 
         double at = 0, tilted_at = 0;
         const asymmetry plain = least(p, rows, false, &at), tilted = least(p, rows, true, &tilted_at),
                         here = about(p, rows, 0, false);
-        out->both = true;
         out->tilted = exceeds(&plain, &tilted) && 2 * tilted.pairs > plain.pairs;
         out->at = out->tilted ? tilted_at : at;
         out->tilt = out->tilted ? tilted.tilt : 0;

@@ -5,8 +5,8 @@
 
 #include "text/error.h"
 
+/* Of a profile that rises on both sides, else nothing. */
 typedef struct apex {
-    bool both;   /* the profile rises on both sides: else nothing is looked for */
     bool moved;  /* it is not at r = 0, by more than chance */
     bool tilted; /* its sides differ in slope */
     double at;   /* [m] */

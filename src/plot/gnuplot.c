@@ -138,7 +138,7 @@ static const char missing[] =
 bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error) {
     pid_t pid;
     int guard, status = 0, code = start(r, &pid, &guard);
-    double timeout = target->timeout > 0 ? target->timeout : 60;
+    double timeout = target->timeout > 0 ? target->timeout : 30;
     if (code == ENOENT || code == ENOTDIR)
         return calc_fail(error, 0, 0, "%s", missing);
     if (code)

@@ -9,7 +9,7 @@
  *     p->xlabel = plot_label("dx", "um"), p->ylabel = plot_label("Fx/(mu*FN)", NULL);
  *     plot_series *s = plot_series_add(p, PLOT_CURVE, PLOT_EXPR "k = 0.5" PLOT_END, error);
  *     plot_point(s, x, y);  ...
- *     plot_draw(&f, 1, &(plot_target){.file = "loop.png", .timeout = 60}, &report, error);
+ *     plot_draw(&f, 1, &(plot_target){.file = "loop.png"}, &report, error);
  *     plot_figure_free(&f);
  */
 #ifndef PLOT_PLOT_H
@@ -135,7 +135,7 @@ typedef struct plot_target {
     int columns, rows;      /* of the terminal; 0: 79 x 24 */
     int width, height;      /* of a picture in pixels; 0: 900 a panel (640 with several) x 675 */
     double text;            /* texts and lines of a picture, times this; 0: 1 */
-    double timeout;         /* seconds for gnuplot; 0: 60 */
+    double timeout;         /* seconds for gnuplot; 0: 30 */
     file_stop stop;         /* NULL: nothing stops it */
 } plot_target;
 

@@ -37,7 +37,7 @@ static wish key(void) {
     unsigned char c = 0;
     if (tcgetattr(STDIN_FILENO, &before))
         return LEAVE;
-    const int guard = file_guard_terminal(STDIN_FILENO, &before, "");
+    const int guard = file_guard_terminal(&before, "");
     raw = before;
     raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO);
     raw.c_cc[VMIN] = 1;

@@ -95,7 +95,7 @@ static bool read_value(exercise *x, const lexer *lx, said *all, const heard *equ
     if (!within)
         return calc_fail(lx->error, lx->at, 0, "expected within 5 %%: how far off may a guess be?");
     const bool number = own.kind == T_NUMBER;
-    return read_one_expression(sh, &own, 0, &x->column) &&
+    return read_one_expression(sh, &own, &x->column) &&
            expr_eval(&sh->calc, &sh->list[0], &x->value, lx->error) &&
            column_fits(&sh->list[0], &x->column, x->value, lx->error) &&
            read_within(x, lx, &within->hole[0]) &&

@@ -330,7 +330,7 @@ char *prompt_line(const char *text, bool continued) {
         left_out = 0;
     }
     tcgetattr(STDIN_FILENO, &modes);
-    const int guard = file_guard_terminal(STDIN_FILENO, &modes, shell_escapes() ? "\033[?2004l\r" : "");
+    const int guard = file_guard_terminal(&modes, shell_escapes() ? "\033[?2004l\r" : "");
     told_stop = false;
     goes_on = continued;
     take_stops();

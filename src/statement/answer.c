@@ -118,9 +118,9 @@ void answer_words(answer *a, const char *format, ...) {
     va_end(args);
 }
 
-void answer_line(answer *a, const char *text, size_t indent) {
+void answer_line(answer *a, const char *text) {
     if (a->layout >= a->form->words)
-        help_wrapped(a->to, text, 0, indent);
+        help_wrapped(a->to, text, 0, 8);
 }
 
 /* ---- tables ------------------------------------------------------------------------------------ */

@@ -111,8 +111,8 @@ void answer_up(answer *a);
 /* The same facts, for readers: of text alone, and where CSV is as text. */
 LIKE_PRINTF(2, 3)
 void answer_words(answer *a, const char *format, ...);
-/* A line of them, broken at blanks; what follows of it begins at `indent`. */
-void answer_line(answer *a, const char *text, size_t indent);
+/* A line of them, broken at blanks; what follows of it is indented. */
+void answer_line(answer *a, const char *text);
 
 /* ---- tables: a value that is not finite is a gap ---- */
 

@@ -103,7 +103,8 @@ static bool take_row(curve_run *st, size_t row, long double x, const value v[], 
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
-long double sweep_value(const sweep *s, const sweep_range *r, long double part) {
+/* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */
+static long double sweep_value(const sweep *s, const sweep_range *r, long double part) {
     return r->listed ? r->list[lroundl(part * (long double)(r->listed - 1))]
                      : points_place(r->lo, r->hi, s->log, part);
 }

@@ -77,9 +77,7 @@ size_t sweep_length(const sweep *s);
  * without any value, of which all rows are wanted. */
 bool sweep_run(const sweep *s, sweep_job *job);
 
-/* The value of the name at a part 0..1 of its range, of a list the one nearest to it; and of the name of the
- * curves. */
-long double sweep_value(const sweep *s, const sweep_range *r, long double part);
+/* The value of the name of the curves. */
 long double sweep_with(const sweep *s, size_t curve);
 
 /* The values of a grid as they come, the first name running faster. */

@@ -164,12 +164,12 @@ bool file_signal_ends(int number);
 void file_signals_hold(sigset_t *before);
 void file_signals_release(const sigset_t *before);
 
-/* List a file, a process group, or a terminal with the modes to go back to and the bytes to send it (not
+/* List a file, a process group, or the terminal with the modes to go back to and the bytes to send it (not
  * copied). Returns a number for file_unguard, -1 when the list is full or memory is out: do not go on then.
  */
 int file_guard_file(const char *path);
 int file_guard_group(pid_t group);
-int file_guard_terminal(int fd, const struct termios *modes, const char *farewell);
+int file_guard_terminal(const struct termios *modes, const char *farewell);
 void file_unguard(int guard);
 
 /* Kills the groups, puts terminals right, removes files. For signal handlers: it takes no

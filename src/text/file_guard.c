@@ -16,7 +16,6 @@ static struct {
     volatile sig_atomic_t kind;
     pid_t group;
     char *path;
-    int fd;
     struct termios modes;
     const char *farewell;
 } guards[GUARDS];
@@ -50,10 +49,9 @@ int file_guard_group(pid_t group) {
     return set(row, A_GROUP);
 }
 
-int file_guard_terminal(int fd, const struct termios *modes, const char *farewell) {
+int file_guard_terminal(const struct termios *modes, const char *farewell) {
     const int row = take_guard(NULL);
     if (row >= 0) {
-        guards[row].fd = fd;
         guards[row].modes = *modes;
         guards[row].farewell = farewell;
     }
@@ -66,9 +64,9 @@ void file_unguard(int number) {
 }
 
 static void restore(int i) {
-    const ssize_t sent = write(guards[i].fd, guards[i].farewell, strlen(guards[i].farewell));
+    const ssize_t sent = write(STDIN_FILENO, guards[i].farewell, strlen(guards[i].farewell));
     (void)sent; /* nobody is left to be told */
-    tcsetattr(guards[i].fd, TCSANOW, &guards[i].modes);
+    tcsetattr(STDIN_FILENO, TCSANOW, &guards[i].modes);
 }
 
 void file_emergency(void) {

@@ -686,7 +686,7 @@ static bool too_many(void) {
     file_out out;
     while (file_guard_file("x") >= 0)
         n++;
-    if (file_guard_group(1) >= 0 || file_guard_terminal(0, &(struct termios){0}, "") >= 0)
+    if (file_guard_group(1) >= 0 || file_guard_terminal(&(struct termios){0}, "") >= 0)
         return false;
     return n >= 32 && !file_out_open(&out, "one-more", NULL, fresh()) && entries() == 0;
 }

@@ -29,7 +29,7 @@ pid_t __wrap_waitpid(pid_t process, int *status, int how) {
 
 static bool draws(const plot_run *r) {
     error_clear(&error);
-    return plot_run_gnuplot(r, &(plot_target){.timeout = 60}, &error);
+    return plot_run_gnuplot(r, &(plot_target){.file = NULL}, &error);
 }
 
 static bool fake(const char *script) {
