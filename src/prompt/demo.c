@@ -72,7 +72,6 @@ typedef struct lesson {
     const script *s;
     bool keys;
     settings set; /* the user's, and the model */
-    bool automatic;
     model_id model;
     unsigned springs;
     unsigned long group; /* of what was done before, for undo */
@@ -112,7 +111,7 @@ static void run_in_lesson(lesson *l, const char *line) {
 static void begin_lesson(lesson *l) {
     l->sh->set = l->set;
     l->sh->set.report = REPORT_OFF;
-    scene_set_model(&l->sh->calc.scene, true, MODEL_CLOSED, 0);
+    scene_set_model(&l->sh->calc.scene, MODEL_AUTO, 0);
     run_in_lesson(l, "reset all");
 }
 
@@ -228,7 +227,7 @@ static bool play_lesson(lesson *l) {
         ;
     const bool ok = !ended(l);
     sh->set = l->set;
-    scene_set_model(&sh->calc.scene, l->automatic, l->model, l->springs);
+    scene_set_model(&sh->calc.scene, l->model, l->springs);
     sh->stopped |= stopped;
     sh->refused |= refused;
     sh->interactive = interactive;
@@ -286,7 +285,6 @@ static bool play(shell *sh, lexer *lx, const script *s, bool tour, target *page)
                 .s = s,
                 .keys = sh->interactive && text && isatty(STDOUT_FILENO),
                 .set = sh->set,
-                .automatic = now->automatic,
                 .model = now->model,
                 .springs = now->springs,
                 .group = sh->calc.undo.group,

@@ -317,7 +317,7 @@ bool scene_write(shell *sh, FILE *to, bool whole) {
     calc *c = &sh->calc;
     writer w = {c, to, false};
     settle(c);
-    if (whole && !c->scene.automatic)
+    if (whole && c->scene.model != MODEL_AUTO)
         setting_show(setting_find("model"), sh, to);
     write_material(&w);
     write_second(&w);

@@ -86,7 +86,7 @@ bool scene_widest(scene *s, double *radius, calc_error *error) {
 
 /* Another model than the memory diagram steps, as was asked for. */
 static bool is_springs(const scene *s) {
-    return !s->automatic && s->model == MODEL_SPRINGS && !s->now;
+    return s->model == MODEL_SPRINGS && !s->now;
 }
 
 /* At all levels that the load wants: they look at the load beside them. */
@@ -120,7 +120,7 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
         const runner *run = NULL;
         if (!load_run(s, &run, error))
             return false;
-        if (!s->automatic && s->model == MODEL_CLOSED)
+        if (s->model == MODEL_CLOSED)
             return calc_fail(error, 0, 0, "no closed form for this: set model auto");
         if (springs && !springs_state(s, error))
             return false;
@@ -137,7 +137,7 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
 
 bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
     answers *a = &s->answers;
-    if (!s->now || a->state_ready || s->now->levels > 1 || (!s->automatic && s->model == MODEL_CLOSED))
+    if (!s->now || a->state_ready || s->now->levels > 1 || s->model == MODEL_CLOSED)
         return scene_state(s, state, error);
     engine_forces(&s->now->run->engine, &a->end.state);
     s->used |= USED(MODEL_MEMORY);
@@ -145,8 +145,7 @@ bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
     return true;
 }
 
-void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs) {
-    s->automatic = automatic;
+void scene_set_model(scene *s, model_id model, unsigned springs) {
     s->model = model;
     s->springs = springs;
     scene_moved(s);
@@ -180,7 +179,7 @@ void scene_used_closed(scene *s) {
 
 static const load_reach *closed_reach(scene *s) {
     const load_reach *reach;
-    const bool allowed = (s->automatic || s->model == MODEL_CLOSED) && !s->now && s->end.steps > 0;
+    const bool allowed = (s->model == MODEL_AUTO || s->model == MODEL_CLOSED) && !s->now && s->end.steps > 0;
     const bool closed = allowed && scene_reach(s, &reach, error_quiet());
     return closed && !reach->normal_varies && !reach->rig ? reach : NULL; /* at the rig a root is sought */
 }

@@ -15,7 +15,8 @@ typedef enum model_id {
     MODEL_PIECES,
     MODEL_SPRINGS,
     MODEL_BLOCKS,
-    MODELS
+    MODELS,
+    MODEL_AUTO = MODELS /* the closed form where there is one, else the memory diagram */
 } model_id;
 
 /* What has answered: bits of scene.used. */

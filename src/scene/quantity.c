@@ -432,7 +432,7 @@ const formula *quantity_formula(const quantity *q, scene *s, bool call) {
 
 model_id quantity_model(const quantity *q, scene *s, bool call) {
     const model_id closed = scene_is_power(s) ? MODEL_CLOSED : MODEL_PIECES;
-    const model_id stepped = !s->automatic && models[s->model].steps ? s->model : MODEL_MEMORY;
+    const model_id stepped = s->model != MODEL_AUTO && models[s->model].steps ? s->model : MODEL_MEMORY;
     if (call)
         return q->by ? q->by : closed;
     if (q->closed)

@@ -43,7 +43,7 @@ static void answers_end(answers *a, bool keep) {
 
 void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *evaluate, void *context) {
     static const volatile sig_atomic_t never;
-    *s = (scene){.automatic = true, .stop = stop ? stop : &never, .evaluate = evaluate, .context = context};
+    *s = (scene){.model = MODEL_AUTO, .stop = stop ? stop : &never, .evaluate = evaluate, .context = context};
 }
 
 void scene_moved(scene *s) {
@@ -119,7 +119,7 @@ void scene_clone(scene *to, const scene *from) {
 void scene_reset(scene *s, bool all) {
     if (all) {
         scene_free(s);
-        s->automatic = true;
+        s->model = MODEL_AUTO;
         return;
     }
     scene_forget(s, false);

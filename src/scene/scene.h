@@ -93,8 +93,7 @@ struct scene {
     bool before;        /* of one for a definition: the last cycle is still to come, the amplitudes are its */
     bool early;         /* and so are steps that lead to it */
     answers answers;
-    bool automatic; /* the model: the closed form where there is one, else the memory diagram */
-    model_id model; /* else this one */
+    model_id model; /* that is to answer */
     unsigned springs;
     /* of a scratch scene: what is prepared for its shape and k, whatever the material; or NULL */
     fret_normal *like;
@@ -222,7 +221,7 @@ bool scene_cycle_loss(scene *s, long double *loss, calc_error *error);
 bool scene_closed_state(scene *s);
 bool scene_closed_loss(scene *s);
 void scene_used_closed(scene *s);
-void scene_set_model(scene *s, bool automatic, model_id model, unsigned springs);
+void scene_set_model(scene *s, model_id model, unsigned springs);
 
 /* ---- the load of the scene, for answers and changes ---- */
 

@@ -75,17 +75,16 @@ static bool set_model(shell *sh, lexer *lx, const said *all) {
     const heard *h = &all->list[0];
     model_id id = 0;
     (void)lx;
-    while (id < MODELS && strcmp(models[id].name, h->of->name) != 0)
+    while (id != MODEL_AUTO && strcmp(models[id].name, h->of->name) != 0)
         id++;
-    const bool automatic = id == MODELS;
-    scene_set_model(&sh->calc.scene, automatic, automatic ? MODEL_CLOSED : id, h->of->holes ? h->count : 0);
+    scene_set_model(&sh->calc.scene, id, h->of->holes ? h->count : 0);
     return true;
 }
 
 static void show_model(const shell *sh, FILE *to) {
     const scene *s = &sh->calc.scene;
-    fputs(s->automatic ? "auto" : models[s->model].name, to);
-    if (!s->automatic && models[s->model].count)
+    fputs(s->model == MODEL_AUTO ? "auto" : models[s->model].name, to);
+    if (s->model != MODEL_AUTO && models[s->model].count)
         fprintf(to, " %u", s->springs);
 }
 

@@ -171,7 +171,6 @@ typedef struct scened {
     bool rows;      /* instead of the sphere */
     load_step then; /* after the press */
     double phase;
-    bool automatic;
     model_id model;
     bool open; /* and lifted off at last */
 } scened;
@@ -179,20 +178,20 @@ typedef struct scened {
 #define FORCE(kind, Fx, FN)                                                                                  \
     { kind, .tangential = BY_FORCE, .tangential_value = Fx, .normal_value = FN, .points = 1 }
 static const scened scenes[] = {
-    {.what = "press", .automatic = true},
-    {.what = "step", .then = FORCE(LOAD_STEP, 20, 0), .automatic = true},
-    {.what = "cycle", .then = FORCE(LOAD_CYCLE, 20, 0), .automatic = true},
-    {.what = "sine", .then = FORCE(LOAD_CYCLE, 12, 30), .automatic = true},
+    {.what = "press", .model = MODEL_AUTO},
+    {.what = "step", .then = FORCE(LOAD_STEP, 20, 0), .model = MODEL_AUTO},
+    {.what = "cycle", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_AUTO},
+    {.what = "sine", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_AUTO},
     {.what = "chords",
      .then = {LOAD_CYCLE, .tangential = BY_DISPLACEMENT, .tangential_value = 2e-7, .normal_value = 10},
      .phase = 1,
-     .automatic = true},
+     .model = MODEL_AUTO},
     {.what = "by memory", .then = FORCE(LOAD_CYCLE, 20, 0), .model = MODEL_MEMORY},
     {.what = "by springs", .then = FORCE(LOAD_CYCLE, 12, 0), .model = MODEL_SPRINGS},
     {.what = "by springs, swinging", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_SPRINGS},
     {.what = "by closed forms", .then = FORCE(LOAD_CYCLE, 12, 30), .model = MODEL_CLOSED},
-    {.what = "rows", .rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true},
-    {.what = "rows, open", .rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true, .open = true},
+    {.what = "rows", .rows = true, .then = FORCE(LOAD_STEP, 20, 0), .model = MODEL_AUTO},
+    {.what = "rows, open", .rows = true, .then = FORCE(LOAD_STEP, 20, 0), .model = MODEL_AUTO, .open = true},
 };
 
 static bool loaded(calc *c, const load_step *step, double phase) {
@@ -211,7 +210,7 @@ static void begin(calc *c, const scened *of) {
         CHECK(assign(c, of->then.tangential_value == 20 ? "z = 20 N" : "z = 12 N") && assign(c, "FA := z"));
     else
         CHECK(assign(c, "z = 1"));
-    scene_set_model(c->now, of->automatic, of->model, 40);
+    scene_set_model(c->now, of->model, 40);
 }
 
 /* ---- trouble ------------------------------------------------------------------------------------ */
@@ -381,7 +380,7 @@ static void too_deep(void) {
                                    .points = 1};
     double before[VALUES];
     calc c;
-    begin(&c, &(scened){.rows = true, .automatic = true});
+    begin(&c, &(scened){.rows = true, .model = MODEL_AUTO});
     CHECK(again(c.now, STATE, before) && !loaded(&c, &deep, 0));
     calc_word(&c, &error);
     CHECK(strstr(error.text, "cannot be carried") && as_ever(c.now, STATE, before));
@@ -395,7 +394,7 @@ static void swings_too_far(void) {
                                     .normal_value = 8000};
     double before[VALUES];
     calc c;
-    begin(&c, &(scened){.rows = true, .automatic = true});
+    begin(&c, &(scened){.rows = true, .model = MODEL_AUTO});
     CHECK(loaded(&c, &press, 0) && again(c.now, STATE, before));
     CHECK(!loaded(&c, &cycle, 1.5));
     calc_word(&c, &error);
@@ -409,7 +408,7 @@ static void too_steep(void) {
     double one[VALUES];
     fret_pressed contact;
     calc c;
-    begin(&c, &(scened){.automatic = true});
+    begin(&c, &(scened){.model = MODEL_AUTO});
     inputs_geometry(&c.now->in, geometry_find("sum"), &sum, NULL);
     CHECK(again(c.now, CONTACT, one));
     CHECK(scene_contact(c.now, &contact, fresh()) && (c.now->used & USED(MODEL_PIECES)));
@@ -462,11 +461,11 @@ static void on_the_way(void) {
     last_look l;
     calc c;
     for (int i = 0; i < 2; i++) {
-        begin(&c, &(scened){.rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true});
+        begin(&c, &(scened){.rows = true, .then = FORCE(LOAD_STEP, 20, 0), .model = MODEL_AUTO});
         CHECK(watched(&c, &open[i], &l) && l.looks >= 6);
         CHECK(l.state.FN == 0 && l.state.Fx == 0 && l.state.a == 0 && l.state.W > 0);
         calc_free(&c);
-        begin(&c, &(scened){.rows = true, .then = FORCE(LOAD_STEP, 20, 0), .automatic = true});
+        begin(&c, &(scened){.rows = true, .then = FORCE(LOAD_STEP, 20, 0), .model = MODEL_AUTO});
         CHECK(!watched(&c, &deep[i], &l));
         calc_word(&c, &error);
         CHECK(strstr(error.text, "cannot be carried"));
@@ -539,7 +538,7 @@ int main(int argc, char **argv) {
         }
     CHECK(answered > unit_draws(80));
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
-        if (scenes[i].automatic && !scenes[i].open)
+        if (scenes[i].model == MODEL_AUTO && !scenes[i].open)
             CASE(more_loads(&scenes[i]));
     CASE(rows_of_loads(false));
     CASE(rows_of_loads(true));
