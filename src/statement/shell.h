@@ -42,10 +42,7 @@ typedef struct shell {
     bool replaying;          /* a transcript: see shell_aside */
     struct recorder *record; /* or NULL */
     file_text typed;         /* at the prompt, for `save history`; else closed */
-    bool dissimilar;         /* the bodies are, and it has been said */
-    unsigned no_half_space;  /* likewise: 1 the contact is too wide, 2 the flanks are too steep */
-    bool bulk;               /* likewise: a bulk stress */
-    unsigned yields;         /* likewise: bit 1 the first body does, 2 the second */
+    unsigned warned;         /* of what holds still, see warnings.c */
     bool widest_known;       /* the press from which on it is too wide: */
     fret_press widest;
     /* The scene as statements, handed down by who can write it: see show.h. */

@@ -6,6 +6,16 @@
 #include "scene/functions.h"
 #include "statement/shell.h"
 
+/* Bits of what has been said. */
+enum { DISSIMILAR = 1, WIDE = 2, STEEP = 4, BULK = 8, YIELDS = 16 }; /* of the second body: 32 */
+
+/* Is it to be said, as what holds and has not been said yet? */
+static bool is_news(shell *sh, unsigned what, bool holds) {
+    const bool said = sh->warned & what;
+    sh->warned = holds ? sh->warned | what : sh->warned & ~what;
+    return holds && !said;
+}
+
 /* By how many per cent friction stiffens the normal contact where nothing slips, at most: artanh(beta)/beta -
  * 1 (Spence, Proc. R. Soc. A 305, 1968), for any shape, k = 0. */
 static double stiffened(const fret_foundation *f) {
@@ -23,7 +33,7 @@ void shell_warn_dissimilar(shell *sh) {
     const fret_foundation *f = fret_normal_foundation(normal);
     const bool tangential =
         s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, error_quiet()) && reach->by);
-    if (!f->similar && !sh->dissimilar && tangential) {
+    if (is_news(sh, DISSIMILAR, !f->similar && (sh->warned & DISSIMILAR || tangential))) {
         char size[80] = "; how far off for k other than 0 is unknown";
         if (f->k == 0)
             snprintf(size, sizeof size, ", kn up to %.2g %% too small (help limits tells of dW)",
@@ -33,7 +43,6 @@ void shell_warn_dissimilar(shell *sh) {
                       "are coupled, and these results are an approximation%s",
                       (double)f->mismatch, size);
     }
-    sh->dissimilar = !f->similar && (sh->dissimilar || tangential);
 }
 
 /* Beyond these the bodies are no half-spaces, which the theory takes them for. */
@@ -81,23 +90,20 @@ static void warn_half_space(shell *sh) {
     long double slope = 0;
     if (!find_wide(s, &press, &within))
         return;
-    enum { WIDE = 1, STEEP = 2 };
     const long double R = least_radius(s, &name);
     if (inputs_take(&s->in, IN_SLOPE))
         scene_get(s, IN_SLOPE, &slope, error_quiet());
-    const bool wide = press.a > most_radius * R, steep = slope > most_slope;
-    if (wide && !(sh->no_half_space & WIDE))
+    if (is_news(sh, WIDE, press.a > most_radius * R))
         shell_warning(sh,
                       "a/%s = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
                       "an approximation",
                       name, (double)(press.a / R), within ? " within the cycle" : "");
-    if (steep && !(sh->no_half_space & STEEP))
+    if (is_news(sh, STEEP, slope > most_slope))
         shell_warning(sh,
                       "slope = %.3g: flanks steeper than 20 deg leave the half-space, and these "
                       "results are an "
                       "approximation",
                       (double)slope);
-    sh->no_half_space = (wide ? WIDE : 0u) | (steep ? STEEP : 0u);
 }
 
 /* ---- stress ------------------------------------------------------------------------------------ */
@@ -105,14 +111,14 @@ static void warn_half_space(shell *sh) {
 static void warn_bulk(shell *sh) {
     long double sB = 0;
     scene_get(&sh->calc.scene, IN_SB, &sB, error_quiet());
-    if (sB != 0 && !sh->bulk)
+    if (is_news(sh, BULK, sB != 0))
         shell_warning(sh, "a bulk stress also shifts the stick zone, which is left out: in the plane case by "
                           "a*sB/(4*mu*p0) (Nowell, Hills 1987)");
-    sh->bulk = sB != 0;
 }
 
-/* Beyond yield stress of bodies without a plastic part is none. yields: bodies that need no look. */
-static void note_yield(shell *sh, unsigned yields) {
+/* Beyond yield stress of bodies without a plastic part is none. again: bodies of which it has been said need
+ * a look. */
+static void note_yield(shell *sh, bool again) {
     scene *s = &sh->calc.scene;
     const fret_press *press;
     const unsigned used = s->used;
@@ -120,13 +126,13 @@ static void note_yield(shell *sh, unsigned yields) {
     char text[4][CALC_VALUE_TEXT];
     for (int body = 0; body < 2; body++) {
         const input in = body ? IN_YIELD_2 : IN_YIELD;
-        if (yields & 1u << body || (!s->in.set[in] && !s->in.bound[in]) ||
-            (body && s->in.second == SECOND_RIGID) || !scene_get(s, in, &yield, error_quiet()) ||
-            !scene_press(s, &press, error_quiet()) || !(press->a > 0) ||
-            !scene_hardest(s, press->a, body ? -1 : 1, at, &most) || most <= yield)
+        const unsigned yields = YIELDS << body;
+        if (!again && sh->warned & yields)
             continue;
-        yields |= 1u << body;
-        if (sh->yields & 1u << body)
+        const bool may = (s->in.set[in] || s->in.bound[in]) && !(body && s->in.second == SECOND_RIGID) &&
+                         scene_get(s, in, &yield, error_quiet()) && scene_press(s, &press, error_quiet()) &&
+                         press->a > 0;
+        if (!is_news(sh, yields, may && scene_hardest(s, press->a, body ? -1 : 1, at, &most) && most > yield))
             continue;
         calc_value_text((dim){1, -2, 0, 0}, (double)most, text[0]);
         calc_value_text((dim){1, -2, 0, 0}, (double)yield, text[1]);
@@ -136,7 +142,6 @@ static void note_yield(shell *sh, unsigned yields) {
                    "mises = %s exceeds %s = %s at x = %s, z = %s: the body yields there, which is left out",
                    text[0], quantity_of_input(in)->name, text[1], text[2], text[3]);
     }
-    sh->yields = yields;
     s->used = used;
 }
 
@@ -155,10 +160,10 @@ static void find_widest(shell *sh) {
 }
 
 void shell_pressed(shell *sh, const load_step *step) {
-    if (step->tangential && !sh->dissimilar)
+    if (step->tangential && !(sh->warned & DISSIMILAR))
         shell_warn_dissimilar(sh);
-    note_yield(sh, sh->yields);
-    if (step->normal == BY_NONE || sh->no_half_space)
+    note_yield(sh, false);
+    if (step->normal == BY_NONE || sh->warned & (WIDE | STEEP))
         return;
     if (!sh->widest_known)
         find_widest(sh);
@@ -173,12 +178,10 @@ void shell_warn(shell *sh) {
     sh->widest_known = false;
     warn_bulk(sh);
     if (!sh->calc.scene.end.steps) {
-        sh->no_half_space = 0;
-        sh->dissimilar = false;
-        sh->yields = 0;
+        sh->warned &= BULK;
         return;
     }
     shell_warn_dissimilar(sh);
     warn_half_space(sh);
-    note_yield(sh, 0);
+    note_yield(sh, true);
 }
