@@ -219,7 +219,7 @@ static bool make_model(trial *t, const heard *FA, model *m, calc_error *error) {
     if (FA) {
         fret_status st = fret_loading_by_force(&m->contact, (double)FA->v.v, &first);
         st.quantity = "FA";
-        if (!calc_status(error, &st))
+        if (!calc_status(error, st))
             return false;
         amplitude = (double)first.dx;
     }

@@ -95,10 +95,8 @@ static bool live_values(shell *sh, lexer *lx, said *s) {
         if (!h->live)
             continue;
         if (!definition_value(&sh->calc, (definition *)h->live, &h->v, lx->error) ||
-            !value_dim(lx, a->name, h->hole[0].at, h->hole[0].len, h->v, a->d))
-            return heard_place(lx->error, h);
-        fret_status st = input_status((input)(a->in - 1), (double)h->v.v);
-        if (!calc_input_status(lx->error, a->in - 1, &st))
+            !value_dim(lx, a->name, h->hole[0].at, h->hole[0].len, h->v, a->d) ||
+            !input_check((input)(a->in - 1), (double)h->v.v, lx->error))
             return heard_place(lx->error, h);
     }
     return true;

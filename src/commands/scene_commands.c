@@ -386,7 +386,7 @@ static struct fret_table *table_of(csv *data, smoothing how, smooth_answer *smoo
             return NULL;
         }
     }
-    return calc_status(error, &st) ? gap : NULL;
+    return calc_status(error, st) ? gap : NULL;
 }
 
 /* What smoothing has changed is never silent. */

@@ -423,8 +423,7 @@ bool calc_assign(calc *c, lexer *lx) {
     for (size_t i = 0; i < count && ok; i++) {
         if (!all[i].q || all[i].d || all[i].increment)
             continue;
-        fret_status st = input_status(quantity_input(all[i].q), (double)all[i].v.v);
-        ok = calc_input_status(lx->error, st.code ? (int)quantity_input(all[i].q) : -1, &st) ||
+        ok = input_check(quantity_input(all[i].q), (double)all[i].v.v, lx->error) ||
              calc_place(lx->error, all[i].value_at, all[i].value_len);
     }
     ok = ok && put_undoable(c, lx, all, count);

@@ -72,8 +72,7 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
             scene_forget(s, false);
         return true;
     }
-    fret_status st = input_status(p->in, (double)v);
-    if (!calc_input_status(error, (int)p->in, &st))
+    if (!input_check(p->in, (double)v, error))
         return false;
     scene *outer = t->c->now;
     t->c->now = s;

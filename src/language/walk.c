@@ -71,8 +71,7 @@ static bool take_scene(walk *w, const scene *s, size_t last_cycle, bool all, cal
 static bool make_run(walk *w, calc_error *error) {
     engine_end(&w->run.engine);
     w->run = (runner){.load = &w->load, .watch = watch_way(1)};
-    const fret_status st = engine_make(&w->run.engine, w->load.normal, w->load.mu);
-    return calc_status(error, &st);
+    return calc_status(error, engine_make(&w->run.engine, w->load.normal, w->load.mu));
 }
 
 /* Is there a run of this contact? A swinging load may want another one than that before it. */
@@ -108,7 +107,7 @@ bool walk_follow(walk *w, calc *c, bool *anew, calc_error *error) {
 bool walk_next(walk *w, size_t item, unsigned points, bool all, calc_error *error) {
     w->run.watch.points = points;
     w->run.watch.once = !all;
-    return run_next(&w->run, (load_mark){item, 0}) || (calc_status(error, &w->run.status), false);
+    return run_next(&w->run, (load_mark){item, 0}) || (calc_status(error, w->run.status), false);
 }
 
 void walk_more(walk *w) {

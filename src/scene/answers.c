@@ -109,7 +109,7 @@ static bool springs_state(scene *s, calc_error *error) {
     if (!st.code)
         run_sight(run, levels, &s->answers.end);
     runs_end(run, &made);
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool scene_state(scene *s, const fret_state **state, calc_error *error) {
@@ -157,17 +157,16 @@ bool scene_loading(scene *s, bool by_force, double v, fret_loading *out, calc_er
     fret_pressed contact;
     if (!scene_contact(s, &contact, error))
         return false;
-    fret_status st = (by_force ? fret_loading_by_force : fret_loading_by_displacement)(&contact, v, out);
-    return calc_status(error, &st);
+    return calc_status(error,
+                       (by_force ? fret_loading_by_force : fret_loading_by_displacement)(&contact, v, out));
 }
 
 bool scene_loss(scene *s, bool by_force, double amplitude, long double *out, calc_error *error) {
     fret_pressed contact;
     if (!scene_contact(s, &contact, error))
         return false;
-    fret_status st =
-        (by_force ? fret_cycle_loss_by_force : fret_cycle_loss_by_displacement)(&contact, amplitude, out);
-    return calc_status(error, &st);
+    return calc_status(error, (by_force ? fret_cycle_loss_by_force
+                                        : fret_cycle_loss_by_displacement)(&contact, amplitude, out));
 }
 
 void scene_used_closed(scene *s) {
@@ -234,7 +233,7 @@ bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error) 
     if (!s->answers.pressed)
         st = fret_field_of_press(normal, press, &s->answers.pressed);
     *field = s->answers.pressed;
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error) {
@@ -247,7 +246,7 @@ bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error) 
     if (!s->answers.dragged)
         st = fret_field_make(now, &s->answers.dragged);
     *field = s->answers.dragged;
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool scene_stress_field(scene *s, const fret_field **field, calc_error *error) {
@@ -270,7 +269,7 @@ bool scene_stress_field(scene *s, const fret_field **field, calc_error *error) {
         return false;
     st = fret_field_make(straight, &s->answers.straight);
     *field = s->answers.straight;
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 /* ---- running it again -------------------------------------------------------------------------- */
@@ -297,7 +296,7 @@ bool trace_begin(scene_trace *t, scene *s, watch w, bool limit, calc_error *erro
     }
     if (st.code)
         trace_end(t);
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool trace_next(scene_trace *t, calc_error *error) {
@@ -305,7 +304,7 @@ bool trace_next(scene_trace *t, calc_error *error) {
     for (unsigned i = 0; i < t->levels; i++) {
         runner *r = &t->run[i];
         there = run_next(r, t->load.end);
-        if (!calc_status(error, &r->status))
+        if (!calc_status(error, r->status))
             return false;
     }
     return there;

@@ -15,8 +15,7 @@ typedef struct peak {
 } peak;
 
 static bool not_negative(const char *name, double v, calc_error *error) {
-    const fret_status st = {v < 0 ? FRET_NEGATIVE : FRET_OK, name, v, 0};
-    return calc_status(error, &st);
+    return calc_status(error, (fret_status){v < 0 ? FRET_NEGATIVE : FRET_OK, name, v, 0});
 }
 
 /* By amplitude of force, or of displacement: then also through gross slip. */
@@ -76,7 +75,7 @@ static bool harmonic_stiffness(const peak *at, long double *out, calc_error *err
     }
     const fret_real part = b.end * fret_integral(branch_at, &b, 1e-15L).value;
     *out = -8 / (FRET_PI * p.dxA) * (part + flat);
-    return calc_status(error, &b.failed);
+    return calc_status(error, b.failed);
 }
 
 /* ---- functions --------------------------------------------------------------------------------- */

@@ -17,11 +17,8 @@ static bool all_holds(scene *s, calc_error *error) {
     fret_material material;
     double mu;
     for (input in = 0; in < INPUTS; in++)
-        if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in))) {
-            fret_status st = input_status(in, s->in.v[in]);
-            if (!calc_input_status(error, (int)in, &st))
-                return false;
-        }
+        if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in)) && !input_check(in, s->in.v[in], error))
+            return false;
     if (s->end.steps == 0) {
         if (!complete(s) ||
             (s->in.geometry ? scene_normal(s, &normal, error) : scene_material(s, false, &material, error)))

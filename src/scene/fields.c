@@ -29,8 +29,7 @@ static bool worn_depth(scene *s, long double r, long double *out, calc_error *er
     *out = 0;
     if (!scene_worn(s, &wear, error))
         return false;
-    const fret_status st = wear ? fret_wear_depth(wear, r, out) : (fret_status){.code = FRET_OK};
-    return calc_status(error, &st);
+    return calc_status(error, wear ? fret_wear_depth(wear, r, out) : (fret_status){.code = FRET_OK});
 }
 
 bool call_f(scene *s, value r, long double *out, calc_error *error) {
@@ -43,7 +42,7 @@ bool call_f(scene *s, value r, long double *out, calc_error *error) {
     if (!st.code)
         st = fret_gap_f(&gap, r.v, out);
     *out += depth;
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool call_g(scene *s, value x, long double *out, calc_error *error) {
@@ -55,9 +54,8 @@ bool call_g(scene *s, value x, long double *out, calc_error *error) {
     if (!isnan(*out))
         return true;
     const double k = (double)fret_normal_foundation(normal)->k;
-    const fret_status st =
-        fret_gap_g(fret_normal_gap(normal), k, x.v, out, NULL); /* beyond what it carries */
-    return calc_status(error, &st);
+    return calc_status(error,
+                       fret_gap_g(fret_normal_gap(normal), k, x.v, out, NULL)); /* beyond what it carries */
 }
 
 /* ---- local fields ------------------------------------------------------------------------------ */
@@ -73,7 +71,7 @@ bool field_at(scene *s, bool dragged, field_of_place *ask, long double r, long d
         s->used |= USED(MODEL_QUADRATURE);
     else
         scene_also_used(s, (scene_use){USED(MODEL_PIECES), off});
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool call_WdA(scene *s, value r, long double *out, calc_error *error) {
@@ -196,7 +194,7 @@ bool stress_at(scene *s, const value place[3], fret_stress *out, calc_error *err
     fret_status st =
         fret_field_stress(field, (double)nu, (double)place[0].v, (double)place[1].v, (double)place[2].v, out);
     out->xx += second ? 0 : (double)sB;
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 static double principal(const fret_stress *t, int which) {

@@ -217,6 +217,10 @@ fret_status input_status(input in, double v) {
     return (fret_status){code, NULL, v, 0};
 }
 
+bool input_check(input in, double v, calc_error *error) {
+    return calc_input_status(error, (int)in, input_status(in, v));
+}
+
 void inputs_unset(inputs *in, input_set set) {
     for (input i = 0; i < INPUTS; i++)
         if (set & INPUT_BIT(i)) {

@@ -126,6 +126,7 @@ bool inputs_same(const inputs *a, const inputs *b, input_set which);
 void input_range(input in, double *lo, double *hi);
 /* Is the value in the range of the input, whatever the rest? */
 fret_status input_status(input in, double v);
+bool input_check(input in, double v, calc_error *error);
 
 /* Is one of them set? */
 bool inputs_any(const inputs *in, input_set set);

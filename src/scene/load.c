@@ -34,7 +34,7 @@ bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error
     if (st.code == FRET_OUTSIDE && by == BY_RADIUS && to == fret_normal_end(normal))
         return calc_fail(error, 0, 0,
                          "the contact radius of a flat punch is b at any load: press by FN or dz");
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool scene_load_of(scene *s, load_view *out, calc_error *error) {
@@ -124,7 +124,7 @@ static bool run_up(scene *s, size_t *steps, calc_error *error) {
         s->used |= USED(MODEL_MEMORY);
     fret_status st = raise_levels(a, &load);
     if (st.code)
-        return calc_status(error, &st);
+        return calc_status(error, st);
     const runner before = a->run[0];
     const bool chords = a->chords, single = a->levels == 1 && before.at.steps + 1 == s->end.steps &&
                                             s->program->steps[before.at.steps].kind == LOAD_STEP;
@@ -138,7 +138,7 @@ static bool run_up(scene *s, size_t *steps, calc_error *error) {
     else
         runs_end(a->run, &a->levels);
     a->chords = chords;
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 static bool catch_up(scene *s, calc_error *error) {
@@ -276,5 +276,5 @@ bool scene_straight(scene *s, const fret_contact **contact, calc_error *error) {
     if (!st.code)
         st = fret_contact_chords(*chords, *contact);
     *contact = *chords;
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }

@@ -16,9 +16,8 @@ bool get_p0(scene *s, long double *out, calc_error *error) {
         return scene_get(s, IN_P0, out, error);
     if (!scene_pressed_field(s, &field, error))
         return false;
-    fret_status st = fret_field_peak(field, NULL, out);
     s->used |= USED(MODEL_QUADRATURE);
-    return calc_status(error, &st);
+    return calc_status(error, fret_field_peak(field, NULL, out));
 }
 
 bool pressed_by(scene *s, bool by_force, long double v, fret_press *out, calc_error *error) {
@@ -28,8 +27,7 @@ bool pressed_by(scene *s, bool by_force, long double v, fret_press *out, calc_er
     scene_used_closed(s);
     if (s->gaps && !by_force && v < 0)
         v = 0;
-    fret_status st = (by_force ? fret_press_by_force : fret_press_by_depth)(normal, (double)v, out);
-    return calc_status(error, &st);
+    return calc_status(error, (by_force ? fret_press_by_force : fret_press_by_depth)(normal, (double)v, out));
 }
 
 bool call_p0(scene *s, value F, long double *out, calc_error *error) {
@@ -43,7 +41,7 @@ bool call_p0(scene *s, value F, long double *out, calc_error *error) {
     if (!st.code)
         st = fret_field_peak(field, NULL, out);
     fret_field_free(field);
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool get_pmean(scene *s, long double *out, calc_error *error) {
@@ -99,8 +97,7 @@ static bool k0_contact(scene *s, fret_pressed *out, calc_error *error) {
     if (!scene_FN(s, &FN, error) || !scene_k0(s, &out->normal, error))
         return false;
     scene_used_closed(s);
-    fret_status st = fret_press_by_force(out->normal, (double)FN, &out->press);
-    return calc_status(error, &st);
+    return calc_status(error, fret_press_by_force(out->normal, (double)FN, &out->press));
 }
 
 bool twin_press(scene *s, fret_press *out, calc_error *error) {
@@ -143,8 +140,7 @@ bool foundation_of(scene *s, bool only_normal, fret_foundation *out, calc_error 
     }
     if (!scene_material(s, false, &material, error))
         return false;
-    fret_status st = fret_foundation_make(&material, out);
-    return calc_status(error, &st);
+    return calc_status(error, fret_foundation_make(&material, out));
 }
 
 bool get_kappa(scene *s, long double *out, calc_error *error) {

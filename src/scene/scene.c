@@ -199,8 +199,7 @@ static bool settle(scene *s, input in, calc_error *error) {
         return calc_fail(error, 0, 0,
                          "an amplitude that follows is known where its cycle begins, not before");
     }
-    fret_status st = input_status(in, (double)v.v);
-    if (!ok || !calc_input_status(error, (int)in, &st))
+    if (!ok || !input_check(in, (double)v.v, error))
         return false;
     s->in.v[in] = (double)v.v;
     s->in.set[in] = true;
@@ -256,7 +255,7 @@ static bool make_normal(scene *s, bool homogeneous, fret_normal **out, calc_erro
     fret_status st = fret_normal_make(&material, &gap, s->like, s->stop, out);
     if (!st.code)
         fret_normal_stop(*out, s->stop);
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool scene_unworn(scene *s, calc_error *error) {

@@ -60,7 +60,7 @@ static bool make_work(scene *s, calc_error *error) {
         st = make_level(w, &load, s->now, s->now ? run->level : w->levels, run->engine.sine);
     if (st.code)
         friction_work_end(w);
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool scene_work(scene *s, bool period, long double r, long double *out, calc_error *error) {
@@ -81,7 +81,7 @@ bool scene_work(scene *s, bool period, long double r, long double *out, calc_err
     }
     if (!st.code)
         *out = w->levels == LEVELS ? run_limit(at, &unused) : at[0];
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool scene_work_chords(const scene *s) {

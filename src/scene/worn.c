@@ -83,18 +83,10 @@ static bool same_held(const fret_wear_held *a, const fret_wear_held *b) {
            a->amplitude == b->amplitude && a->mu == b->mu && a->alpha == b->alpha;
 }
 
-/* The status of wear, or what it means. */
-static bool wear_status(const fret_status *st, calc_error *error) {
-    return st->code == FRET_SINGULAR
-               ? calc_fail(error, 0, 0,
-                           "where it slips at r = %.6g m pressure is infinite: that wears at once", st->value)
-               : calc_status(error, st);
-}
-
 /* The path of the scene, which clones share; a new one where it wears otherwise. */
-static bool find_path(scene *s, const fret_normal *normal, const fret_wear_held *held, calc_error *error) {
+static bool find_path(scene *s, const fret_wear_held *held, calc_error *error) {
     wear_path *p = s->wears;
-    if (p && same_held(&p->held, held) && fret_normal_same(p->normal, normal))
+    if (p && same_held(&p->held, held) && fret_normal_same(p->normal, s->answers.normal))
         return true;
     counted_drop(p ? &p->base : NULL);
     s->wears = p = calloc(1, sizeof *p);
@@ -109,7 +101,10 @@ static bool find_path(scene *s, const fret_normal *normal, const fret_wear_held 
         counted_drop(&p->base);
         s->wears = NULL;
     }
-    return wear_status(&st, error);
+    if (st.code == FRET_SINGULAR)
+        return calc_fail(error, 0, 0, "where it slips at r = %.6g m pressure is infinite: that wears at once",
+                         st.value);
+    return calc_status(error, st);
 }
 
 /* ---- running ----------------------------------------------------------------------------------- */
@@ -133,7 +128,7 @@ static bool make_worn(scene *s, double Nw, calc_error *error) {
     const fret_status st = fret_wear_after(p->run, Nw, pulse, s, &w->wear);
     if (st.code) {
         counted_drop(&w->base);
-        return calc_status(error, &st);
+        return calc_status(error, st);
     }
     counted_drop(p->last ? &p->last->base : NULL);
     p->last = w;
@@ -159,7 +154,7 @@ bool scene_worn(scene *s, const fret_wear **out, calc_error *error) {
     }
     if (*mine) /* runs and fields may stand on it */
         scene_forget(s, true);
-    if (!scene_unworn(s, error) || !find_path(s, s->answers.normal, &held, error) ||
+    if (!scene_unworn(s, error) || !find_path(s, &held, error) ||
         (!(s->wears->last && s->wears->last->Nw == (double)Nw) && !make_worn(s, (double)Nw, error)))
         return false;
     *mine = counted_hold(&s->wears->last->base);
@@ -200,5 +195,5 @@ bool scene_wear_limit(scene *s, fret_wear **out, calc_error *error) {
         return calc_fail(
             error, 0, 0, "nothing sticks in the end, so that wear has no limit: %s < %.6g %s has one",
             held.by_displacement ? "dxA" : "FA", (double)st.limit, held.by_displacement ? "m" : "N");
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }

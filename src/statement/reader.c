@@ -195,10 +195,8 @@ static bool in_range(lexer *lx, const heard *h) {
                calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s = %.6Lg%s%s must be positive", a->name,
                          h->v.v, *unit_text ? " " : "", unit_text);
     }
-    if (a->in) {
-        const fret_status st = input_status((input)(a->in - 1), (double)h->v.v);
-        return calc_input_status(lx->error, a->in - 1, &st) || heard_place(lx->error, h);
-    }
+    if (a->in)
+        return input_check((input)(a->in - 1), (double)h->v.v, lx->error) || heard_place(lx->error, h);
     if (a->must == CURVED && h->v.v == 0)
         return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s must not be 0", a->name);
     return true;

@@ -60,7 +60,7 @@ static bool time_of(bench *b, cycle_of *cycle, void *model, double *seconds) {
                 return false;
             st = cycle(model, NULL);
         }
-        if (!calc_status(b->error, &st))
+        if (!calc_status(b->error, st))
             return false;
         *seconds = (clock_worked() - start) / (double)count;
     }
@@ -76,7 +76,7 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
     const double start = clock_worked();
     fret_status st = cycle(model, &row->value);
     row->seconds = clock_worked() - start;
-    if (!calc_status(b->error, &st) || !time_of(b, cycle, model, &row->seconds))
+    if (!calc_status(b->error, st) || !time_of(b, cycle, model, &row->seconds))
         return false;
     row->error = fabsl(row->value / study->value - 1);
     row->below = row->error <= study->agreement;
@@ -248,7 +248,7 @@ static bool measure_model(bench *b, model_family family, unsigned size, unsigned
     *more = !st.code;
     if (springs && st.code && fret_status_category(st.code) != FRET_CAT_SYSTEM)
         return true;
-    if (!calc_status(b->error, &st))
+    if (!calc_status(b->error, st))
         return false;
     if (loop)
         m.run[0].watch = watch_way(size);
@@ -281,7 +281,7 @@ static bool steady_reference(bench *b) {
         st.quantity = "FA";
     if (!isfinite((double)study->value)) /* 0 where it failed */
         st = (fret_status){FRET_OVERFLOW, NULL, 0, 0};
-    if (!calc_status(b->error, &st))
+    if (!calc_status(b->error, st))
         return false;
     if (!(study->value > 0)) /* a general gap, and less slip than a long double tells from none */
         return calc_fail(b->error, 0, 0, "dW is 0, or so small that no model of this gap can tell it from 0");
@@ -306,7 +306,7 @@ static bool refined(bench *b, unsigned parts, long double *loss, long double *mo
     }
     if (*loss < nothing * now.U)
         *loss = 0;
-    return calc_status(b->error, &st);
+    return calc_status(b->error, st);
 }
 
 static bool straight_reference(bench *b) {
@@ -410,7 +410,7 @@ static bool choose_load(bench *b, const accuracy_load *given) {
                                     .tangential_value = out->amplitude},
                            .extra = {.times = 1}};
     b->radius = (double)b->contact.press.a;
-    return calc_status(error, &st);
+    return calc_status(error, st);
 }
 
 bool accuracy_measure(scene *s, const accuracy_load *load, accuracy_progress *progress, void *context,

@@ -165,7 +165,7 @@ static bool loop_run(residuals *r, double *out) {
     engine_end(&run.engine);
     r->d = r->loop.noisy ? DIM_NONE : DIM_FORCE;
     r->known = true;
-    if (!r->p.error->raised && !calc_status(&error, &st))
+    if (!r->p.error->raised && !calc_status(&error, st))
         points_failed(&r->p, &error);
     return !st.code && !r->p.error->raised;
 }

@@ -57,19 +57,19 @@ void calc_raise_errno(calc_error *error, int code, const char *format, ...) {
     calc_raise(error, 0, 0, "%s: %s", words, code == ENOMEM ? "out of memory" : strerror(code));
 }
 
-bool calc_input_status(calc_error *error, int input, const fret_status *status) {
-    if (!status->code)
+bool calc_input_status(calc_error *error, int input, fret_status status) {
+    if (!status.code)
         return true;
-    if (status->code == FRET_INTERRUPTED || status->code == FRET_NO_MEMORY)
+    if (status.code == FRET_INTERRUPTED || status.code == FRET_NO_MEMORY)
         error->stop = true;
     if (first(error, ERROR_STATUS)) {
-        error->status = *status;
+        error->status = status;
         error->input = input;
     }
     return false;
 }
 
-bool calc_status(calc_error *error, const fret_status *status) {
+bool calc_status(calc_error *error, fret_status status) {
     return calc_input_status(error, -1, status);
 }
 

@@ -66,8 +66,8 @@ static inline bool calc_refused(void) {
 bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error);
 
 /* True where the status is fine. */
-bool calc_status(calc_error *error, const fret_status *status);
+bool calc_status(calc_error *error, fret_status status);
 /* The same for an input of the scene, which wording.c names. */
-bool calc_input_status(calc_error *error, int input, const fret_status *status);
+bool calc_input_status(calc_error *error, int input, fret_status status);
 
 #endif

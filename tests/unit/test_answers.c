@@ -38,7 +38,7 @@ static bool ask_contact(scene *s, double v[VALUES]) {
         return false;
     if (c.press.F > 0) {
         fret_status st = fret_cycle_loss_by_force(&c, 1, &loss);
-        if (!calc_status(&error, &st))
+        if (!calc_status(&error, st))
             return false;
     }
     v[0] = (double)c.mu;

@@ -119,8 +119,8 @@ static void ranges(void) {
 static void first_errors(void) {
     static const fret_status late = {FRET_NEGATIVE, "FA", -1, 0}, fine = {FRET_OK, NULL, 0, 0};
     calc_raise(fresh(), 3, 1, "the %s", "first");
-    CHECK(!calc_missing(&error, IN_FN) && !calc_input_status(&error, IN_MU, &late));
-    CHECK(!calc_no_memory(&error) && error.stop && calc_input_status(&error, IN_MU, &fine));
+    CHECK(!calc_missing(&error, IN_FN) && !calc_input_status(&error, IN_MU, late));
+    CHECK(!calc_no_memory(&error) && error.stop && calc_input_status(&error, IN_MU, fine));
     CHECK(!calc_errno(&error, EACCES, "cannot %s", "write") && error.refused && error.stop);
     CHECK(error.kind == ERROR_WORDS && !strcmp(error.text, "the first") && error.at == 3 &&
           error.input == -1);
@@ -140,7 +140,7 @@ static void wordings(void) {
     calc c;
     calc_init(&c, NULL);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        calc_status(fresh(), &rows[i].status);
+        calc_status(fresh(), rows[i].status);
         calc_word(&c, &error);
         if (!CHECK(!strcmp(error.text, rows[i].text)))
             printf("%s\n", error.text);
