@@ -27,7 +27,7 @@ LIBS_GSL  := $(if $(filter no,$(GSL)),,-lgsl -lgslcblas) $(if $(DARWIN),-liconv)
 LIBS      := $(LIBS_GSL) $(LIBS_CORE) $(if $(filter no,$(READLINE)),,-lreadline) $(if $(filter no,$(LIVE)),,$(CURSES))
 
 # what is left out with GSL=no, and without
-BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,optimise fit residuals determined uncertainty smooth nonnegative)) \
+BACK  := $(if $(filter no,$(GSL)),$(addprefix src/study/,$(addsuffix .c,optimise fit residuals determined uncertainty smooth)) \
 	src/measured/branches.c src/commands/fit_command.c,src/commands/study_none.c)
 CORE  := $(wildcard src/number/*.c src/law/*.c src/history/*.c src/field/*.c src/wear/*.c src/arrays/*.c)
 ABOVE := text measured scene language study plot statement commands help prompt

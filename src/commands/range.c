@@ -2,7 +2,6 @@
 /* Reading ranges, and the files that they go over. Names become known; else touches nothing. */
 #include "commands/range.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -104,7 +103,10 @@ static bool evaluate_range(const sweep *s, sweep_range *out, calc_error *error) 
         return true;
     }
     if (!s->along)
-        return read_interval_or_list(&r->sh->calc, &lx, &s->var, out);
+        return read_interval_or_list(&r->sh->calc, &lx, &s->var, out) &&
+               (!s->log || (out->lo > 0 && out->hi > 0) ||
+                calc_fail(error, r->own.at, r->own.end - r->own.at,
+                          "a logarithmic sweep needs positive ends"));
     return s->what != ALONG_LOAD || read_load(r->sh, &lx, &out->step, &out->extra, out->bound);
 }
 
@@ -161,8 +163,7 @@ bool range_read_values(shell *sh, const lexer *lx, const span *values, sweep *s)
 static bool stands_elsewhere(const char *text, size_t here, const char *name) {
     const size_t len = strlen(name);
     for (const char *p = text; (p = strstr(p, name)); p += len)
-        if (p != text + here && !isalnum((unsigned char)p[len]) && p[len] != '_' &&
-            (p == text || !(isalnum((unsigned char)p[-1]) || p[-1] == '_')))
+        if (p != text + here && !lex_in_name(p[len]) && (p == text || !lex_in_name(p[-1])))
             return true;
     return false;
 }
@@ -208,9 +209,7 @@ bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *o
             return false;
         }
     }
-    return !s->log || out->positive ||
-           calc_fail(out->own.error, out->own.at, out->own.end - out->own.at,
-                     "a logarithmic sweep needs positive ends");
+    return true;
 }
 
 bool range_read_name(shell *sh, lexer *lx, said *all, size_t which, bool takes, range *out) {
@@ -225,7 +224,6 @@ bool range_read_name(shell *sh, lexer *lx, said *all, size_t which, bool takes, 
     s->var.d = ends.d;
     out->listed = ends.listed > 0;
     s->steps = out->listed ? ends.listed - 1 : 0;
-    out->positive = ends.lo > 0 && ends.hi > 0;
     return true;
 }
 

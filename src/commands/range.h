@@ -46,7 +46,6 @@ typedef struct range {
     shell *sh;
     lexer own; /* over LO .. HI, a list, or the load */
     bool listed;
-    bool positive; /* both ends */
 } range;
 
 /* LO .. HI of var, and no more; word: what stands between them instead of `..`, or NULL. */

@@ -284,11 +284,6 @@ static bool find_statement(const char *line, size_t cursor, size_t *begin, size_
     return true;
 }
 
-static bool word_byte(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           (unsigned char)c >= 0x80;
-}
-
 void complete(shell *sh, const char *line, size_t cursor, candidates *out) {
     place p = {.sh = sh, .line = line, .cursor = cursor, .out = out};
     size_t begin, quote, start = cursor;
@@ -311,7 +306,7 @@ void complete(shell *sh, const char *line, size_t cursor, candidates *out) {
     out->files = out->files && out->count == 0;
     if (out->files || out->count > 0 || quoted)
         return;
-    for (start = cursor; start > begin && word_byte(line[start - 1]);)
+    for (start = cursor; start > begin && lex_in_name(line[start - 1]);)
         start--;
     while (start < cursor && line[start] >= '0' && line[start] <= '9') /* 20N */
         start++;

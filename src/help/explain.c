@@ -256,23 +256,18 @@ static bool is_local(const quantity *q, bool call) {
     return call && q->load && (*q->argument == 'x' || *q->argument == 'r');
 }
 
-/* The value of e where the memory diagram stands, which the scene has run beside its springs. */
-static bool exact_value(const page *p, const expr *e, value *v) {
-    const answers *a = &p->sh->calc.now->answers;
-    return value_on(p, e, a->run, a->levels, v);
-}
-
 /* For programs: a part of what. */
 static void say_error(const page *p, double error, const char *of) {
     answer_number(p->out, "error", error);
     answer_string(p->out, "error of", of);
 }
 
-/* Of springs, which are an approximation. */
+/* Of springs, which are an approximation; the scene has run the memory diagram beside them. */
 static void put_difference(const page *p, const expr *e, value v) {
+    const answers *a = &p->sh->calc.now->answers;
     char text[160];
     value exact;
-    if (!exact_value(p, e, &exact))
+    if (!value_on(p, e, a->run, a->levels, &exact))
         return;
     const long double off = fabsl(v.v - exact.v);
     format_value(&p->sh->set, (value){off, v.d}, text, sizeof text);

@@ -70,8 +70,7 @@ static side *side_find(beside *b, const scene *changed, const knob_value by[], s
 static const double APART = 1e-8;
 
 static bool begin(side *s, scene_trace *t, watch w, calc_error *error) {
-    s->scene.now = NULL;
-    scene_moved(&s->scene);
+    scene_look(&s->scene, NULL);
     return trace_begin(t, &s->scene, w, true, error);
 }
 
@@ -117,8 +116,7 @@ bool beside_scene(beside *b, const scene *changed, const knob_value by[], size_t
         return false;
     }
     s->now = (instant){t->run, t->levels, &s->beside};
-    s->scene.now = &s->now;
-    scene_moved(&s->scene);
+    scene_look(&s->scene, &s->now);
     s->scene.used = 0;
     *out = &s->scene;
     return true;

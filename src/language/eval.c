@@ -297,8 +297,7 @@ static bool range_ends(machine *m, const expr_at *at, knob *name, over *o) {
 
 static bool over_times(over *o, along_what what) {
     double first, last;
-    o->t->scene.now = NULL;
-    scene_moved(&o->t->scene);
+    scene_look(&o->t->scene, NULL);
     const bool ok = trial_along_span(o->t, what, o->t->scene.end, &first, &last, o->error);
     o->lo = first;
     o->hi = last;

@@ -197,20 +197,17 @@ bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from
 }
 
 bool trial_along_next(trial_along *a, calc_error *error) {
-    scene *s = &a->t->scene;
     do {
         if (!trace_next(&a->trace, error))
             return false;
         a->now = (instant){a->trace.run, a->trace.levels, &a->beside};
     } while (a->now.run->time < a->first || a->now.run->time > a->last);
-    s->now = &a->now;
-    scene_moved(s);
+    scene_look(&a->t->scene, &a->now);
     return true;
 }
 
 void trial_along_end(trial_along *a) {
-    a->t->scene.now = NULL;
-    scene_moved(&a->t->scene);
+    scene_look(&a->t->scene, NULL);
     trace_end(&a->trace);
     beside_end(&a->beside);
 }

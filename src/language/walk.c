@@ -126,12 +126,10 @@ void walk_enter(walk *w, calc *c) {
     w->now = (instant){.run = &w->run, .levels = 1};
     w->outer = c->now;
     c->now = &w->scene;
-    w->scene.now = &w->now;
-    scene_moved(&w->scene);
+    scene_look(&w->scene, &w->now);
 }
 
 void walk_leave(walk *w, calc *c) {
     c->now = w->outer;
-    w->scene.now = NULL;
-    scene_moved(&w->scene);
+    scene_look(&w->scene, NULL);
 }

@@ -14,16 +14,13 @@ typedef struct peak {
     fret_real Fx, dx, loss; /* there; of the cycle */
 } peak;
 
-static bool not_negative(const char *name, double v, calc_error *error) {
-    return calc_status(error, (fret_status){v < 0 ? FRET_NEGATIVE : FRET_OK, name, v, 0});
-}
-
 /* By amplitude of force, or of displacement: then also through gross slip. */
 static bool peak_of(scene *s, value amplitude, peak *out, calc_error *error) {
     const bool by_force = dim_equal(amplitude.d, DIM_FORCE);
     const double v = (double)amplitude.v;
+    const fret_status sign = {v < 0 ? FRET_NEGATIVE : FRET_OK, by_force ? "FA" : "dxA", v, 0};
     fret_loading first;
-    if (!not_negative(by_force ? "FA" : "dxA", v, error) || !scene_contact(s, &out->contact, error) ||
+    if (!calc_status(error, sign) || !scene_contact(s, &out->contact, error) ||
         !scene_loss(s, by_force, v, &out->loss, error) || !scene_loading(s, by_force, v, &first, error))
         return false;
     out->dxA = (double)first.dx;

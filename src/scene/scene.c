@@ -52,6 +52,11 @@ void scene_moved(scene *s) {
     s->answers.state_ready = false;
 }
 
+void scene_look(scene *s, const instant *now) {
+    s->now = now;
+    scene_moved(s);
+}
+
 scene_use scene_answered_by(const scene *s) {
     return (scene_use){s->used, s->pieces_error};
 }

@@ -115,8 +115,10 @@ scene_use scene_answered_by(const scene *s);
 /* These have answered too. */
 void scene_also_used(scene *s, scene_use also);
 void scene_used_law(scene *s, const fret_normal *normal);
-/* Another instant: press and state are found anew. */
+/* Press and state are found anew. */
 void scene_moved(scene *s);
+/* They are those of this instant; NULL: of the end of the program. */
+void scene_look(scene *s, const instant *now);
 /* Forgets what has been computed; keep: the normal contact still stands. */
 void scene_forget(scene *s, bool keep);
 /* Are the contacts of these inputs the same? */

@@ -259,8 +259,6 @@ static bool run_curve(curve_run *st) {
         return false;
     st->range = (sweep_range){.lo = 0};
     bool ok = s->range(s, &st->range, p->error);
-    if (ok && !s->along && s->log && !(st->range.lo > 0 && st->range.hi > 0))
-        ok = calc_fail(p->error, 0, 0, "a logarithmic sweep needs positive ends");
     ok = ok && (s->along ? run_along : run_range)(st);
     for (input in = 0; in < INPUTS; in++)
         counted_drop(st->range.bound[in]);

@@ -17,6 +17,9 @@ static bool digit(char c) {
 static bool letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (unsigned char)c >= 0x80;
 }
+bool lex_in_name(char c) {
+    return letter(c) || digit(c);
+}
 static bool blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }

@@ -46,6 +46,8 @@ void lex_next(lexer *lx);
 /* Moves the cursor to byte `at` and reads the token there. */
 void lex_seek(lexer *lx, size_t at);
 bool lex_is(const lexer *lx, const char *word);
+/* Can the byte stand within a name? */
+bool lex_in_name(char c);
 /* If the cursor stands on the word, steps over it. */
 bool lex_accept(lexer *lx, const char *word);
 /* For "%.*s": the token under the cursor, as much of it as a message bears. */
