@@ -226,12 +226,13 @@ static char closing_of(char c) {
     return c == '[' ? ']' : c == '(' ? ')' : 0;
 }
 
-/* `r [mm] f [um]` parts names from their units too. */
+/* `r [mm] f [um]` parts names from their units too; `[mm] [um]` and `- [um]` are units alone. */
 static size_t unit_behind(const char *line, size_t len, size_t at, field *f) {
     size_t next = at;
     while (next < len && field_is_blank(line[next]))
         next++;
-    const char closing = next < len ? closing_of(line[next]) : 0;
+    const bool alone = no_unit(f->text, f->len) || closing_of(*f->text);
+    const char closing = next < len && !alone ? closing_of(line[next]) : 0;
     const char *end = closing ? memchr(line + next, closing, len - next) : NULL;
     if (!end)
         return at;

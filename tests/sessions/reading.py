@@ -49,6 +49,8 @@ SAME = {
     "three places behind every comma": b"r [mm];f [um];t [s]\n0;0,000;1,250\n0,5;12,500;3,750\n1;50,000;5,000\n",
     "three places behind every point": b"r [mm];f [um];t [s]\n0;0.000;1.250\n0.5;12.500;3.750\n1;50.000;5.000\n",
     "a column of thousands that is not asked for": b"r [mm];f [um];n\n0;0;1.500\n0,5;12,5;2.000\n1;50;3\n",
+    "a line of units in brackets, between blanks": b"r f\n[mm] [um]\n0 0\n0.5 12.5\n1 50\n",
+    "a line of units, one of a plain number": b"n r f\n- (mm) (um)\n1 0 0\n2 0.5 12.5\n3 1 50\n",
     "a separator named": b"sep=;\nr [mm];f [um]\n0;0\n0,5;12,5\n1;50\n",
 }
 WRONG = {
