@@ -63,13 +63,13 @@ static bool read_text(csv *c, size_t *len, calc_error *error) {
 
 /* ---- the table --------------------------------------------------------------------------------- */
 
-/* A line that is not empty. Bits: which of its fields are numbers, and which words; the last stands for all
- * that follow. */
+/* A line that is not empty. Bits: which of its fields are numbers, which words, and which numbers with marks
+ * of thousands, that are refused where they are asked for; the last stands for all that follow. */
 typedef struct table_line {
     csv_row at;
     bool comment;
     unsigned fields;
-    unsigned long long numbers, words, labels; /* labels: words of more than one letter */
+    unsigned long long numbers, words, marked, labels; /* labels: words of more than one letter */
 } table_line;
 
 typedef struct finder {
@@ -102,11 +102,12 @@ static void scan_line(const char *text, char separator, table_line *l) {
     size_t at = 0;
     cell c = {.ends = false};
     l->fields = 0;
-    l->numbers = l->words = l->labels = 0;
+    l->numbers = l->words = l->marked = l->labels = 0;
     while (!c.ends && cell_next(separator, text, l->at.len, &at, &plain_unit, &c) && c.is != COMMENT) {
         const unsigned long long bit = 1ULL << (l->fields < CSV_COLUMNS ? l->fields : CSV_COLUMNS - 1);
         l->numbers |= c.is == NUMBER ? bit : 0;
         l->words |= c.is == WORD ? bit : 0;
+        l->marked |= c.is == WORD && field_has_thousands(c.f) ? bit : 0;
         l->labels |=
             c.is == WORD && c.f.len > 1 && is_letter(c.f.text[0]) && is_letter(c.f.text[1]) ? bit : 0;
         l->fields++;
@@ -204,7 +205,7 @@ static void find_usual(finder *t) {
 
 /* Numbers, or no value, where rows have numbers. */
 static bool is_row(const finder *t, const table_line *l) {
-    return !l->comment && l->numbers & t->usual && !(l->words & t->usual);
+    return !l->comment && (l->numbers | l->marked) & t->usual && !(l->words & ~l->marked & t->usual);
 }
 
 /* ---- the header -------------------------------------------------------------------------------- */
@@ -481,7 +482,8 @@ static bool read_rows(finder *t, size_t begin, size_t header) {
         if (l->comment)
             continue;
         const unsigned long long first = t->usual & (~t->usual + 1);
-        if (!(l->words & t->usual) || (l->numbers & t->usual && !(l->labels & first))) { /* no `Mean;0.3;5` */
+        if (!(l->words & ~l->marked & t->usual) ||
+            (l->numbers & t->usual && !(l->labels & first))) { /* no `Mean;0.3;5` */
             if (!add_row(t, l))
                 return false;
             continue;

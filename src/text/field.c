@@ -64,6 +64,28 @@ bool field_is_number(field f, bool comma, const unit *u, double *out) {
     return f.len && take_number(f.text, f.len, point, u, out) == f.len;
 }
 
+static size_t digits_at(field f, size_t i) {
+    const size_t begin = i;
+    while (i < f.len && f.text[i] >= '0' && f.text[i] <= '9')
+        i++;
+    return i - begin;
+}
+
+bool field_has_thousands(field f) {
+    size_t i = f.len > 0 && (*f.text == '-' || *f.text == '+'), groups = 0;
+    const size_t first = digits_at(f, i);
+    for (i += first; first > 0 && first <= 3; groups++) {
+        size_t mark = i;
+        while (mark < f.len && mark - i < 3 &&
+               (strchr(" '.,", f.text[mark]) || (unsigned char)f.text[mark] >= 0x80))
+            mark++; /* up to three bytes of UTF-8 */
+        if (mark == i || digits_at(f, mark) != 3)
+            break;
+        i = mark + 3;
+    }
+    return groups > 0 && (i == f.len || (strchr(".,", f.text[i]) && i + 1 + digits_at(f, i + 1) == f.len));
+}
+
 bool field_is_missing(field f) {
     static const char *const words[] = {"nan",     "-nan",    "+nan",    "nan(ind)", "-nan(ind)", "1.#qnan",
                                         "-1.#ind", "na",      "n/a",     "no data",  "null",      "#div/0!",

@@ -20,6 +20,8 @@ field field_trimmed(const char *text, size_t len);
 bool field_next(char separator, const char *line, size_t len, size_t *at, field *out);
 /* All of a field, with a point or, where it cannot be a separator, with a comma. */
 bool field_is_number(field f, bool comma, const unit *u, double *out);
+/* `1 234,5`, `-1'234'567`: three digits behind each mark, which may be any but a letter. */
+bool field_has_thousands(field f);
 /* What stands where there is no value. */
 bool field_is_missing(field f);
 
