@@ -11,7 +11,7 @@
 #include "number/least.h"
 
 /* Names are turned into parts of their ranges, 0 to 1. */
-enum { N = OPTIMISE_NAMES, LINE = 16, EDGE_EVALUATIONS = 60, ROUNDS = 8, SIMPLEX_STEPS = 400 };
+enum { N = OPTIMISE_NAMES, LINE = 16, FINE = 8 * LINE, EDGE = 43, ROUNDS = 8, SIMPLEX_STEPS = 400 };
 
 /* Narrow enough for Newton's method. */
 #define NARROW 2e-3
@@ -77,11 +77,12 @@ static bool better_there(search *s, place to) {
 
 /* ---- many places at once ----------------------------------------------------------------------- */
 
-enum { PLACES = 128 };
+enum { PLACES = FINE + 1 };
 
+/* Of a grid, `side` of them along each name, those of the first beside each other. */
 typedef struct places {
     search *s;
-    size_t count;
+    size_t count, side;
     place at[PLACES];
 } places;
 
@@ -103,6 +104,39 @@ static bool at_all(places *p) {
                      &(points_run){.count = p->count, .give = give_place, .take = take_place, .context = p});
 }
 
+/* The place that is best, the first of several; with none, where they end. */
+static size_t best_of(const places *p) {
+    size_t best = p->count;
+    for (size_t i = 0; i < p->count; i++)
+        if (!isnan(p->at[i].f) && (best == p->count || p->at[i].f < p->at[best].f))
+            best = i;
+    return best;
+}
+
+/* Other than the best one: may the best of all lie about place i? None beside it is better, and one is worse
+ * by more than i is worse than the best. */
+static bool is_rival(const places *p, size_t i, size_t best) {
+    const long double f = p->at[i].f;
+    long double rise = 0;
+    for (size_t step = 1; step < p->count && best < p->count; step *= p->side) {
+        const size_t along = i / step % p->side;
+        const long double before = along > 0 ? p->at[i - step].f : f,
+                          after = along + 1 < p->side ? p->at[i + step].f : f;
+        if (before < f || after < f)
+            return false;
+        rise = fmaxl(rise, fmaxl(before, after) - f);
+    }
+    return rise > 0 && i != best && f - rise < p->at[best].f;
+}
+
+static bool has_rivals(const places *p) {
+    const size_t best = best_of(p);
+    size_t i = 0;
+    while (i < p->count && !is_rival(p, i, best))
+        i++;
+    return i < p->count;
+}
+
 /* ---- along one name ---------------------------------------------------------------------------- */
 
 /* The best place along one name, the others held; or, nested, with the best of the names after it each time:
@@ -113,7 +147,6 @@ typedef struct line {
     bool nested;
     place base, best;
     double lo, hi; /* bracket around it; lo = hi: none */
-    unsigned evaluations;
     optimise_end end;
     calc_error why; /* of END_SCENE */
 } line;
@@ -130,19 +163,13 @@ static place line_place(const line *l, double u) {
     return at;
 }
 
-static long double line_take(line *l, const place *at) {
-    l->evaluations++;
-    better(&l->best, at);
-    return at->f;
-}
-
 static const place nowhere = {.f = (long double)NAN};
 
 static bool goes_within(const line *l) {
     return l->nested && l->axis + 1 < l->s->of->count;
 }
 
-static long double line_at(line *l, double u) {
+static place line_at(line *l, double u) {
     place at = line_place(l, u);
     if (goes_within(l)) {
         line inner = {.s = l->s, .axis = l->axis + 1, .nested = true, .base = at, .best = nowhere};
@@ -150,13 +177,14 @@ static long double line_at(line *l, double u) {
     } else {
         at.f = at_parts(l->s, at.u);
     }
-    return line_take(l, &at);
+    better(&l->best, &at);
+    return at;
 }
 
 static fret_real line_value(fret_real u, fret_real *slope, void *context) {
     line *l = context;
     (void)slope;
-    return l->s->p.error->raised ? 0 : line_at(l, (double)u);
+    return l->s->p.error->raised ? 0 : line_at(l, (double)u).f;
 }
 
 /* The best place lies between: to this part of what is left on either side. */
@@ -190,9 +218,9 @@ static bool leave_end(line *l, double next) {
  */
 static bool approach_edge(line *l, double bad, double other) {
     calc_error why = l->s->why;
-    while (l->evaluations < EDGE_EVALUATIONS) { /* too few of them to come to neighbouring numbers */
+    for (int i = 0; i < EDGE; i++) { /* too few to come to neighbouring numbers */
         const double good = best_part(l), mid = bad + (good - bad) / 2;
-        const long double f = line_at(l, mid);
+        const long double f = line_at(l, mid).f;
         if (l->s->p.error->raised)
             return false;
         if (isnan(f)) {
@@ -209,34 +237,50 @@ static bool approach_edge(line *l, double bad, double other) {
     return true;
 }
 
+static bool scan_line(line *l, places *all, int parts) {
+    all->side = all->count = (size_t)parts + 1;
+    for (int i = 0; i <= parts; i++)
+        all->at[i] = line_place(l, i / (double)parts);
+    if (!goes_within(l))
+        return at_all(all);
+    for (int i = 0; i <= parts && !l->s->p.error->raised; i++)
+        all->at[i] = line_at(l, i / (double)parts);
+    return !l->s->p.error->raised;
+}
+
+/* About a place of the scan, the best so far. */
+static bool go_about(line *l, const places *all, size_t i) {
+    const place *here = &all->at[i], *before = i > 0 ? here - 1 : here,
+                *after = i + 1 < all->count ? here + 1 : here;
+    const double lo = before->u[l->axis], u = best_part(l), hi = after->u[l->axis];
+    if (isnan(before->f))
+        return approach_edge(l, lo, hi);
+    if (isnan(after->f))
+        return approach_edge(l, hi, lo);
+    if (u == lo || u == hi)
+        return leave_end(l, u == lo ? hi : lo);
+    return narrow(l, lo, hi, NARROW);
+}
+
 static bool search_line(line *l) {
-    const double apart = 1 / (double)LINE;
-    int best = -1;
-    places all = {.s = l->s, .count = LINE + 1};
-    for (int i = 0; i <= LINE; i++)
-        all.at[i] = line_place(l, i * apart);
-    if (!goes_within(l) && !at_all(&all))
+    places all = {.s = l->s};
+    const line begin = *l;
+    line found = begin;
+    if (!scan_line(l, &all, LINE) || (!l->nested && has_rivals(&all) && !scan_line(l, &all, FINE)))
         return false;
-    for (int i = 0; i <= LINE; i++) {
-        if (goes_within(l))
-            all.at[i].f = line_at(l, i * apart);
-        else
-            line_take(l, &all.at[i]);
-        if (l->s->p.error->raised)
+    const size_t best = best_of(&all);
+    for (size_t i = 0; i < all.count; i++) {
+        line one = begin;
+        one.best = all.at[i];
+        if (i != best && (l->nested || !is_rival(&all, i, best)))
+            continue;
+        if (!go_about(&one, &all, i))
             return false;
-        if (!isnan(all.at[i].f) && best_part(l) == i * apart)
-            best = i;
+        if (!(one.best.f >= found.best.f))
+            found = one;
     }
-    if (best < 0)
-        return true;
-    const double u = best_part(l), before = (best - 1) * apart, after = (best + 1) * apart;
-    if (best > 0 && isnan(all.at[best - 1].f))
-        return approach_edge(l, before, best < LINE ? after : u);
-    if (best < LINE && isnan(all.at[best + 1].f))
-        return approach_edge(l, after, best ? before : u);
-    if (best == 0 || best == LINE)
-        return leave_end(l, best ? before : after);
-    return narrow(l, before, after, NARROW);
+    *l = found;
+    return true;
 }
 
 static bool search_one(search *s, line *l, optimise_end *end) {
@@ -300,7 +344,7 @@ static bool simplex(search *s, size_t free, double step, double size) {
 
 static bool search_grid(search *s) {
     const size_t count = s->of->count, side = count == 2 ? 7 : 5;
-    places all = {.s = s, .count = 1};
+    places all = {.s = s, .count = 1, .side = side};
     for (size_t i = 0; i < count; i++)
         all.count *= side;
     for (size_t p = 0; p < all.count; p++)
@@ -308,8 +352,17 @@ static bool search_grid(search *s) {
             all.at[p].u[i] = (double)(rest % side) / (double)(side - 1);
     if (!at_all(&all))
         return false;
-    for (size_t p = 0; p < all.count; p++)
-        better(&s->best, &all.at[p]);
+    const size_t best = best_of(&all);
+    place found = nowhere;
+    for (size_t p = 0; p < all.count; p++) {
+        if (p != best && !is_rival(&all, p, best))
+            continue;
+        s->best = all.at[p];
+        if (!simplex(s, count, 0.15, 1e-4))
+            return false;
+        better(&found, &s->best);
+    }
+    s->best = found;
     return true;
 }
 
@@ -337,8 +390,6 @@ static bool search_several(search *s, optimise_end end[N]) {
         return false;
     if (isnan(s->best.f))
         return true;
-    if (!simplex(s, s->of->count, 0.15, 1e-4))
-        return false;
     const size_t before = s->of->count, free = fix_ends(s, end);
     return !free || s->p.error->raised || free == before || simplex(s, free, 0.02, 1e-4);
 }

@@ -35,8 +35,9 @@ typedef struct optimise_answer {
     unsigned evaluations;
 } optimise_answer;
 
-/* Errors: no value anywhere; a value that is the same everywhere. Of several optima the best that the grid
- * sees: 17 places, 7 times 7, or 5 times 5 times 5. */
+/* Errors: no value anywhere; a value that is the same everywhere. The search goes on about each place of the
+ * grid that is better than those beside it and may lead to the best: of 17 places, or, where there are
+ * several such, of 129; of 7 times 7, or 5 times 5 times 5. */
 bool optimise(const optimise_question *question, optimise_answer *out, calc_error *error);
 
 #endif

@@ -65,6 +65,11 @@ OPTIMA = (
     ("minimize sqrt(abs(x - 7.5)) + 3 over x = 0 .. 16", 3, {"x": 7.5}),
     ("minimize (x - 7)^2*(x - 8)^2 over x = 0 .. 16", 0, {}), ("minimize max(0.1, abs(x - 0.5)) over x = 0 .. 1", 0.1, {}),
     ("minimize max(3, abs(x - 7.5)) over x = 0 .. 16", 3, {}),
+    # several places of the grid are better than those beside them
+    ("minimize cos(6*x) + 0.05*(x - 1)^2 over x = -3 .. 3", -0.9886835284767844, {"x": 0.5249184603170129}),
+    ("minimize cos(60*x) + 0.05*(x - 1)^2 over x = -3 .. 3", -0.9999986675563383, {"x": 0.9948378170307393}),
+    ("maximize cos(3*x)*cos(2*y) - 0.05*((x - 0.1)^2 + (y - 0.2)^2) over x = -1.95 .. 1.5, y = -1.5 .. 2.1",
+     0.9975542756343451, {"x": 0.001098954794806794, "y": 0.004878150144751366}),
     # close to an end
     ("minimize x + 1e-17/x over x = 0 .. 1", 2 * math.sqrt(1e-17), {"x": math.sqrt(1e-17)}),
     ("minimize (x - 7e-5)^2 + (y - 0.5)^2 over x = 0 .. 1, y = 0 .. 1", 0, {"x": 7e-5, "y": 0.5}),
