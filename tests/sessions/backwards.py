@@ -65,6 +65,10 @@ OPTIMA = (
     ("minimize sqrt(abs(x - 7.5)) + 3 over x = 0 .. 16", 3, {"x": 7.5}),
     ("minimize (x - 7)^2*(x - 8)^2 over x = 0 .. 16", 0, {}), ("minimize max(0.1, abs(x - 0.5)) over x = 0 .. 1", 0.1, {}),
     ("minimize max(3, abs(x - 7.5)) over x = 0 .. 16", 3, {}),
+    # a kink that lies evenly between no places
+    ("maximize -abs(x - 1.887186190787368) over x = 0.017359102229627776 .. 3.2916265746644138", 0, {"x": 1.887186190787368}),
+    ("minimize abs(x - 0.556692153727782) over x = 0.05874483491451005 .. 2.378731274184922", 0, {"x": 0.556692153727782}),
+    ("maximize -abs(4.438321363549356*(x - 1.8665948314259628)) over x = -1.1233740356335473 .. 4.704637117787868", 0, {"x": 1.8665948314259628}),
     # several places of the grid are better than those beside them
     ("minimize cos(6*x) + 0.05*(x - 1)^2 over x = -3 .. 3", -0.9886835284767844, {"x": 0.5249184603170129}),
     ("minimize cos(60*x) + 0.05*(x - 1)^2 over x = -3 .. 3", -0.9999986675563383, {"x": 0.9948378170307393}),
