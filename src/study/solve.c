@@ -11,8 +11,8 @@
 #include "number/least.h"
 #include "number/root.h"
 
-/* Intervals of the scan, and of the one where sides that jump or swing want more of them; halvings to an edge
- * of what the scene allows; evaluations of the method, where a root of high order would take many more. */
+/* Intervals of the scan, and of the finer one; halvings to an edge of what the scene allows; evaluations of
+ * the method, where a root of high order would take many more. */
 enum { SCAN = 24, FINE = 8 * SCAN, EDGE = 60, METHOD = 100, ROOTS = 48, LISTED = 12 };
 
 typedef struct place {
@@ -405,7 +405,8 @@ static bool several(search *s, calc_error *error) {
 static bool answer_root(search *s, solve_answer *out, calc_error *error) {
     if (!choose_range(s, error))
         return false;
-    for (unsigned places = SCAN; places <= FINE && (places == SCAN || out->jumps || s->pole || s->swings);
+    for (unsigned places = SCAN;
+         places <= FINE && (places == SCAN || !s->roots || out->jumps || s->pole || s->swings || s->touches);
          places += FINE - SCAN)
         if (!look_for_roots(s, places) || !sift(s, out, error))
             return false;

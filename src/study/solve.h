@@ -23,9 +23,10 @@ typedef struct solve_answer {
 
 /* Without a range: the range of an input that has two ends, else three decades on either side of the present
  * value. Between places where the sides come nearest without passing they may still meet, or a pole may hide
- * that they do: looked for by the golden section. Where they jump the scan is repeated, finer. Errors:
- * no root, with the place that comes closest and the edge of what the scene allows; several roots; a jump
- * instead of a root. The answer is good to the last digits that the expressions carry.
+ * that they do: looked for by the golden section. Where they jump, swing or touch, and before it is said that
+ * there is no root, the scan is repeated, finer. Errors: no root, with the place that comes closest and the
+ * edge of what the scene allows; several roots; a jump instead of a root. The answer is good to the last
+ * digits that the expressions carry.
  */
 bool solve(const solve_question *question, solve_answer *out, calc_error *error);
 
