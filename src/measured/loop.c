@@ -104,9 +104,9 @@ static double flank(const measured *m, size_t from, size_t to, double *error) {
 
 static loop_cycle measure(const measured *m, size_t a, size_t b, size_t c) {
     const double *x = m->x, *F = m->F;
+    const size_t left = m->rows - 1 - c, after = (c - b) / 4 < left ? (c - b) / 4 : left;
     const double xb = turning_level(x, b, (a + 3 * b) / 4, (3 * b + c) / 4, m->noise_x, true),
-                 xc = turning_level(x, c, (b + 3 * c) / 4, c + 1 < m->rows ? c + (c - b) / 4 : c, m->noise_x,
-                                    true),
+                 xc = turning_level(x, c, (b + 3 * c) / 4, c + after, m->noise_x, true),
                  Fb = turning_level(F, b, (a + b) / 2, b, m->noise_F, false),
                  Fc = turning_level(F, c, (b + c) / 2, c, m->noise_F, false);
     double error[2];

@@ -39,7 +39,8 @@ static double threshold(const double *v, size_t n, double noise) {
         hi = fmax(hi, v[i]);
         step = v[i] != v[i - 1] ? fmin(step, fabs(v[i] - v[i - 1])) : step;
     }
-    return fmin(0.1 * (hi - lo), fmax(8 * noise, 2.5 * step));
+    const double range = hi - lo;
+    return fmax(fmin(0.25 * range, 8 * noise), fmin(0.1 * range, 2.5 * step));
 }
 
 size_t turning_points(const double *v, size_t n, double noise, size_t *at) {

@@ -9,9 +9,9 @@
  * 0.6745 s (2k over k)^(1/2) where there is but noise, and what else is in v shows least in one of them. */
 bool turning_noise(const double *v, size_t n, double *noise, calc_error *error);
 
-/* The rows where v turns: each the farthest before v has come back by more than 8 times its noise and some of
- * its smallest steps, but at most a tenth of its range. The first row and the last are none. `at` has room
- * for n. Returns how many. */
+/* The rows where v turns: each the farthest before v has come back by more than 8 times its noise, or a
+ * quarter of its range, and some of its smallest steps, or a tenth of that. The first row and the last are
+ * none. `at` has room for n. Returns how many. */
 size_t turning_points(const double *v, size_t n, double noise, size_t *at);
 
 /* The rows from..to about a turning row within 6 times the noise of it, where they are five or more: else

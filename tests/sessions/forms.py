@@ -229,6 +229,17 @@ def noisy(tests):
         tests.check("loop of noise, %d" % seed, ok, "%s %s %s" % (done.stderr, got, event))
 
 
+def much_noise(tests):
+    """A twentieth of the amplitude, and the last turning point just before the end: no row beyond it is read."""
+    M, s = 400, 0.05
+    for seed in range(6):
+        dice = random.Random(seed)
+        rows = [(math.sin(2 * math.pi * i / M) + dice.gauss(0, s), 30 * math.sin(2 * math.pi * i / M + 0.3) + dice.gauss(0, 0.1))
+                for i in range(750 + seed)]
+        got, done = table(tests, "loop " + write(tests, "much.csv", rows))
+        tests.check("loop of much noise, %d" % seed, len(got) == 1 and abs(got[0]["dxA"] * 1e6 - 1) < 3 * s, tests.report(done) + str(got))
+
+
 def where_cycles_begin(tests):
     """At a turning point, in the midst, with or without the way there; what does not close is told."""
     M = 60
@@ -288,4 +299,4 @@ def many_rows(tests):
 
 
 def run(tests):
-    tests.each([lambda room=room: room(tests) for room in (forms, words, polygons, sampled, noisy, where_cycles_begin, rows_compared, many_rows)])
+    tests.each([lambda room=room: room(tests) for room in (forms, words, polygons, sampled, noisy, much_noise, where_cycles_begin, rows_compared, many_rows)])
