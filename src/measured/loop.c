@@ -47,13 +47,20 @@ static void add_ends(measured *m) {
 
 /* ---- one cycle --------------------------------------------------------------------------------- */
 
-/* The polygon, about its first corner. */
-static double area(const measured *m, size_t from, size_t to) {
-    const long double x0 = m->x[from], F0 = m->F[from];
-    long double sum = 0;
-    for (size_t i = from; i < to; i++)
-        sum += (m->F[i] - F0 + (m->F[i + 1] - F0)) / 2 * ((long double)m->x[i + 1] - m->x[i]);
-    return (double)(sum + (m->F[to] - F0) / 2 * (x0 - m->x[to]));
+/* The polygon of a cycle about its first corner, less what drifts evenly over its rows: the chord that closes
+ * it is where the force is largest, and would take that for slip. */
+static double area(const measured *m, const loop_cycle *c, double drift_x, double drift_F) {
+    const long double rows = (long double)(c->last - c->first);
+    long double sum = 0, x0 = 0, F0 = 0;
+    for (size_t i = c->first; i < c->last; i++) {
+        const long double gone = (long double)(i + 1 - c->first) / rows,
+                          x = m->x[i + 1] - (long double)m->x[c->first] - gone * drift_x,
+                          F = m->F[i + 1] - (long double)m->F[c->first] - gone * drift_F;
+        sum += (F + F0) / 2 * (x - x0);
+        x0 = x;
+        F0 = F;
+    }
+    return (double)(sum - F0 / 2 * x0);
 }
 
 /* Rows from `from` on while v is within a part of its way to `to`; two at least. */
@@ -112,13 +119,11 @@ static loop_cycle measure(const measured *m, size_t a, size_t b, size_t c) {
     double error[2];
     loop_cycle out = {.first = a,
                       .last = c,
-                      .dW = area(m, a, c),
                       .dxA = fabs(xc - xb) / 2,
                       .FA = fabs(Fc - Fb) / 2,
                       .dx0 = (xb + xc) / 2,
                       .Fx0 = (Fb + Fc) / 2};
     out.secant = out.FA / out.dxA;
-    out.ratio = out.dW / (4 * out.FA * out.dxA);
     out.unloading = (unloading(m, a, b) + unloading(m, b, c)) / 2;
     out.flank = (flank(m, a, b, &error[0]) + flank(m, b, c, &error[1])) / 2 / out.unloading;
     out.slides = out.flank < 0.05 + hypot(error[0], error[1]) / out.unloading; /* 2 errors of the mean */
@@ -139,9 +144,21 @@ static bool measure_all(measured *m, loop_answer *out, calc_error *error) {
     for (size_t i = 0; i < cycles; i++)
         out->cycle[i] = measure(m, m->turn[2 * i], m->turn[2 * i + 1], m->turn[2 * i + 2]);
     const loop_cycle *first = out->cycle, *last = first + cycles - 1;
-    const size_t begin = m->turn[0], end = m->turn[2];
-    out->drift_dx = cycles > 1 ? (last->dx0 - first->dx0) / (double)(cycles - 1) : m->x[end] - m->x[begin];
-    out->drift_Fx = cycles > 1 ? (last->Fx0 - first->Fx0) / (double)(cycles - 1) : m->F[end] - m->F[begin];
+    double drift[2] = {0}; /* where it is above two standard errors */
+    if (cycles > 1) {
+        const double between = (double)(cycles - 1);
+        out->drift_dx = (last->dx0 - first->dx0) / between;
+        out->drift_Fx = (last->Fx0 - first->Fx0) / between;
+        drift[0] = fabs(out->drift_dx) > 2 * m->noise_x / between ? out->drift_dx : 0;
+        drift[1] = fabs(out->drift_Fx) > 2 * m->noise_F / between ? out->drift_Fx : 0;
+    } else { /* whether it goes on is not known */
+        out->drift_dx = m->x[last->last] - m->x[last->first];
+        out->drift_Fx = m->F[last->last] - m->F[last->first];
+    }
+    for (loop_cycle *c = out->cycle; c <= last; c++) {
+        c->dW = area(m, c, drift[0], drift[1]);
+        c->ratio = c->dW / (4 * c->FA * c->dxA);
+    }
     return true;
 }
 

@@ -9,7 +9,8 @@
  * the last two turning points, where noise has been averaged (turning_level). */
 typedef struct loop_cycle {
     size_t first, last; /* rows that it begins and ends with; last < first: around the end of the file */
-    double dW; /* area of the polygon of its rows, closed: of M rows to a cycle (2pi/M)^2/6 too small [J] */
+    double dW; /* area of the polygon of its rows, closed, of several cycles less their drift: of M rows to a
+                  cycle (2pi/M)^2/6 too small [J] */
     double dxA, FA;   /* amplitudes [m, N] */
     double dx0, Fx0;  /* centre */
     double secant;    /* FA/dxA [N/m] */

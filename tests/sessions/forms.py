@@ -196,6 +196,19 @@ def sampled(tests):
             for r in rows), "%s %s %s" % (tests.report(done), (dW, dx, Ksec, kt), rows))
 
 
+def drifting(tests):
+    """What drifts takes nothing from dW, and adds nothing: neither of the two readings, from whichever turning point on."""
+    for begins, turned in ((1, ""), (-1, "-")):
+        for drift in (0.0, 0.0), (6.0, 0.0), (0.0, 0.2), (-4.0, 0.3):
+            path = os.path.join(tests.dir, "drifting.csv")
+            done = tests.run("--format=json", "-c", SCENE + "cycle FA=10 N times 4; dW; table %sdx + %g nm*time, %sFx + %g N*time along program "
+                             "steps 2000 to %s" % (turned, drift[0], turned, drift[1], path))
+            dW = harness.printed_values(done.stdout)[0]
+            rows, done = table(tests, "loop " + path)
+            tests.check("loop that drifts %g nm, %g N a cycle, begins %+d" % (*drift, begins), len(rows) == 4 and
+                        all(near(r["dW"], dW, 0.003) for r in rows), "%s %g %s" % (tests.report(done), dW, rows))
+
+
 def loop_of(phase, slip=0.6, K=40.0, F=30.0):
     """F_x at a phase of a loop of a spring and a slider: d_x = A cos(phase), A in um."""
     A = F / K * (1 + slip)
@@ -299,4 +312,4 @@ def many_rows(tests):
 
 
 def run(tests):
-    tests.each([lambda room=room: room(tests) for room in (forms, words, polygons, sampled, noisy, much_noise, where_cycles_begin, rows_compared, many_rows)])
+    tests.each([lambda room=room: room(tests) for room in (forms, words, polygons, sampled, drifting, noisy, much_noise, where_cycles_begin, rows_compared, many_rows)])
