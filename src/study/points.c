@@ -30,6 +30,9 @@ bool knob_present(calc *c, const knob *k, double *v) {
 
 bool knob_lacks(const calc *c, const knob *k, const char *what_for, const char *advice, calc_error *error) {
     const definition *d = k->is_input ? NULL : (const definition *)c->names.row[k->name].definition;
+    long double none;
+    if (k->is_input && !*advice) /* the scene tells what makes it one */
+        return scene_get(c->now, k->in, &none, error);
     if (!d)
         return calc_fail(error, 0, 0, "%s has no value%s%s", k->text, what_for, advice);
     if (d->parameters)

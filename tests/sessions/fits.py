@@ -615,7 +615,7 @@ def refusals(tests):
             ("s = 1; fit s for F = s*h to {hF}", "h is an input that this scene does not take, and a column of the file: rename the column\n"),
             (scene + "s = 1; fit s for s*h = F to {hF}", "h is an input that this scene does not take, and a column of the file: rename the column\n"),
             ("s = 1; fit s for 3 = 4 to {exact}", "no column of"),
-            ("fit FN for y = u to {exact}", "FN has no value to start from"),
+            ("fit FN for y = u to {exact}", "there is no load yet: press first (press FN=100 N)"),
             ("s := 3; fit s for y = s to {exact}", "s has no value of its own to start from (it follows s := 3)"),
             ("s = 1; fit s, s for y = s to {exact}", "s is given twice"),
             ("s = 1; fit s for y to {exact}", "expected = EXPR"), ("s = 1; fit s for y = s {exact}", "expected to FILE.csv"),
