@@ -133,11 +133,11 @@ static void word_missing(const calc *c, calc_error *error) {
         snprintf(text, size, "alpha_w is not set: give a wear law first (wear alpha=1e4 um^3/J)");
     else if (INPUT_BIT(in) & INPUT_STRESS)
         snprintf(text, size, "%s is not set (%s = 500 MPa)", name, name);
+    else if (INPUT_BIT(in) & INPUT_CYCLE && c->now->end.cycles)
+        snprintf(text, size, "%s is no amplitude of the last cycle, which was given by %s", name,
+                 quantity_of_input(cycle_input(cycle_by(&c->now->in)))->name);
     else if (INPUT_BIT(in) & INPUT_CYCLE)
-        snprintf(text, size,
-                 c->now->end.cycles ? "%s is no amplitude of the last cycle"
-                                    : "%s: no cycle has been run yet (cycle FA=...)",
-                 name);
+        snprintf(text, size, "%s: no cycle has been run yet (cycle FA=...)", name);
     else if (!g)
         snprintf(text, size, "%s is not set: give the geometry first (geometry sphere R=10 mm)", name);
     else if (geometry_takes(g, in))

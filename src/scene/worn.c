@@ -102,8 +102,9 @@ static bool find_path(scene *s, const fret_wear_held *held, calc_error *error) {
         s->wears = NULL;
     }
     if (st.code == FRET_SINGULAR)
-        return calc_fail(error, 0, 0, "where it slips at r = %.6g m pressure is infinite: that wears at once",
-                         st.value);
+        return calc_fail(error, 0, 0,
+                         "where it slips at r = %.6g um pressure is infinite: that wears at once",
+                         1e6 * st.value);
     return calc_status(error, st);
 }
 
@@ -194,6 +195,7 @@ bool scene_wear_limit(scene *s, fret_wear **out, calc_error *error) {
     if (st.code == FRET_GROSS_SLIP)
         return calc_fail(
             error, 0, 0, "nothing sticks in the end, so that wear has no limit: %s < %.6g %s has one",
-            held.by_displacement ? "dxA" : "FA", (double)st.limit, held.by_displacement ? "m" : "N");
+            held.by_displacement ? "dxA" : "FA", (double)st.limit * (held.by_displacement ? 1e6 : 1),
+            held.by_displacement ? "um" : "N");
     return calc_status(error, st);
 }
