@@ -226,6 +226,8 @@ static bool play_lesson(lesson *l) {
     for (size_t i = 0; l->s->line[i] && play_step(l, &i);)
         ;
     const bool ok = !ended(l);
+    if (shell_stop && !sh->stopped)
+        calc_interrupted(l->error);
     sh->set = l->set;
     scene_set_model(&sh->calc.scene, l->model, l->springs);
     sh->stopped |= stopped;
@@ -290,9 +292,9 @@ static bool play(shell *sh, lexer *lx, const script *s, bool tour, target *page)
                 .group = sh->calc.undo.group,
                 .error = lx->error};
     if (page->to)
-        return write_lesson(&l, page->to) || (shell_stop && calc_interrupted(lx->error));
+        return write_lesson(&l, page->to);
     if (!play_lesson(&l))
-        return shell_stop ? calc_interrupted(lx->error) : false;
+        return false;
     if (text && l.before && shell_aside(sh, sh->out))
         fputs("The scene is the lesson's now: go on with it. `undo` brings back yours.\n", sh->out);
     if (tour) {

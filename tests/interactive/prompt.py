@@ -192,6 +192,13 @@ def exercises(tests):
                 "guess: 94 % too large" in text and "guess: 68 % too large" in text and "ask " not in text.partition("\n")[2] and
                 "Next: demo sliding, Gross slip" in text and text.rfind("dx(36 N)/dx(18 N) = 2.38675") > text.rfind("guess:"), text)
     tests.check("the lesson's scene", s.say("Fx; undo; FN, Fx") == "Fx = 20 N\nFN = 100 N\nFx = 0 N", clean(s.child.before))
+    s.child.sendline("demo sticking")
+    s.child.expect(ASKS)
+    s.child.send(" ")
+    s.child.expect("guess> ")
+    s.child.send("\x03")
+    answer = s.prompt()
+    tests.check("a question of a lesson is left by Ctrl-C", answer.count("interrupted") == 1 and s.say("FN") == "FN = 100 N", answer)
     s.child.sendline("quit")
     tests.check("guesses leave", s.end() == 0)
 
