@@ -118,6 +118,7 @@ static bool read_exercise(exercise *x, lexer *lx, said *all) {
 
 /* Beside the session: no transcript has them, and a copy of a terminal may. */
 #define SAYS "guess: "
+#define NUMBER_WANTED "the number of a choice is wanted"
 
 static void say(const char *text) {
     fputs(SAYS, stdout);
@@ -152,11 +153,10 @@ static bool read_guess(exercise *x, const char *line, long double *guess) {
     error_clear(error);
     lex_start(&lx, line, strlen(line), error);
     const bool ok = !error->raised && expr_value(&x->sh->calc, &lx, &v) && !stray_unit(&lx) && at_end(&lx) &&
-                    value_dim(&lx, x->choices ? "the guess" : x->column.name, 0, strlen(line), v,
-                              x->choices ? DIM_NONE : x->value.d);
+                    value_dim(&lx, x->choices ? "" : x->column.name, 0, strlen(line), v, x->value.d);
     if (!ok) {
         calc_word(&x->sh->calc, error);
-        say(error->text);
+        say(x->choices ? NUMBER_WANTED : error->text);
     }
     *guess = ok ? v.v : 0;
     return ok;
@@ -188,7 +188,7 @@ static bool take_guess(exercise *x, const char *line) {
     else if (guess >= 1 && guess <= x->choices && guess == floorl(guess))
         say("no");
     else
-        say("the number of a choice is wanted");
+        say(NUMBER_WANTED);
     return true;
 }
 

@@ -159,7 +159,8 @@ def exercises(tests):
     begin = clean(s.child.before)
     tests.check("a choice", begin.endswith("Where?\n    1  inside\n    2  at the rim\nguess: a number, or Enter for the answer\n"), begin)
     for line, want in (("1", "guess: no"), ("?", "guess: there is no hint"), ("1.5", "guess: the number of a choice is wanted"),
-                       ("3", "guess: the number of a choice is wanted"), ("1 N", "guess: the guess is a number"),
+                       ("3", "guess: the number of a choice is wanted"), ("1 N", "guess: the number of a choice is wanted"),
+                       ("inside", "guess: the number of a choice is wanted"),
                        ("2", "guess: right\nanswer: 2, at the rim")):
         said = guess(s, line)
         tests.check("a choice of " + line, said.startswith(want), said)
