@@ -704,10 +704,20 @@ static bool half_named(lexer *lx, const said *s) {
              add_usage(lx->error, s->by));
 }
 
+/* `to my loop.png` */
+static bool parts_file(lexer *lx, const said *s) {
+    const heard *h = s->count ? s->list + s->count - 1 : NULL;
+    const hole_row *row = h ? first_hole(h->of) : NULL;
+    return row && row->kind == HOLE_FILE && (lx->kind == T_NAME || lx->kind == T_NUMBER) &&
+           lx->text[h->hole[0].at] != '"' &&
+           !lex_fail(lx, "unexpected '%.*s': a file whose name has blanks goes into quotation marks",
+                     LEX_WORD(lx));
+}
+
 bool said_end(lexer *lx, const said *s) {
     if (lx->kind == T_COMMA)
         return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", s->by->command);
-    if (misspelt(lx, s) || half_named(lx, s))
+    if (misspelt(lx, s) || half_named(lx, s) || parts_file(lx, s))
         return false;
     return at_end(lx) || (lx->kind != T_END && !s->count && *s->by->takes && add_usage(lx->error, s->by));
 }
