@@ -135,7 +135,7 @@ static void add_clauses(place *p, const lexer *lx, const said *s, bool first) {
         if (!*a->name && first) {
             add_hole(p, a, 0);
             awaited = a->optional ? awaited : a;
-        } else if (*a->name && (a->argument || !awaited || (a->group && a->group == awaited->group)) &&
+        } else if (*a->name && (!awaited || (a->group && a->group == awaited->group)) &&
                    said_may_come(&quiet, s, a)) {
             add_word(p, a->name, a->argument ? "=" : "");
         }
@@ -261,6 +261,8 @@ static void complete_at(place *p, size_t begin, size_t start) {
     const grammar *row = c ? command_form(c) : s.by;
     do { /* figures stand side by side */
         if (c)
+            lex_next(&lx);
+        if (c && lex_is(&lx, "map")) /* an expression follows */
             lex_next(&lx);
         error_clear(&error);
         said_read_some(p->sh, &lx, row, &s);

@@ -63,12 +63,12 @@ OFFERED = (
     ("plot accuracy ", "FA= dxA= within", "against"), ("table a for k = 0 .. 1 ", "for along with", "press"), ("record ", "gap1.csv", "off"),
     ("solve FN for a = 2 ", "um from", "N"), ("step Fx=3 ", "N steps dz=", "um"), ("cycle FA=2 N times 3 ", "steps FNA=", "um"),
     ("help set ", "format press", None), ("set plot terminal ", "dumb block", "slide"), ("plot a log ", "x xy", "z"),
-    ("export jenkins 3 ", "to FA=", "um"), ("k = 0.5, c0 = 1 ", "mm um", "N"), ("table dW along cycle FA=2 ", "N times log", "um"),
+    ("export jenkins 3 ", "to FA=", "um"), ("plot map ", "breadth dWd(", "against"), ("plot loop | map breadth ", "for in", "breadth"), ("k = 0.5, c0 = 1 ", "mm um", "N"), ("table dW along cycle FA=2 ", "N times log", "um"),
     ("fit mu ", "for along to", "steps"), ("fit mu for ", "a breadth", "FN="),
     ("fit mu along gap", "gap1.csv gap2.csv", None), ("fit mu for breadth = 2*a to gap", "gap1.csv gap2.csv", None),
 )
 # typed, and nothing goes on there
-ENDED = ("undo 3 ", "friction 0.4", "friction 0.4 ", "nu = 0.3", "nu = 0.3 ", "set digits 3", "geometry file gap1.csv smooth ", "undo ", "reset all ", "x over ", "friction 0.4 zebr", "2 \u00b5", "# FN", "set digits 3 f")
+ENDED = ("undo 3 ", "export jenkins ", "friction 0.4", "friction 0.4 ", "nu = 0.3", "nu = 0.3 ", "set digits 3", "geometry file gap1.csv smooth ", "undo ", "reset all ", "x over ", "friction 0.4 zebr", "2 \u00b5", "# FN", "set digits 3 f")
 # typed, and the one way that it goes on
 DONE = (
     ("explain a a", "t "), ("explain a at k=0 c", "onditioning "), ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("1 + " * 140 + "breadt", "h "), ("geometry file gap1.csv s", "mooth "), ("second ri", "gid "),
