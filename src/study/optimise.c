@@ -70,6 +70,11 @@ static bool better(place *best, const place *now) {
     return is;
 }
 
+/* By more than a search leaves: of optima that are alike the first is taken. */
+static bool is_less(long double f, long double than) {
+    return f < than - 1e-9L * fabsl(than) || isnan(than);
+}
+
 static bool better_there(search *s, place to) {
     to.f = at_parts(s, to.u);
     return better(&s->best, &to);
@@ -276,7 +281,7 @@ static bool search_line(line *l) {
             continue;
         if (!go_about(&one, &all, i))
             return false;
-        if (!(one.best.f >= found.best.f))
+        if (is_less(one.best.f, found.best.f))
             found = one;
     }
     *l = found;
@@ -360,7 +365,8 @@ static bool search_grid(search *s) {
         s->best = all.at[p];
         if (!simplex(s, count, 0.15, 1e-4))
             return false;
-        better(&found, &s->best);
+        if (is_less(s->best.f, found.f))
+            found = s->best;
     }
     s->best = found;
     return true;
@@ -510,7 +516,7 @@ static bool go_on(search *s, size_t free) {
         const long double before = s->best.f;
         if (!simplex(s, free, steps[i % IDLE], 1e-10))
             return false;
-        idle = s->best.f < before - 1e-9L * fabsl(before) ? 0 : idle + 1;
+        idle = is_less(s->best.f, before) ? 0 : idle + 1;
     }
     return true;
 }
