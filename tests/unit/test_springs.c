@@ -377,6 +377,21 @@ static void test_let_go(void) {
         }
 }
 
+/* A spring that sticks lets go where its force ends, and has dissipated nothing. */
+static void test_last_spring(void) {
+    pair p = make(2, 0.2);
+    springs_of(&p, 1, p.radius, FRET_WEIGHT_CELL);
+    fret_state pushed, free;
+    go(&p, press_only(p.FN), 1);
+    go(&p, to_fx(0.3 * p.mu * p.FN), 1);
+    fret_springs_state(p.springs, &pushed);
+    go(&p, to_force(0, 0), 1);
+    fret_springs_state(p.springs, &free);
+    CHECK(pushed.U > 0 && pushed.W == 0 && free.Fx == 0);
+    CHECK_ABS(free.W, 0, pushed.U, 1e-15L);
+    drop(&p);
+}
+
 /* To the F_x that there is: no reversal. */
 static void test_no_reversal(void) {
     pair p = make(2, 0.3);
@@ -594,6 +609,7 @@ int main(int argc, char **argv) {
     CASE(test_loops_close());
     CASE(test_no_reversal());
     CASE(test_let_go());
+    CASE(test_last_spring());
     CASE(test_pad());
     CASE(test_gross_slip());
     CASE(test_constant_depth());

@@ -5,6 +5,9 @@
 #include "fret/field.h"
 #include "fret/wear.h"
 
+#include "law/gap.h"
+#include "law/normal.h"
+
 #include "failing.h"
 #include "unit.h"
 
@@ -284,6 +287,14 @@ static void volumes_and_work(void) {
         }
 }
 
+/* g' beside differences of g, of a place that is none of its nodes. */
+static void check_slope(const fret_normal *law, fret_real x) {
+    const fret_real h = 1e-8L * x, up = fret_normal_profile(law, x + h),
+                    down = fret_normal_profile(law, x - h), e = x - fret_gap_start(&law->gap);
+    if (e > h)
+        CHECK_ABS(fret_gap_profile(&law->gap, &law->rule, e).slope, (up - down) / (2 * h), depth / x, 1e-6L);
+}
+
 /* The law is that of the gap: g as the transform of f by a table of many rows; the field carries F_N; and
  * what is worn on, of the gap that was worn before, is as much as at once. */
 static void worn_gaps(void) {
@@ -326,6 +337,7 @@ static void worn_gaps(void) {
                     CHECK_ABS(fret_normal_profile(law, x), g, depth, shape == FLAT_CONE ? 5e-3L : 2e-3L);
                 CHECK_OK(fret_gap_g(fret_normal_gap(law), k, x, &g, NULL));
                 CHECK_ABS(fret_normal_profile(law, x), g, depth, 1e-14L);
+                check_slope(law, x + 1e-3L * outer);
             }
             const fret_pressed c = press_worn(w, &held);
             fret_field *field = NULL;
