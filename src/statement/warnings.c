@@ -137,7 +137,8 @@ static void note_yield(shell *sh, bool again) {
         calc_value_text((dim){1, -2, 0, 0}, (double)most, text[0]);
         calc_value_text((dim){1, -2, 0, 0}, (double)yield, text[1]);
         for (int i = 0; i < 2; i++)
-            calc_value_text(DIM_LENGTH, fabsl(at[i]) < 1e-4L * press->a ? 0 : (double)at[i], text[2 + i]);
+            calc_amount(DIM_LENGTH, fabsl(at[i]) < 1e-4L * press->a ? 0 : at[i], 3, text[2 + i],
+                        sizeof text[2 + i]);
         shell_note(sh,
                    "mises = %s exceeds %s = %s at x = %s, z = %s: the body yields there, which is left out",
                    text[0], quantity_of_input(in)->name, text[1], text[2], text[3]);
