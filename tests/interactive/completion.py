@@ -56,7 +56,7 @@ OFFERED = (
     ("?set fo", "format", "fricti"), ("a + breadth in ", "um mm", "N"), ("maximize 2*dW in ", "uJ", "um"), ("table a, breadth in ", "um mm", "J"), ("table breadth in ", "um mm", "J"),
     ("plot a for FN = 1 N .. 2 N log x ", "points title", None),
     ("uncertainty breadth ", "with in at samples seed", "along"), ("uncertainty breadth in ", "um mm", "J"),
-    ("uncertainty a with ", "FN mu wobble", "dW"), ("solve ", "FN mu wobble", "dW"), ("solve mu ", "for", "steps"),
+    ("uncertainty a with ", "FN mu wobble breadth", "dW"), ("solve ", "FN mu wobble", "dW"), ("solve mu ", "for", "steps"),
     ("solve mu for ", "dW a breadth", "FN="), ("solve mu for breadth = 3 mm ", "from", "with"),
     ("solve mu for breadth = 3 mm from ", "a breadth", "to"), ("maximize dWd(", "a breadth", "over"),
     ("maximize breadth ", "over in at", "for"), ("maximize breadth over ", "FN= wobble=", "gap1.csv"),
