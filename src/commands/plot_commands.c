@@ -160,10 +160,8 @@ static bool read_panels(shell *sh, lexer *lx, const grammar *row, panels *out) {
     do {
         if (out->count)
             lex_next(lx);
-        panel *grown = fret_array_for(out->list, &out->room, out->count + 1, sizeof *grown);
-        if (!grown)
+        if (!fret_array_room(&out->list, &out->room, out->count + 1, sizeof *out->list))
             return calc_no_memory(lx->error);
-        out->list = grown;
         if (!panel_read(sh, lx, row, &out->list[out->count]))
             return false;
         out->count++;

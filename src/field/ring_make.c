@@ -20,12 +20,10 @@ typedef struct maker {
 
 static bool add_ring(maker *mk, const fret_cell *c, fret_cell *own) {
     rings *all = mk->all;
-    ring *grown = fret_array_for(all->ring, &all->room, all->count + 1, sizeof *grown);
-    mk->failed |= !grown;
-    if (!grown)
+    mk->failed |= !fret_array_room(&all->ring, &all->room, all->count + 1, sizeof *all->ring);
+    if (mk->failed)
         return false;
     const fret_real hi = fret_cell_radius(c, 1);
-    all->ring = grown;
     all->ring[all->count++] =
         (ring){.cell = c,
                .own = own,

@@ -30,10 +30,8 @@ static void add_word(place *p, const char *word, const char *ending) {
     const size_t typed = p->cursor - p->start, n = strlen(word), m = strlen(ending);
     if (n < typed || memcmp(word, p->line + p->start, typed) != 0)
         return;
-    char **grown = fret_array_for(out->word, &out->room, out->count + 1, sizeof *grown);
-    if (!grown)
+    if (!fret_array_room(&out->word, &out->room, out->count + 1, sizeof *out->word))
         return;
-    out->word = grown;
     char *whole = malloc(n + m + 1);
     if (!whole)
         return;

@@ -469,10 +469,8 @@ static bool add_parts(const page *p, const expr *e, const definition *in, const 
         one.whole = e == asked && one.len == e->len;
         if (is_before(all, all->count, &one, !one.whole))
             continue;
-        part *grown = fret_array_for(all->of, &all->room, all->count + 1, sizeof *grown);
-        if (!grown)
+        if (!fret_array_room(&all->of, &all->room, all->count + 1, sizeof *all->of))
             return calc_no_memory(p->error);
-        all->of = grown;
         all->of[all->count++] = one;
     }
     for (size_t i = 0; (d = expr_definition(&p->sh->calc, e, i)); i++)

@@ -81,11 +81,9 @@ static void diagram_free(DIAGRAM *d) {
 }
 
 APART fret_status make_room(DIAGRAM *d, size_t count) {
-    layer *grown = d->bounded ? NULL : fret_array_for(d->layers, &d->room, count, sizeof *grown);
-    if (!grown)
-        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    d->layers = grown;
-    return fret_ok();
+    return !d->bounded && fret_array_room(&d->layers, &d->room, count, sizeof *d->layers)
+               ? fret_ok()
+               : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
 }
 
 FRET_INLINE fret_status reserve(DIAGRAM *d, size_t count) {

@@ -37,10 +37,7 @@ void fret_slips_repeat(fret_slips *s, size_t first, double times) {
 void fret_slips_add(fret_slips *s, const slip_phase *phase) {
     if (!s)
         return;
-    slip_phase *grown = fret_array_for(s->phase, &s->room, s->count + 1, sizeof *grown);
-    s->failed |= !grown;
-    if (!grown)
-        return;
-    s->phase = grown;
-    s->phase[s->count++] = *phase;
+    s->failed |= !fret_array_room(&s->phase, &s->room, s->count + 1, sizeof *s->phase);
+    if (!s->failed)
+        s->phase[s->count++] = *phase;
 }

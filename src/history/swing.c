@@ -19,13 +19,9 @@ static bool same_way(const way *a, const way *b) {
 /* ---- the curve --------------------------------------------------------------------------------- */
 
 static fret_status reserve(fret_swing *c, size_t count) {
-    if (count <= c->room)
-        return fret_ok();
-    arc *grown = fret_array_for(c->arcs, &c->room, count, sizeof *grown);
-    if (!grown)
-        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    c->arcs = grown;
-    return fret_ok();
+    return fret_array_room(&c->arcs, &c->room, count, sizeof *c->arcs)
+               ? fret_ok()
+               : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
 }
 
 /* What a force of the present size is known to. */
@@ -187,11 +183,9 @@ static void tell(const fret_swing *c, const slip *l) {
     const arc *front = crossed(c, l->which, way_at(l->way, l->which, (l->lo + l->hi) / 2));
     if (!all || !front)
         return;
-    swung_phase *grown = fret_array_for(all->swung, &all->swing_room, all->swings + 1, sizeof *grown);
-    all->failed |= !grown;
-    if (!grown)
+    all->failed |= !fret_array_room(&all->swung, &all->swing_room, all->swings + 1, sizeof *all->swung);
+    if (all->failed)
         return;
-    all->swung = grown;
     all->swung[all->swings] = (swung_phase){*l->way, l->which, l->lo, l->hi, *front};
     fret_slips_add(all, &(slip_phase){.kind = SWUNG, .gain = 1, .swung = all->swings++});
 }

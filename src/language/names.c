@@ -30,10 +30,8 @@ bool names_find(const own_names *n, const char *text, size_t len, size_t *index)
 bool names_add(own_names *n, const char *text, size_t len, size_t *index) {
     if (find_row(n, text, len, index))
         return true;
-    own_name *grown = fret_array_for(n->row, &n->room, n->count + 1, sizeof *grown);
-    if (!grown)
+    if (!fret_array_room(&n->row, &n->room, n->count + 1, sizeof *n->row))
         return false;
-    n->row = grown;
     char *copy = strndup(text, len);
     if (!copy)
         return false;

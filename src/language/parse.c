@@ -44,10 +44,8 @@ static bool add_node(parser *p, const expr_node *node, size_t *index) {
         if (e->count >= NODE_LIMIT)
             return lex_fail(p->lx, "the expression has more than %d numbers, names and operators",
                             NODE_LIMIT);
-        expr_node *nodes = fret_array_for(e->nodes, &e->room, e->count + 1, sizeof *nodes);
-        if (!nodes)
+        if (!fret_array_room(&e->nodes, &e->room, e->count + 1, sizeof *e->nodes))
             return calc_no_memory(p->lx->error);
-        e->nodes = nodes;
     }
     *index = e->count;
     e->nodes[e->count] = *node;
@@ -223,11 +221,8 @@ static bool parse_arguments(parser *p, const char *name, unsigned count, expr_no
     node->left = e->argument_count;
     node->right = count;
     for (unsigned j = 0; j < count; j++) {
-        size_t *arguments =
-            fret_array_for(e->arguments, &e->argument_room, e->argument_count + 1, sizeof *arguments);
-        if (!arguments)
+        if (!fret_array_room(&e->arguments, &e->argument_room, e->argument_count + 1, sizeof *e->arguments))
             return calc_no_memory(lx->error);
-        e->arguments = arguments;
         e->arguments[e->argument_count++] = root[j];
     }
     return true;

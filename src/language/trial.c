@@ -51,12 +51,9 @@ static bool hide(trial *t, size_t name, calc_error *error) {
     for (size_t i = 0; i < t->hidden_count; i++)
         if (t->hidden[i].index == name)
             return true;
-    struct hidden_name *grown =
-        fret_array_for(t->hidden, &t->hidden_room, t->hidden_count + 1, sizeof *grown);
-    if (!grown)
+    if (!fret_array_room(&t->hidden, &t->hidden_room, t->hidden_count + 1, sizeof *t->hidden))
         return calc_no_memory(error);
     own_name *row = &t->c->names.row[name];
-    t->hidden = grown;
     t->hidden[t->hidden_count++] = (struct hidden_name){name, *row};
     row->definition = NULL; /* it belongs to the old one */
     return true;

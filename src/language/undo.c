@@ -35,10 +35,7 @@ void undo_end(calc *c) {
 
 /* Room for one more entry beside those that have been promised. */
 static bool reserve(undo *u) {
-    undo_entry *grown = fret_array_for(u->entry, &u->room, u->count + u->promised + 1, sizeof *grown);
-    if (grown)
-        u->entry = grown;
-    return grown;
+    return fret_array_room(&u->entry, &u->room, u->count + u->promised + 1, sizeof *u->entry);
 }
 
 /* The entry to fill, which has been reserved, with the oldest gone where there are too many. */

@@ -31,13 +31,11 @@ static fret_cell *last_of(const maker *m) {
 /* One more, which begins where the last one ends. */
 static fret_cell *new_cell(maker *mk, fret_real x) {
     fret_cells *all = mk->all;
-    fret_cell *grown = fret_array_for(all->cell, &all->room, all->count + 1, sizeof *grown);
-    if (!grown) {
+    if (!fret_array_room(&all->cell, &all->room, all->count + 1, sizeof *all->cell)) {
         mk->failed = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
         return NULL;
     }
-    all->cell = grown;
-    fret_cell *c = &grown[all->count++];
+    fret_cell *c = &all->cell[all->count++];
     *c = (fret_cell){.x = x, .m = mk->m, .mu = 1, .K = x > 0 ? fret_pow(x, 2 * mk->m) : 0};
     if (all->count > 1) {
         c->y = c[-1].y + c[-1].rise[BY_DEPTH];

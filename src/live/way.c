@@ -22,10 +22,8 @@ static bool add_track_point(track *t, track_point p) {
         t->count /= 2;
         memmove(t->point, t->point + t->count, t->count * sizeof *t->point);
     }
-    track_point *grown = fret_array_for(t->point, &t->room, t->count + 1, sizeof *grown);
-    if (!grown)
+    if (!fret_array_room(&t->point, &t->room, t->count + 1, sizeof *t->point))
         return false;
-    t->point = grown;
     t->point[t->count++] = p;
     return true;
 }

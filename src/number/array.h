@@ -3,18 +3,24 @@
 #ifndef FRET_NUMBER_ARRAY_H
 #define FRET_NUMBER_ARRAY_H
 
+#include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* The items, or where they have moved to, with room for `count` > 0 of them of `size` bytes, and for as many
- * again as there were; NULL: out of memory, nothing has changed. */
-static inline void *fret_array_for(void *items, size_t *room, size_t count, size_t size) {
+/* Room for `count` > 0 items of `size` bytes, and for as many again as there were, where the pointer at
+ * `items` points to; they may move. False: out of memory, nothing has changed. */
+static inline bool fret_array_room(void *items, size_t *room, size_t count, size_t size) {
+    void *grown;
     if (count <= *room)
-        return items;
+        return true;
+    memcpy(&grown, items, sizeof grown);
     const size_t more = *room + count + 16;
-    void *grown = realloc(items, more * size);
-    if (grown)
-        *room = more;
-    return grown;
+    grown = realloc(grown, more * size);
+    if (!grown)
+        return false;
+    memcpy(items, &grown, sizeof grown);
+    *room = more;
+    return true;
 }
 
 /* Of doubles, or of what begins with one. */

@@ -90,10 +90,8 @@ static bool check_statements(reading *r, const char *text, size_t number) {
 
 static bool add_line(reading *r, const char *text) {
     lesson_text *t = r->out;
-    char **grown = fret_array_for(t->line, &t->room, t->count + 2, sizeof *grown);
-    if (!grown)
+    if (!fret_array_room(&t->line, &t->room, t->count + 2, sizeof *t->line))
         return calc_no_memory(r->error);
-    t->line = grown;
     t->line[t->count] = strdup(text);
     t->line[t->count + 1] = NULL;
     return t->line[t->count++] || calc_no_memory(r->error);

@@ -21,15 +21,11 @@ program *program_make(void) {
 }
 
 bool program_append(program *p, load_mark *mark, const load_step *step, const cycle_extra *extra) {
-    load_step *steps = fret_array_for(p->steps, &p->room, mark->steps + 1, sizeof *steps);
-    if (!steps)
+    if (!fret_array_room(&p->steps, &p->room, mark->steps + 1, sizeof *p->steps))
         return false;
-    p->steps = steps;
     if (extra) {
-        cycle_extra *cycles = fret_array_for(p->cycles, &p->cycle_room, mark->cycles + 1, sizeof *cycles);
-        if (!cycles)
+        if (!fret_array_room(&p->cycles, &p->cycle_room, mark->cycles + 1, sizeof *p->cycles))
             return false;
-        p->cycles = cycles;
         p->cycles[mark->cycles++] = *extra;
     }
     p->steps[mark->steps++] = *step;

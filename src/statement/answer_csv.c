@@ -61,12 +61,10 @@ static void put_mixed(answer *a, const answer_cell *cells) {
 static void wait_for_row(answer *a, const char *before, const char *name, const column *unit_of,
                          long double si) {
     struct waiting *w = &a->waiting;
-    column *of = fret_array_for(w->of, &w->room, w->count + 1, sizeof *of);
-    w->of = of ? of : w->of;
-    long double *v = of ? fret_array_for(w->si, &w->room_si, w->count + 1, sizeof *v) : NULL;
-    w->si = v ? v : w->si;
+    const bool room = fret_array_room(&w->of, &w->room, w->count + 1, sizeof *w->of) &&
+                      fret_array_room(&w->si, &w->room_si, w->count + 1, sizeof *w->si);
     const size_t size = strlen(before) + strlen(name) + 2;
-    char *whole = v ? malloc(size) : NULL;
+    char *whole = room ? malloc(size) : NULL;
     if (!whole) {
         a->lost = true;
         return;

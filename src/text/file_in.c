@@ -227,10 +227,8 @@ static bool append_bytes(file_in *in, const char *bytes, size_t n, calc_error *e
     if (n > FILE_LINE_LIMIT - in->length)
         return calc_fail(error, 0, 0, "%s:%llu: the line is longer than %d MB", in->name, in->number,
                          FILE_LINE_LIMIT >> 20);
-    char *line = fret_array_for(in->line, &in->room, in->length + n + 1, 1);
-    if (!line)
+    if (!fret_array_room(&in->line, &in->room, in->length + n + 1, 1))
         return calc_errno(error, ENOMEM, "%s:%llu", in->name, in->number);
-    in->line = line;
     memcpy(in->line + in->length, bytes, n);
     in->length += n;
     in->line[in->length] = 0;

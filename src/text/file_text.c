@@ -41,11 +41,9 @@ FILE *file_stream(void *self, file_take *take) {
 #endif
 
 static bool take_bytes(file_text *t, const char *bytes, size_t n) {
-    char *grown = t->lost ? NULL : fret_array_for(t->text, &t->room, t->size + n + 1, 1);
-    t->lost = !grown;
-    if (!grown)
+    t->lost = t->lost || !fret_array_room(&t->text, &t->room, t->size + n + 1, 1);
+    if (t->lost)
         return false;
-    t->text = grown;
     memcpy(t->text + t->size, bytes, n);
     t->size += n;
     return true;
@@ -58,8 +56,7 @@ static ssize_t write_text(void *cookie, const char *bytes, size_t n) {
 bool file_text_open(file_text *t) {
     enum { ROOM = 256 };
     *t = (file_text){.to = NULL};
-    t->text = fret_array_for(NULL, &t->room, ROOM, 1);
-    if (t->text)
+    if (fret_array_room(&t->text, &t->room, ROOM, 1))
         t->to = file_stream(t, write_text);
     if (!t->to)
         free(t->text);

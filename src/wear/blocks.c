@@ -85,12 +85,9 @@ static const fret_blocks *last_of(const fret_wear_run *run) {
 }
 
 static fret_status make_room(fret_blocks *b) {
-    double *grown =
-        fret_array_for(b->row, &b->room, b->count + 1, (1 + 2 * (b->ring.count + 1)) * sizeof *grown);
-    if (!grown)
-        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    b->row = grown;
-    return fret_ok();
+    return fret_array_room(&b->row, &b->room, b->count + 1, (1 + 2 * (b->ring.count + 1)) * sizeof *b->row)
+               ? fret_ok()
+               : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
 }
 
 void fret_blocks_free(fret_blocks *b) {
@@ -126,11 +123,9 @@ static fret_status take_over(fret_blocks *to, const fret_blocks *from, fret_stop
 }
 
 fret_status fret_blocks_begin(fret_wear_run *run, fret_real inner, fret_real steep, fret_real outer) {
-    fret_blocks *all = fret_array_for(run->blocks, &run->room, run->count + 1, sizeof *all);
-    if (!all)
+    if (!fret_array_room(&run->blocks, &run->room, run->count + 1, sizeof *run->blocks))
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    run->blocks = all;
-    fret_blocks *b = &all[run->count];
+    fret_blocks *b = &run->blocks[run->count];
     *b = (fret_blocks){.count = 0};
     fret_status st =
         fret_annulus_make(run->normal, &run->held, inner, steep, outer, outer, run->nodes, &b->ring);
