@@ -274,8 +274,7 @@ bool columns_load(const shell *sh, csv *data, size_t expressions, named_columns 
 
 bool columns_missed(const shell *sh, const lexer *lx, csv *data) {
     char name[CSV_NAME];
-    calc_error wrong, *error = lx->error;
-    error_clear(&wrong);
+    calc_error wrong = ERROR_NONE, *error = lx->error;
     snprintf(name, sizeof name, "%.*s", (int)(error->len < sizeof name ? error->len : 0),
              lx->text + error->at);
     if (csv_has(data, name) && !csv_column(data, name, &wrong)) {

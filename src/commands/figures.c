@@ -225,10 +225,9 @@ static bool draw_regimes(const regimes *r) {
 /* Places in the formulas mean nothing in the statement. */
 static bool run_borders(shell *sh, range *over, regimes *r) {
     const column columns[BORDERS] = {{.scale = 1}, {.scale = 1}, {.scale = 1}};
-    calc_error mine;
+    calc_error mine = ERROR_NONE;
     found f;
     bool ok = true;
-    error_clear(&mine);
     for (int i = 0; i < BORDERS && ok; i++) {
         lexer lx;
         lex_start(&lx, borders[r->rig][i], strlen(borders[r->rig][i]), &mine);

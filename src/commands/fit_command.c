@@ -296,13 +296,12 @@ static bool cycle_rows(shell *sh, answer *out, const fit_question *q, const csv 
                        calc_error *error) {
     double from[FIT_NAMES] = {0};
     size_t fitted = 0;
-    calc_error first, why;
-    error_clear(&first);
+    calc_error first = ERROR_NONE;
     for (size_t k = 0; k < l->cycles; k++) {
         const loop_cycle *c = &l->cycle[k];
         fit_answer a = {.rms = 0};
         long double row[CYCLE_COLUMNS] = {(long double)(k + 1), (long double)data->row[c->first].line};
-        error_clear(&why);
+        calc_error why = ERROR_NONE;
         const bool ok = fit_cycle(q, c, fitted ? from : NULL, &a, &why);
         if (why.stop)
             return *error = why, false;

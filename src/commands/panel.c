@@ -564,10 +564,9 @@ static bool draw_row(panel_job *job, lexer *lx, said *all, written *row) {
 
 static bool draw_named(panel_job *job, lexer *lx, said *all) {
     const char *statement = statement_of(job->sh, job->figure, all);
-    calc_error mine;
+    calc_error mine = ERROR_NONE;
     said own;
     written row = {.all = &own};
-    error_clear(&mine);
     job->error = &mine;
     lex_start(&row.lx, statement, strlen(statement), &mine);
     bool ok = said_read(job->sh, &row.lx, all->by, &own);

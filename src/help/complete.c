@@ -242,11 +242,10 @@ static void add_next(place *p, const lexer *lx, const said *s) {
 
 /* Reads the statement up to the word that begins at `start`, and adds what may come there. */
 static void complete_at(place *p, size_t begin, size_t start) {
-    calc_error error;
+    calc_error error = ERROR_NONE;
     static const char values[] = "EXPR, ..."; /* printed, or given to names */
     said s = {.by = grammar_made("", NULL, values, "")};
     lexer lx;
-    error_clear(&error);
     lex_start(&lx, p->line + begin, start - begin, &error);
     lx.cut = true;
     p->start = p->out->start = start;

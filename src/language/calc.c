@@ -175,8 +175,7 @@ static bool read_assignment(calc *c, lexer *lx, assignment *all, size_t count) {
     assignment *a = &all[count];
     char parameter[PARAMETERS][LEX_NAME];
     unsigned parameters;
-    calc_error useless;
-    error_clear(&useless);
+    calc_error useless = ERROR_NONE;
     *a = (assignment){.at = lx->at, .len = lx->len};
     if (!name_allowed(c, lx, a)) {
         if (lx->error->len)
@@ -285,13 +284,12 @@ static bool amplitude_is_left(const calc_error *error, const assignment *all, si
 /* Tried as it stands, where nothing bound has its value yet: a circle through what inputs are bound to shows
  * only so. It may wait for what it needs, but not for itself; nor can its dimensions be mended later. */
 static bool definition_holds(calc *c, lexer *lx, const assignment *a) {
-    calc_error error;
+    calc_error error = ERROR_NONE;
     long double number;
     value v;
     scene probe, *outer = c->now;
     if (a->d->parameters)
         return true;
-    error_clear(&error);
     scene_clone(&probe, outer);
     if (a->q)
         inputs_bind(&probe.in, quantity_input(a->q), counted_hold(&a->d->base));

@@ -93,8 +93,7 @@ static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *er
 
 static void refresh_side(live *l, size_t i) {
     side *s = &l->side[i];
-    calc_error error;
-    error_clear(&error);
+    calc_error error = ERROR_NONE;
     if (!(l->compared.on ? take_compared(l, s, i, l->follow, &error) : take_side(l, s, l->follow, &error)))
         trouble(l, s, &error);
     s->stale = false;
@@ -164,8 +163,7 @@ void live_begin(live *l) {
 }
 
 static void walk_side(live *l, side *s, bool (*late)(void)) {
-    calc_error error;
-    error_clear(&error);
+    calc_error error = ERROR_NONE;
     if (*s->trouble || way_rests(&s->way))
         return;
     l->changed = true;

@@ -150,7 +150,6 @@ static bool read_guess(exercise *x, const char *line, long double *guess) {
     calc_error *const error = error_quiet();
     lexer lx;
     value v;
-    error_clear(error);
     lex_start(&lx, line, strlen(line), error);
     const bool ok = !error->raised && expr_value(&x->sh->calc, &lx, &v) && !stray_unit(&lx) && at_end(&lx) &&
                     value_dim(&lx, x->choices ? "" : x->column.name, 0, strlen(line), v, x->value.d);

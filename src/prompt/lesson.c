@@ -47,7 +47,6 @@ static bool tell_mistake(reading *r, const char *text, size_t number, calc_error
 /* What a terminal shows, and the whole of it. */
 static bool check_line(reading *r, const char *text, size_t len, size_t number) {
     calc_error *const mistake = error_quiet();
-    error_clear(mistake);
     if (len > LESSON_LINE)
         calc_raise(mistake, LESSON_LINE, 1, "a line of a lesson has at most %d bytes", LESSON_LINE);
     for (size_t i = 0, n; i < len && !mistake->raised; i += n) {
@@ -99,7 +98,6 @@ static bool add_line(reading *r, const char *text) {
 
 static bool take_title(reading *r, const char *text, size_t number) {
     calc_error *const mistake = error_quiet();
-    error_clear(mistake);
     if (r->transcript) {
         calc_raise(mistake, 0, 0, "a lesson begins with its title, in a line of its own");
         tell_mistake(r, text, number, mistake);

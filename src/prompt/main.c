@@ -115,8 +115,7 @@ static int take_part(shell *sh, const char *text) {
     if (sscanf(text, "%9u/%9u%n", &p->number, &p->of, &used) != 2 || text[used] || strpbrk(text, "+- ") ||
         p->number < 1 || p->number > p->of)
         return bad_usage("--part is I/N, whole numbers with 1 <= I <= N, not", text);
-    calc_error error;
-    error_clear(&error);
+    calc_error error = ERROR_NONE;
     FILE *nowhere = shell_nowhere(&error);
     if (!nowhere) {
         shell_error(sh, error.text);
@@ -254,8 +253,7 @@ static int run_jobs(shell *sh, const wishes *w) {
 
 /* One script, or none. */
 static int run_live(shell *sh, const wishes *w) {
-    calc_error error;
-    error_clear(&error);
+    calc_error error = ERROR_NONE;
     if (w->count > 1 || (w->count && w->jobs[0].text))
         return bad_usage("--live takes one script", NULL);
     if (shell_live(sh, w->count ? w->jobs[0].path : NULL, &error))
@@ -271,8 +269,7 @@ static int run_replays(shell *sh, const wishes *w) {
         if (w->jobs[i].text)
             return bad_usage("--replay takes transcripts, not -c", NULL);
     for (size_t i = 0; i < w->count && status != EXIT_INTERRUPTED; i++) {
-        calc_error error;
-        error_clear(&error);
+        calc_error error = ERROR_NONE;
         const int one = shell_replay(sh, w->jobs[i].path, w->tolerance, &error);
         if (error.raised)
             shell_error(sh, error.text);

@@ -76,14 +76,13 @@ static void run_line(shell *sh, const char *line) {
 }
 
 int shell_prompt(shell *sh, bool quiet, bool read_rc) {
-    calc_error error;
+    calc_error error = ERROR_NONE;
     file_in in;
     file_got got = FILE_GOT_LINE;
     sh->interactive = true;
     sh->set.pages = isatty(STDOUT_FILENO);
     if (read_rc)
         read_startup(sh);
-    error_clear(&error);
     if (!file_text_open(&sh->typed) || !file_in_typed(&in, ask, sh, &shell_stop, &error)) {
         shell_error(sh, "out of memory");
         return EXIT_ERROR;

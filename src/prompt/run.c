@@ -349,8 +349,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
 
 int shell_stream(shell *sh, file_in *in) {
     const source from = {in->name, sh->keep_going};
-    calc_error error;
-    error_clear(&error);
+    calc_error error = ERROR_NONE;
     file_got got = FILE_GOT_END;
     bool ok = true, last = true; /* all statements so far; those of the last line */
     while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || sh->keep_going) &&
@@ -374,9 +373,8 @@ int shell_stream(shell *sh, file_in *in) {
 }
 
 int shell_run(shell *sh, const char *path, const char *text) {
-    calc_error error;
+    calc_error error = ERROR_NONE;
     file_in in;
-    error_clear(&error);
     if (text ? file_in_text(&in, text, path, &shell_stop, &error)
              : file_in_script(&in, path, &shell_stop, &error))
         return shell_stream(sh, &in);

@@ -147,8 +147,7 @@ static bool loop_run(residuals *r, double *out) {
     load_view view = {.in = &tried->in, .stop = r->of->c->scene.stop};
     runner run = {.load = &view};
     load_item press = {.extra = {0}};
-    calc_error error;
-    error_clear(&error);
+    calc_error error = ERROR_NONE;
     r->bad_row = NO_ROW;
     if (!points_set(&r->p, r->x))
         return false;

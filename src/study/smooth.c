@@ -433,8 +433,7 @@ static bool choose_pieces(candidate *t, const rows *all, smoothing how, file_sto
     char wanted[CALC_VALUE_TEXT], got[CALC_VALUE_TEXT];
     double best = INFINITY, least = INFINITY;
     size_t pieces = 1;
-    calc_error falls;
-    error_clear(&falls);
+    calc_error falls = ERROR_NONE;
     for (size_t i = 1; i <= most; i += 1 + i / 8) {
         if (!attempt(t, all, i, stop, error))
             return false;

@@ -223,8 +223,7 @@ static bool run_along(curve_run *st) {
     if (s->what == ALONG_LOAD && !try_load(t, &st->range, &from, st->job->error))
         return false;
     trial_along a;
-    calc_error error;
-    error_clear(&error);
+    calc_error error = ERROR_NONE;
     bool ok = trial_along_begin(&a, t, s->what, from, s->steps, s->turns, &error);
     for (size_t row = 0; ok && row < st->end && trial_along_next(&a, &error); row++)
         ok = row < st->first ? !calc_stopped(t->scene.stop, &error) : look_along(st, scene_time(&t->scene));

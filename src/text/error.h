@@ -33,10 +33,13 @@ typedef struct calc_error {
     char text[CALC_ERROR_TEXT];
 } calc_error;
 
-/* Ready to be raised; the text of a million good statements need not be cleared. */
+/* One that is ready to be raised. */
+#define ERROR_NONE                                                                                           \
+    { .input = -1 }
+/* Again; where a million may begin, too, whose texts need not be cleared. */
 void error_clear(calc_error *error);
 /* For what may fail quietly: an error of the block it stands in, cleared each time, that nobody reports. */
-#define error_quiet() (&(calc_error){.input = -1})
+#define error_quiet() (&(calc_error)ERROR_NONE)
 
 /* These record the first error only. */
 LIKE_PRINTF(4, 5)
