@@ -126,7 +126,7 @@ static void note_yield(shell *sh, bool again) {
     char text[4][CALC_VALUE_TEXT];
     for (int body = 0; body < 2; body++) {
         const input in = body ? IN_YIELD_2 : IN_YIELD;
-        const unsigned yields = YIELDS << body;
+        const unsigned yields = (unsigned)YIELDS << body;
         if (!again && sh->warned & yields)
             continue;
         const bool may = (s->in.set[in] || s->in.bound[in]) && !(body && s->in.second == SECOND_RIGID) &&
