@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes src/number/constants.h: constants of the elementary functions and of the quadrature."""
-from mpmath import mp, mpf, exp, log, pi, sinh, cosh, bernoulli, factorial
+from mpmath import mp, mpf, exp, log, pi, sinh, cosh, bernoulli, factorial, fprod, polyroots
 
 mp.dps = 60
 
@@ -51,5 +51,12 @@ for i in range(73):
     u = mpf(i) / 16
     e = exp(-pi * sinh(u))
     print("    {%s, %s}," % (real(e / (1 + e)), real(pi * cosh(u) * e / (1 + e) ** 2 / 16)))
+print("};")
+nodes = [(1 + x) / 2 for x in sorted(polyroots([6435, 0, -12012, 0, 6930, 0, -1260, 0, 35]))]  # Legendre's
+nodes = [x / 2 for x in nodes] + [(1 + x) / 2 for x in nodes]
+print("/* The polynomial through the values at eight points of Gauss in either half of 0 .. 1, at 0. */")
+print("static const fret_real end_weight[16] = {")
+for x in nodes:
+    print("    %s," % real(fprod(other / (other - x) for other in nodes if other != x)))
 print("};")
 print("\n#endif")

@@ -39,9 +39,9 @@ typedef struct part {
     fret_real lo, hi;
 } part;
 
-/* By a rule: the integral, that of |f|, and how far the rule may be off. */
+/* By a rule: the integral, that of |f|, and how far the rule may be off; of Gauss, its values. */
 typedef struct result {
-    fret_real value, size, error;
+    fret_real value, size, error, at[8];
 } result;
 
 static fret_real at(const integral *all, part p, fret_real t, fret_real rest) {
@@ -49,9 +49,10 @@ static fret_real at(const integral *all, part p, fret_real t, fret_real rest) {
 }
 
 static result by_gauss(const integral *all, part p) {
-    result out = {0, 0, 0};
+    result out = {.size = 0};
     for (int i = 0; i < 8; i++) {
-        const fret_real v = fret_gauss_weight[i] * at(all, p, fret_gauss_node[i], fret_gauss_node[7 - i]);
+        out.at[i] = at(all, p, fret_gauss_node[i], fret_gauss_node[7 - i]);
+        const fret_real v = fret_gauss_weight[i] * out.at[i];
         out.value += v;
         out.size += fabsl(v);
     }
@@ -62,7 +63,7 @@ static result by_gauss(const integral *all, part p) {
  * It is off by far less than from the step before, whose digits it doubles, unless there are others. */
 static result by_doubling(const integral *all, part p) {
     enum { LAST = sizeof doubling_rule / sizeof *doubling_rule - 1, COARSEST = 8 };
-    result out = {0, 0, 0};
+    result out = {.size = 0};
     fret_sum sum = {0, 0}, size = {0, 0};
     for (int step = COARSEST; step > 0; step /= 2) {
         for (int i = LAST; i >= -LAST; i -= step) {
@@ -74,11 +75,23 @@ static result by_doubling(const integral *all, part p) {
             fret_sum_add(&size, fabsl(v));
         }
         const fret_real value = step * fret_sum_value(&sum);
-        out = (result){value, step * fret_sum_value(&size), fabsl(value - out.value)};
+        out = (result){value, step * fret_sum_value(&size), fabsl(value - out.value), {0}};
         if (step < COARSEST && out.error <= all->tolerance * fmaxl(all->size, out.size))
             break;
     }
     return out;
+}
+
+/* Do the values in the halves of a part go on to its ends? A kink before the first of them is seen by none.
+ */
+static bool goes_on(const integral *all, part p, const result *a, const result *b) {
+    static const fret_real next_to = 1e-17L, alike = 1e5L;
+    fret_real lo = at(all, p, next_to, 1 - next_to), hi = at(all, p, 1 - next_to, next_to);
+    for (int i = 0; i < 8; i++) {
+        lo -= 2 * (end_weight[i] * a->at[i] + end_weight[8 + i] * b->at[i]);
+        hi -= 2 * (end_weight[i] * b->at[7 - i] + end_weight[8 + i] * a->at[7 - i]);
+    }
+    return fabsl(lo) + fabsl(hi) <= alike * all->tolerance * all->size;
 }
 
 /* How far the halves of a part, and those that it came from, are from the whole, in parts of their size. */
@@ -88,11 +101,15 @@ typedef struct quarrel {
 } quarrel;
 
 /* Halves of a smooth integrand agree better than the whole with them, and next to kinks better from part to
- * half on the whole. Where the last halving brings less than a factor of two, and several together less than
- * four, it is noise, as of rounded rows of a table; of what is more than 1e-11, twice as many must tell. */
+ * half on the whole, but by luck. Where the last halving brings less than a factor of two, and several
+ * together less than eight, it is noise, as of rounded rows of a table; of what is more than 1e-11, twice as
+ * many must tell. What grows in parts of the size is one place near an end of the part. */
 static bool is_noise(fret_real own, const quarrel *before) {
     const int first = own < 1e-11L ? REMEMBERED / 2 - 1 : REMEMBERED - 1;
-    return own < 1e-6L && own > before->own[0] / 2 && own > before->own[first] / 4;
+    fret_real most = 0;
+    for (int i = 0; i <= first; i++)
+        most = fmaxl(most, before->own[i]);
+    return own < 1e-6L && own > before->own[0] / 2 && own > most / 8 && own < 16 * before->own[first];
 }
 
 static void add(integral *all, part p, fret_real whole, quarrel before) {
@@ -100,12 +117,13 @@ static void add(integral *all, part p, fret_real whole, quarrel before) {
     const part left = {p.lo, mid}, right = {mid, p.hi};
     const bool first = p.hi - p.lo == 1;
     const result a = by_gauss(all, left), b = by_gauss(all, right);
-    result best = {a.value + b.value, a.size + b.size, fabsl(a.value + b.value - whole)};
+    result best = {a.value + b.value, a.size + b.size, fabsl(a.value + b.value - whole), {0}};
     fret_real off = best.error;
     if (first)
         all->size = best.size;
-    const bool good = off <= all->tolerance * all->size, lucky = good && off < LUCK * before.off;
-    if (lucky || (!good && (p.lo == 0 || p.hi == 1))) {
+    const bool good = off <= all->tolerance * all->size, ends = p.lo == 0 || p.hi == 1,
+               lucky = good && (off < LUCK * before.off || (ends && !goes_on(all, p, &a, &b)));
+    if (lucky || (!good && ends)) {
         const result other = by_doubling(all, p);
         if (first)
             all->size = fmaxl(all->size, other.size);

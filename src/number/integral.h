@@ -12,7 +12,7 @@ typedef struct fret_estimate {
     fret_real value, error;
 } fret_estimate;
 
-/* int_0^1 f dt to `tolerance` of int_0^1 |f| dt, 1e-18 at best: 24 values where f is smooth, up to 170 where
+/* int_0^1 f dt to `tolerance` of int_0^1 |f| dt, 1e-18 at best: 26 values where f is smooth, up to 170 where
  * it is algebraic at an end, and 32 for each halving towards a kink or a singularity within. The error is an
  * estimate: next to kinks it may be some times too small, and the rounding of f it does not know. Ends
  * steeper than t^-0.7 want a substitution. */

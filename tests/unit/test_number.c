@@ -68,8 +68,8 @@ static void integrals(void) {
     for (size_t i = 0; i < sizeof tolerances / sizeof *tolerances; i++) {
         const fret_real tol = tolerances[i];
         for (int n = 0; n < 16; n++) /* eight points are exact */
-            meets((shape){power_of_t, n, 0, 0}, 1 / (fret_real)(n + 1), 1 / (fret_real)(n + 1), tol, 0, 24);
-        meets((shape){wave, 0.3L, 0, 0}, expm1l(0.3L) / 0.3L, 1, tol, 0, 24);
+            meets((shape){power_of_t, n, 0, 0}, 1 / (fret_real)(n + 1), 1 / (fret_real)(n + 1), tol, 0, 26);
+        meets((shape){wave, 0.3L, 0, 0}, expm1l(0.3L) / 0.3L, 1, tol, 0, 26);
         meets((shape){wave, 0, 30, 0}, sinl(30.0L) / 30, 2 / FRET_PI, tol, 0, 1600);
         meets((shape){wave, -50, 0, 0}, -expm1l(-50.0L) / 50, 0.02L, tol, 0, 1600);
         for (int j = 1; j < 12; j++) { /* singular at one end or both */
@@ -84,6 +84,12 @@ static void integrals(void) {
                                              : 2.5L,
                             want = (fret_pow(a, b + 1) + fret_pow(1 - a, b + 1)) / (b + 1);
             meets((shape){kinked, a, b, 0}, want, want, tol, 0, 7000);
+        }
+        for (fret_real a = 0.009L; a > 1e-5L;
+             a /= 1.7L) { /* and before the first point, after the last one */
+            const fret_real want = (a * a + (1 - a) * (1 - a)) / 2;
+            meets((shape){kinked, a, 1, 0}, want, want, tol, 0, 7000);
+            meets((shape){kinked, 1 - a, 1, 0}, want, want, tol, 0, 7000);
         }
         for (fret_real b = 0.1L; b > 1e-6L; b /= 10) /* next to the axis, in the midst and at an end */
             for (fret_real a = 0; a < 0.5L; a += 0.21L)
