@@ -230,7 +230,7 @@ typedef struct peak {
     long double v, spread, left, right; /* spread: how far above the lower one */
 } peak;
 
-enum { PEAKS = 4 };
+enum { PEAKS = 128, FEW = 4 };
 typedef struct search {
     over *o;
     int sign;
@@ -239,11 +239,11 @@ typedef struct search {
     peak peak[PEAKS];       /* highest first */
 } search;
 
-/* Is the one before the latest a peak? */
-static void close_peak(search *s) {
-    const long double v = s->v[1];
+/* Is one of the latest three a peak? An end has both of the others on one side. */
+static void close_peak(search *s, int at, int near, int other) {
+    const long double v = s->v[at];
     size_t i = s->peaks;
-    if (v < s->v[0] || v < s->v[2])
+    if (v < s->v[near] || (at == 1 && v < s->v[other]))
         return;
     while (i > 0 && s->peak[i - 1].v < v)
         i--;
@@ -252,10 +252,9 @@ static void close_peak(search *s) {
     s->peaks += s->peaks < PEAKS;
     for (size_t j = s->peaks - 1; j > i; j--)
         s->peak[j] = s->peak[j - 1];
-    s->peak[i] = (peak){v, v - fminl(s->v[0], s->v[2]), s->x[0], s->x[2]};
+    s->peak[i] = (peak){v, v - fminl(s->v[near], s->v[other]), s->x[at > 1], s->x[at < 1 ? 1 : 2]};
 }
 
-/* The first one is its own neighbour. */
 static void take(search *s, long double x, long double v) {
     for (int i = 0; i < 2; i++) {
         s->x[i] = s->seen ? s->x[i + 1] : x;
@@ -263,8 +262,10 @@ static void take(search *s, long double x, long double v) {
     }
     s->x[2] = x;
     s->v[2] = s->sign * v;
-    if (s->seen++)
-        close_peak(s);
+    if (++s->seen == 3)
+        close_peak(s, 0, 1, 2);
+    if (s->seen >= 3)
+        close_peak(s, 1, 0, 2);
 }
 
 static bool scan_along(search *s, long double lo, long double hi, size_t points) {
@@ -297,8 +298,10 @@ static bool scan(search *s, long double lo, long double hi, size_t points) {
         }
         take(s, x, v);
     }
-    if (s->seen) /* the last one is its own neighbour */
-        take(s, s->x[2], s->sign * s->v[2]);
+    if (s->seen == 2)
+        close_peak(s, 1, 0, 2);
+    if (s->seen)
+        close_peak(s, 2, 1, 0);
     return true;
 }
 
@@ -331,7 +334,7 @@ bool over_extreme(over *o, bool largest, long double *out) {
     if (!s.peaks)
         return calc_fail(o->error, 0, 0, "there is no instant to look at");
     peak found[PEAKS];
-    const size_t count = s.peaks;
+    const size_t count = o->name || s.peaks < FEW ? s.peaks : FEW; /* loads repeat themselves */
     long double most = s.peak[0].v;
     memcpy(found, s.peak, sizeof found);
     for (size_t i = 0; i < count; i++)
