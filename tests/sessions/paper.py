@@ -173,7 +173,7 @@ BY_CASE = (
     (PRESSED + "; step Fx=20 N; step Fx=-5 N", {"dx": None, "c": None, "kt": None}),
     (SHAPED + "; step Fx=20 N",
      {"dz": "(10)", "a": "(10),(12)", "FN": "(12)", "Fx": "(16)", "dx": "(15)", "c": "(16)", "dW(20 N)": "(26)",
-      "g(0.1 mm)": "(3)"}),
+      "g(0.1 mm)": "(3)", "kn": "(10),(12)", "kt": "(15),(16)", "dxmax": "(15) with c = 0", "dx0max": "(15) with c = 0"}),
     (PRESSED + "; cycle FA=20 N FNA=30 N phase=90 deg", {"dW": None, "Fx": None, "dx": None, "c": None, "W": None}),
 )
 
