@@ -292,7 +292,7 @@ static bool read_smoothing(shell *sh, const lexer *of, const span *part, smoothi
         return true;
     lexer own = hole_lexer(of, part), *lx = &own;
     const size_t at = lx->at;
-    if (!expr_value(&sh->calc, lx, &v) || stray_unit(lx) || !at_end(lx))
+    if (!expr_value(&sh->calc, lx, &v) || !at_end(lx))
         return false;
     const bool within = dim_equal(v.d, DIM_LENGTH), number = dim_equal(v.d, DIM_NONE);
     if (!(within && v.v > 0) &&

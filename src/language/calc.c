@@ -164,7 +164,7 @@ static bool read_value(calc *c, lexer *lx, assignment *all, size_t count) {
     /* without a shape that of A is not known; that there is none is told by who asked */
     const bool any = !a->q || (quantity_input(a->q) == IN_A && !c->scene.in.geometry);
     const dim want = any ? DIM_NONE : wanted_dim(c, a->q, all, count);
-    if (!expr_parse_at(c, lx, &c->scratch) ||
+    if (!expr_parse_at(c, lx, &c->scratch) || expr_stray_unit(lx, c->keyword) ||
         !expr_eval_as(c, &c->scratch, any ? NULL : &want, &a->v, lx->error))
         return false;
     a->value_len = lx->last - a->value_at;
@@ -417,7 +417,7 @@ bool calc_assign(calc *c, lexer *lx) {
     size_t count = 0;
     bool ok = read_assignments(c, lx, all, &count);
     if (ok && lx->kind != T_END)
-        ok = lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
+        ok = !expr_stray_unit(lx, c->keyword) && lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
     for (size_t i = 0; i < count && ok; i++) {
         if (!all[i].q || all[i].d || all[i].increment)
             continue;

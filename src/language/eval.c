@@ -544,5 +544,6 @@ bool expr_value(calc *c, lexer *lx, value *out) {
 }
 
 bool expr_value_as(calc *c, lexer *lx, const dim *want, value *out) {
-    return expr_parse(c, lx, &c->scratch) && expr_eval_as(c, &c->scratch, want, out, lx->error);
+    return expr_parse(c, lx, &c->scratch) && !expr_stray_unit(lx, c->keyword) &&
+           expr_eval_as(c, &c->scratch, want, out, lx->error);
 }

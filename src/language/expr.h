@@ -49,6 +49,10 @@ bool expr_eval_as(struct calc *c, const expr *e, const dim *want, value *out, ca
 bool expr_dim(struct calc *c, const expr *e, dim *d);
 void expr_free(expr *e);
 
+/* Right behind a number, a word that is neither a unit nor a quantity nor a keyword: an error, and true.
+ * NULL: any word may come there. */
+bool expr_stray_unit(lexer *lx, bool (*keyword)(const lexer *lx));
+
 /* Parse and evaluate in one go. */
 bool expr_value(struct calc *c, lexer *lx, value *out);
 bool expr_value_as(struct calc *c, lexer *lx, const dim *want, value *out);

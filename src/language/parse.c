@@ -440,6 +440,16 @@ static bool parse_number(parser *p, size_t *out) {
     return add_node(p, &node, out);
 }
 
+bool expr_stray_unit(lexer *lx, bool (*keyword)(const lexer *lx)) {
+    unit known;
+    if (lx->kind != T_NAME || lx->text[lx->last - 1] < '0' || lx->text[lx->last - 1] > '9' || !keyword ||
+        keyword(lx) || lex_assigns(lx) || quantity_find(lx->text + lx->at, lx->len) ||
+        unit_lookup(lx->text + lx->at, lx->len, &known))
+        return false;
+    unit_parse(lx, &known); /* an error: it is none */
+    return true;
+}
+
 /* ---- (integral EXPR for NAME = LO .. HI) ------------------------------------------------------- */
 
 /* The name that goes over the range, and, as long as the expression is parsed, is known. */

@@ -151,7 +151,7 @@ static bool read_guess(exercise *x, const char *line, long double *guess) {
     lexer lx;
     value v;
     lex_start(&lx, line, strlen(line), error);
-    const bool ok = !error->raised && expr_value(&x->sh->calc, &lx, &v) && !stray_unit(&lx) && at_end(&lx) &&
+    const bool ok = !error->raised && expr_value(&x->sh->calc, &lx, &v) && at_end(&lx) &&
                     value_dim(&lx, x->choices ? "" : x->column.name, 0, strlen(line), v, x->value.d);
     if (!ok) {
         calc_word(&x->sh->calc, error);

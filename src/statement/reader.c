@@ -9,22 +9,12 @@
 
 /* ---- at the cursor ----------------------------------------------------------------------------- */
 
-bool stray_unit(lexer *lx) {
-    unit known;
-    if (lx->kind != T_NAME || lx->text[lx->last - 1] < '0' || lx->text[lx->last - 1] > '9' ||
-        argument_word(lx) || lex_assigns(lx) || quantity_find(lx->text + lx->at, lx->len) ||
-        unit_lookup(lx->text + lx->at, lx->len, &known))
-        return false;
-    unit_parse(lx, &known); /* an error: it is none */
-    return true;
-}
-
 bool at_end(lexer *lx) {
     if (lx->kind == T_END)
         return !lx->error->raised;
     if (lex_is(lx, "to") || lex_is(lx, "as") || lex_is(lx, "into"))
         return lex_fail(lx, "unexpected '%.*s': units are asked for by `in` (a in mm)", LEX_WORD(lx));
-    return stray_unit(lx) ? false : lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
+    return !expr_stray_unit(lx, argument_word) && lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
 }
 
 /* ---- what has been said ------------------------------------------------------------------------ */
@@ -204,7 +194,7 @@ static bool in_range(lexer *lx, const heard *h) {
 
 static bool read_operand(shell *sh, lexer *lx, const dim *want, heard *h) {
     h->hole[0].at = lx->at;
-    const bool ok = expr_value_as(&sh->calc, lx, want, &h->v) && !stray_unit(lx);
+    const bool ok = expr_value_as(&sh->calc, lx, want, &h->v);
     h->hole[0].len = lx->last - h->hole[0].at;
     return ok;
 }

@@ -13,8 +13,6 @@
 
 /* Nothing may follow. */
 bool at_end(lexer *lx);
-/* A name right after a number was meant as a unit: an error; else false. */
-bool stray_unit(lexer *lx);
 /* Is it a word that may follow a number: one that the table of commands names, or of a range? In command.c.
  */
 bool argument_word(const lexer *lx);
