@@ -445,7 +445,7 @@ static void draw_foot(const live *l, rect at) {
         put_words(l->note, INK_CURVE, (rect){at.top, at.left, last, at.cols}, 0);
     else
         put_text(at, 0, INK_FRAME,
-                 "arrows push and press  space plays  u undo  r reset  : statement  ? keys  q quit");
+                 "q quit  ? keys  arrows push and press  space plays  u undo  r reset  : statement");
     if (l->typing)
         put_line(l, at, last);
     else

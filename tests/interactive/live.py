@@ -262,7 +262,7 @@ def sizes(tests):
         live.screen.resize(rows, cols)
         live.child.setwinsize(rows, cols)
         ok = live.wait(lambda s: "loop: Fx over dx" in s.text() and re.search(r"Fx +0 N", s.text()) and s.row(rows - 1))
-        tests.check("the size becomes %dx%d" % (rows, cols), ok and ("energy" in live.screen.text()) == (rows >= 40),
+        tests.check("the size becomes %dx%d" % (rows, cols), ok and ("energy" in live.screen.text()) == (rows >= 40) and "q quit  ? keys" in live.screen.text(),
                     live.screen.text())
     live.end()
 
@@ -956,7 +956,7 @@ def readable(tests):
     live.key("x", "loop: Fx")
     live.says("step Fx=50 N")
     tests.check("a message of two rows", live.wait(lambda s: rows(s)[21:] == [
-        "arrows push and press  space plays  u undo  r reset  : statement  ? keys  q quit",
+        "q quit  ? keys  arrows push and press  space plays  u undo  r reset  : statement",
         "error: Fx = 50 N exceeds mu*FN = 40 N: gross slip; step by displacement (dx=...)", "to slide"]), live.screen.text())
     live.says("(%s)" % "+".join(["FN"] * 90))
     tests.check("a message of many is a page", live.wait(lambda s: "any other key: back" in s.row(22) and s.row(4).endswith("= 9 kN")), live.screen.text())
