@@ -9,7 +9,8 @@ import transcripts
 APROPOS = {"loop": "cycle, plot, dW", "hysteresis": "cycle, dW", "dissipation": "dW, W", "csv": "history, table, follow",
            "export": "history, table, plot", "stress": "p(r), qx(r)", "steel": "material, material steel",
            "Hertz": "press, geometry sphere, a", "unit": "help units, Pa", "Mindlin": "explain, dW",
-           "undo": "undo", "Monte": "uncertainty", "transcript": "record, replay", "start-up": "help scripts"}
+           "undo": "undo", "Monte": "uncertainty", "transcript": "record, replay", "start-up": "help scripts",
+           "animation": "animate", "delete": "reset", "lifetime": "wear, help cracking", "plasticity": "yield", "Matlab": "help programs"}
 HELPED = ("sphere", "springs", "flat-rounded", "format", "pager", "GPa", "cm", "%", "steel", "Ti-6Al-4V", "sin", "memory",
           "expressions", "scripts", "files", "theory", "paper", "limits", "prompt", "set model", "geometry cone",
           "material steel", "p(r)", "dW(20 N)", "FN=100 N", "set format")
