@@ -700,7 +700,7 @@ static bool parts_file(lexer *lx, const said *s) {
     const hole_row *row = h ? first_hole(h->of) : NULL;
     return row && row->kind == HOLE_FILE && (lx->kind == T_NAME || lx->kind == T_NUMBER) &&
            lx->text[h->hole[0].at] != '"' &&
-           !lex_fail(lx, "unexpected '%.*s': a file whose name has blanks goes into quotation marks",
+           !lex_fail(lx, "unexpected '%.*s': a file whose name has blanks goes into \"quotation marks\"",
                      LEX_WORD(lx));
 }
 

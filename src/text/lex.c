@@ -264,6 +264,8 @@ void lex_seek(lexer *lx, size_t at) {
         lex_fail(lx, "there are no comparisons: '%c' is not an operator here", c);
     } else if (c == '#') {
         lex_fail(lx, "'#' within a word begins no comment: put a blank before it");
+    } else if (c == '\'') {
+        lex_fail(lx, "unexpected character ''': texts and names go into \"quotation marks\"");
     } else if ((unsigned char)c < 0x20 || c == 0x7f) {
         lex_fail(lx, "unexpected byte 0x%02x", (unsigned)(unsigned char)c);
     } else {
