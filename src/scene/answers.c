@@ -198,10 +198,15 @@ bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
     const load_reach *reach = &s->answers.reach;
     if (!scene_press(s, &press, error))
         return false;
-    if (reach->by)
-        return scene_loading(s, reach->by == BY_FORCE, reach->end, out, error);
-    *out = (fret_loading){0, 0, press->a, press->dz};
-    return true;
+    if (!reach->by) {
+        *out = (fret_loading){0, 0, press->a, press->dz};
+        return true;
+    }
+    const bool ok = scene_loading(s, reach->by == BY_FORCE, reach->end, out, error);
+    if (!ok && error->kind == ERROR_STATUS && error->status.code == FRET_GROSS_SLIP &&
+        reach->last_cycle + 1 == s->end.steps)
+        error->status.quantity = "FA"; /* as a cycle that is run says it */
+    return ok;
 }
 
 bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
