@@ -35,8 +35,10 @@ static void tell_answer(live *l, const char *line, char *answer, bool ok) {
 static bool say_line(live *l, const char *line) {
     char *answer = NULL;
     const bool ok = l->host->run(l->host->self, line, &answer);
-    if (!ok && *l->host->stop)
+    if (!ok && *l->host->stop) {
         *l->host->stop = 0; /* the statement was interrupted, not the session */
+        l->torn = true;
+    }
     tell_answer(l, line, answer, ok);
     l->leave = l->leave || *l->host->quit;
     live_update(l);

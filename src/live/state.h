@@ -68,6 +68,7 @@ typedef struct live {
     bool dragging;
     int last_key;
     bool changed; /* something is to be drawn */
+    bool torn;    /* and all of it: at Ctrl-C a terminal drops what was on its way */
 } live;
 
 /* ---- state.c ---- */

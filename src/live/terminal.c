@@ -235,9 +235,11 @@ static int bytes_of_update(void) {
     return bytes;
 }
 
-void terminal_show(void) {
+void terminal_show(bool again) {
     enum { SLOW = 19200 /* terminals that are no lines report 38400 */, BITS = 10 };
     const int rate = baudrate();
+    if (again)
+        clearok(curscr, TRUE);
     wnoutrefresh(stdscr);
     const bool slow = rate > 0 && rate <= SLOW;
     const double takes = slow ? (double)BITS * bytes_of_update() / rate : 0, begin = clock_wall();

@@ -16,8 +16,8 @@ bool terminal_there(void);
 /* unseen: a screen of the usual size that nobody sees. */
 bool terminal_open(bool unseen, calc_error *error);
 void terminal_close(void);
-/* Sends what has been drawn. */
-void terminal_show(void);
+/* Sends what has been drawn; again: all of it. */
+void terminal_show(bool again);
 /* Milliseconds until the line has taken what was sent last: what is drawn before would only pile up. */
 int terminal_busy(void);
 /* Waits for a key or for the time to pass. */

@@ -467,13 +467,12 @@ static void draw_page(const live *l, rect all) {
     put_words(l->page, INK_NONE, all, l->page_from < rows ? l->page_from : rows - 1);
 }
 
-void live_draw(live *l) {
+static void draw_all(live *l) {
     const int foot = note_rows(l) + status_rows(l);
     rect all = {1, 0, LINES - 1 - foot, COLS};
     erase();
     if (LINES < 10 || COLS < 40) {
         put_text((rect){0, 0, LINES, COLS}, 0, INK_ERROR, "the screen is too small: 40 x 10");
-        terminal_show();
         return;
     }
     draw_head(l, (rect){0, 0, 1, COLS});
@@ -487,5 +486,10 @@ void live_draw(live *l) {
                       (rect){all.top, COLS * i / sides, all.rows, COLS / sides - (sides > 1 ? 1 : 0)});
     }
     draw_foot(l, (rect){LINES - foot, 0, foot, COLS});
-    terminal_show();
+}
+
+void live_draw(live *l) {
+    draw_all(l);
+    terminal_show(l->torn);
+    l->torn = false;
 }

@@ -592,11 +592,14 @@ def corners(tests):
         live.child.send(keys_sent)
         if says is None:
             works(live.child.pid)
+            live.screen.cleared = 0
             live.child.send("\x03")
             says = "interrupted"
         if not tests.check("what is said, %d: %r" % (i, keys_sent[:60]),
                            live.wait(lambda s, says=says: re.search(says, live.status())), live.screen.text()):
             break
+        if says == "interrupted":
+            tests.check("Ctrl-C, and all is drawn anew", live.screen.cleared > 0, live.screen.text())
     head = lambda pattern: lambda screen: re.search(pattern, screen.row(0))  # noqa: E731
     tests.check("the smallest amplitude", live.key("----------", head("FA 2 N")) and live.key("-", None) and
                 live.key("[", head(r"FA 2 N.* 0\.25/s")), live.screen.text())

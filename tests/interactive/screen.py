@@ -9,6 +9,7 @@ class Screen:
     def __init__(self, rows, cols):
         self.resize(rows, cols)
         self.pending = self.modes_text = ""
+        self.cleared = 0  # times
         self.modes = {}
         self.main = None  # the screen that waits, and its cursor
 
@@ -46,6 +47,8 @@ class Screen:
             elif re.match(r"\x1b[78=>MDEHc]", text[i:]):
                 self.escape(text[i + 1])
                 i += 2
+            elif re.match(r"\x1b\[[0-9;?]*\x1b", text[i:]):  # cut off by Ctrl-C
+                i = text.index("\x1b", i + 1)
             elif len(text) - i < 24:
                 self.pending = text[i:]
                 return
@@ -123,6 +126,7 @@ class Screen:
         elif c == "Z":
             self.x = max(0, (self.x - 1) // 8 * 8)
         elif c == "J":
+            self.cleared += n == [2] or self.y == self.x == 0
             self.erase_screen(n[0] if n else 0)
         elif c == "K":
             self.erase(self.y, *{0: (self.x, self.cols), 1: (0, self.x + 1), 2: (0, self.cols)}[n[0] if n else 0])
