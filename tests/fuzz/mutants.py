@@ -180,7 +180,7 @@ def run_parts(room, numbers, pipe):
     import runner
 
     class Some(harness.Tests):
-        count, inside, at = 0, False, threading.local()
+        count, inside, at, once = 0, False, threading.local(), threading.Lock()
 
         def record(self, name, ok, *how, **known):
             if not ok:
@@ -188,6 +188,7 @@ def run_parts(room, numbers, pipe):
             return super().record(name, ok, *how, **known)
 
         def end(self, what):
+            self.once.acquire()  # other threads may fail too
             shutil.rmtree(self.top, ignore_errors=True)
             os.write(pipe, what.encode())
             os._exit(0)
