@@ -7,7 +7,6 @@
 
 #include "commands/columns.h"
 #include "measured/apex.h"
-#include "number/real.h"
 #include "scene/presets.h"
 #include "statement/answer.h"
 #include "statement/command.h"

@@ -3,7 +3,6 @@
  * it takes the same way to the last digit. */
 #include "language/beside.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,7 +2,6 @@
 /* States of a scene as plain numbers. Changes no scene. */
 #include "live/shot.h"
 
-#include <math.h>
 #include <string.h>
 
 static const char *const names[SHOT_VALUES] = {"FN", "Fx", "dx", "dz", "a", "c", "c/a", "W", "U", "dW", "kt"};

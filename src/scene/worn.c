@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "number/real.h"
 #include "scene/scene.h"
 
 /* One law, what is held, and the run of how it wears. */

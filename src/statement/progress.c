@@ -3,7 +3,6 @@
  * and one line of it, hence the static state. */
 #include "statement/progress.h"
 
-#include <math.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>

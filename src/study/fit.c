@@ -7,7 +7,6 @@
 #include <gsl/gsl_multilarge_nlinear.h>
 #include <gsl/gsl_qrng.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
