@@ -499,11 +499,16 @@ static bool read_rows(finder *t, size_t begin, size_t header) {
 
 /* ---- decimal marks ----------------------------------------------------------------------------- */
 
-enum { POINT, COMMA, MARKS };
+enum { POINT, COMMA };
 static const struct {
     char is;
     const char *name;
-} marks[MARKS] = {{'.', "point"}, {',', "comma"}};
+} marks[CSV_MARKS] = {{'.', "point"}, {',', "comma"}};
+
+static field number_of(const cell *c) {
+    const char *hash = memchr(c->f.text, '#', c->f.len);
+    return field_trimmed(c->f.text, hash ? (size_t)(hash - c->f.text) : c->f.len);
+}
 
 /* Does the mark stand where one of thousands would: `1.500`, `-12,345`, not `0.500`? */
 static bool like_thousands(field f, char mark) {
@@ -516,51 +521,38 @@ static bool like_thousands(field f, char mark) {
     return true;
 }
 
-/* Of a column with a mark that may be either, where that line has the other one as decimal mark. */
-static bool doubt(csv *c, const csv_row *row, csv_values *column, field f, int mark, size_t line,
-                  calc_error *error) {
+/* Of a file with both marks: may that of a number be either? */
+static bool doubt(const csv *c, const csv_row *row, csv_values *column, const cell *v, calc_error *error) {
+    const field f = number_of(v);
+    const int behind = 3, before = (int)f.len - behind - 1, mark = memchr(f.text, ',', f.len) ? COMMA : POINT;
     const char *own = marks[mark].name, *other = marks[!mark].name;
-    const int behind = 3, before = (int)f.len - behind - 1;
     char whole[CSV_NAME];
+    if (!like_thousands(f, marks[mark].is))
+        return true;
     snprintf(whole, sizeof whole, "%.*s%.*s", before, f.text, behind, f.text + before + 1);
     return trouble(column, error,
                    "%.200s:%zu: %.60s = %.*s may be %.6g or %s, since line %zu has a decimal %s: write it "
                    "without its %s, or with a %s",
-                   c->path, row->line, column->name, (int)f.len, f.text, atof(whole) / 1000, whole, line,
-                   other, own, other);
+                   c->path, row->line, column->name, (int)f.len, f.text, atof(whole) / 1000, whole,
+                   c->marked[!mark], other, own, other);
 }
 
-/* What the numbers of a row say of the marks in this file; tells: which of them are in doubt. */
-static bool see_marks(csv *c, const csv_row *row, size_t line[MARKS], bool tells, calc_error *error) {
-    const char *text = c->text + row->at;
-    size_t at = 0;
-    cell f;
-    for (size_t i = 0; i < c->columns && cell_next(c->separator, text, row->len, &at, &plain_unit, &f); i++) {
-        const char *hash = memchr(f.f.text, '#', f.f.len);
-        const field number = field_trimmed(f.f.text, hash ? (size_t)(hash - f.f.text) : f.f.len);
-        for (int k = 0; k < MARKS && f.is == NUMBER; k++) {
-            if (!memchr(number.text, marks[k].is, number.len))
-                continue;
-            line[k] = line[k] ? line[k] : row->line;
-            if (tells && like_thousands(number, marks[k].is) &&
-                !doubt(c, row, &c->column[i], number, k, line[!k], error))
-                return false;
-        }
-    }
-    return true;
-}
-
-/* Only a file with both marks can be in doubt. */
-static bool check_marks(csv *c, calc_error *error) {
-    size_t line[MARKS] = {0, 0};
-    bool ok = true;
+/* Which marks stand in this file, and where first? Only one with both can be in doubt. */
+static void see_marks(csv *c) {
     if (c->separator != ',' ? !strchr(c->text, ',') || !strchr(c->text, '.') : !strchr(c->text, '"'))
-        return true;
-    for (size_t i = 0; i < c->rows; i++)
-        see_marks(c, &c->row[i], line, false, error);
-    for (size_t i = 0; i < c->rows && line[POINT] && line[COMMA] && ok; i++)
-        ok = see_marks(c, &c->row[i], line, true, error);
-    return ok;
+        return;
+    for (const csv_row *row = c->row; row < c->row + c->rows; row++) {
+        const char *text = c->text + row->at;
+        size_t at = 0;
+        cell v;
+        for (size_t i = 0; i < c->columns && cell_next(c->separator, text, row->len, &at, &plain_unit, &v);
+             i++)
+            for (int k = 0; k < CSV_MARKS && v.is == NUMBER; k++) {
+                const field f = number_of(&v);
+                if (!c->marked[k] && memchr(f.text, marks[k].is, f.len))
+                    c->marked[k] = row->line;
+            }
+    }
 }
 
 /* ---- the file ---------------------------------------------------------------------------------- */
@@ -580,8 +572,9 @@ static bool find_table(finder *t, size_t len) {
         ((header == NO_LINE || read_header(t, header, t->list[begin].fields)) && read_rows(t, begin, header));
     for (size_t i = 0; i < c->columns; i++)
         c->column[i].numbers = t->usual >> i & 1;
-    return ok && (c->rows > 0 || calc_fail(t->error, 0, 0, "%s holds no rows of numbers", c->path)) &&
-           check_marks(c, t->error);
+    if (ok)
+        see_marks(c);
+    return ok && (c->rows > 0 || calc_fail(t->error, 0, 0, "%s holds no rows of numbers", c->path));
 }
 
 bool csv_read(const char *path, file_stop stop, csv *c, calc_error *error) {
@@ -686,6 +679,8 @@ bool csv_load(csv *c, csv_values *column, calc_error *error) {
         else if (f.is == WORD || (f.ends && k + 1 < c->columns))
             ok = trouble(column, error, "%.200s:%zu: expected a number as %.60s, not '%.*s'", c->path,
                          row->line, column->name, LEX_SHOWN(f.f.len), f.f.text);
+        else if (f.is == NUMBER && c->marked[POINT] && c->marked[COMMA])
+            ok = doubt(c, row, column, &f, error);
         v[i] = f.v;
         ok = ok && !calc_stopped(c->stop, error);
     }

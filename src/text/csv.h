@@ -8,7 +8,7 @@
 #include "text/file.h"
 #include "text/unit.h"
 
-enum { CSV_COLUMNS = 64, CSV_NAME = 128 };
+enum { CSV_COLUMNS = 64, CSV_NAME = 128, CSV_MARKS = 2 };
 
 /* One column. What is wrong with it is told when it is asked for: a file may have columns of text beside. */
 typedef struct csv_values {
@@ -38,6 +38,7 @@ typedef struct csv {
     csv_row *row;
     csv_row header;           /* line 0: there is none */
     bool plain;               /* nothing stands above the header but comments */
+    size_t marked[CSV_MARKS]; /* lines where points, and where commas stand in numbers first; 0: none do */
     size_t without;           /* rows left out since they have no value */
     size_t words, first_word; /* lines of words among the rows or below them, and the first of these */
 } csv;

@@ -62,6 +62,7 @@ REFUSED = {
     "loop two-forces.csv using Fx=Querkraft kN": 'the file has another unit for it: "Querkraft [N]"\n',
     "loop unknown-unit.csv": "unknown-unit.csv:1: column dx: unknown unit 'furlong'; try: help units\n",
     "loop thousands.csv": "thousands.csv:3: Fx = 1.500 may be 1.5 or 1500, since line 3 has a decimal comma: write it without its point, or with a comma\n",
+    "loop bare-thousands.csv using dx=dx um, Fx=2 N": "bare-thousands.csv:3: Fx = 1.500 may be 1.5 or 1500, since line 3 has a decimal comma: write it without its point, or with a comma\n",
     "loop decimal-commas-commas.csv": "decimal-commas-commas.csv:3: more than 2 fields, one for each name of the header\n",
     "loop prose.txt": "prose.txt holds no rows of numbers\n",
     "loop profile.csv": 'profile.csv has no column Fx: its columns are r [mm], f, by line 1, "r [mm],f [um]"; say which it is: using Fx=COLUMN\n',
