@@ -148,7 +148,7 @@ static bool cut_lines(finder *t, size_t len) {
 }
 
 /* That which parts the most numbers from each other, and the fewest words from them; `sep=;` is how
- * spreadsheets tell it. Some lines tell of all. */
+ * spreadsheets tell it. Some lines tell of all. Marks of thousands are no semicolons and no tabs. */
 static char choose_separator(const finder *t) {
     static const char kinds[] = ";\t, ";
     enum { TRIED = 1000 };
@@ -162,8 +162,9 @@ static char choose_separator(const finder *t) {
                 if (l.comment)
                     continue;
                 scan_line(text_of(t, &l), *kind, &l);
-                const long numbers = count_bits(l.numbers);
-                score += numbers >= least ? 4 * numbers - (long)count_bits(l.words) : 0;
+                const unsigned long long marked = strchr(";\t", *kind) ? l.marked : 0;
+                const long numbers = count_bits(l.numbers | marked);
+                score += numbers >= least ? 4 * numbers - (long)count_bits(l.words & ~marked) : 0;
             }
             if (score > most) {
                 most = score;

@@ -64,6 +64,7 @@ WRONG = {
     b"r [mm];f [um]\n0;0\n12,500;5\n123.500;12 # far\n": ":3: r = 12,500 may be 12.5 or 12500, since line 4 has a decimal point",
     b"r [mm];f [um]\n0;0\n0,5;5\n1;12.000 # far\n": ":4: f = 12.000 may be 12 or 12000, since line 3 has a decimal comma",
     b"r [um];f [nm]\n0;0\n500,0;12500\n1 000,0;50 000\n": ":4: expected a number as r, not '1 000,0'",
+    "r_mm ; f_um\n0,5 ; 1\u202f155,72\n1,5 ; 2\u202f155,25\n2,5 ; 7,25\n".encode(): ":2: expected a number as f, not '1\u202f155,72'",
     b"r [um];f [nm]\n1'000.0;50'000\n0;0\n500.0;12500\n": ":2: expected a number as r, not '1'000.0'",
     "r [um];f [nm]\n0;0\n500.0;12500\n-1\u202f000;50\u00a0000\n".encode(): ":4: expected a number as r, not '-1\u202f000'",
     b"r [mm],f [um]\n0,0\n0.5,12x\n": ":3: expected a number as f, not '12x'",
