@@ -77,13 +77,14 @@ static bool run_live(shell *sh, const char *const *script, calc_error *error) {
     live_work work = {.frames = 0};
     char *screen = NULL;
     fflush(sh->out);
-    sh->set.color = false;
+    sh->set.color = sh->set.color_out = false;
     sh->set.pages = false; /* a pager would take the terminal */
     if (sh->set.report == REPORT_AUTO)
         sh->set.report = REPORT_OFF; /* the screen shows it */
     progress_hide();
     bool ok = live_run(&host, script, &work, &screen, error);
     sh->set.color = before.color;
+    sh->set.color_out = before.color_out;
     sh->set.pages = before.pages;
     if (sh->set.report == REPORT_OFF)
         sh->set.report = before.report;

@@ -554,7 +554,7 @@ def at_prompt(tests, statements):
     live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
     live.wait("fret>")
     live.child.send(statements + "; live\r")
-    live.wait(lambda s: s.modes.get(1049) and "keys  q quit" in s.text())
+    live.wait(lambda s: s.modes.get(1049) and "q quit  ? keys" in s.text())
     return live
 
 
@@ -961,6 +961,10 @@ def readable(tests):
     tests.check("a message of two rows", live.wait(lambda s: rows(s)[21:] == [
         "q quit  ? keys  arrows push and press  space plays  u undo  r reset  : statement",
         "error: Fx = 50 N exceeds mu*FN = 40 N: gross slip; step by displacement (dx=...)", "to slide"]), live.screen.text())
+    live.says("plot traction")
+    tests.check("a figure is a page, without the codes of colours", live.wait("any other key: back") and "traction between its bounds" in live.screen.text() and
+                "x1b" not in live.screen.text(), live.screen.text())
+    live.key("x", "loop: Fx")
     live.says("(%s)" % "+".join(["FN"] * 90))
     tests.check("a message of many is a page", live.wait(lambda s: "any other key: back" in s.row(22) and s.row(4).endswith("= 9 kN")), live.screen.text())
     live.key("x", "loop: Fx")

@@ -20,7 +20,7 @@ SWUNG = "cycle FA=20 N FNA=10 N phase=90 deg"
 def scene_of(tests, size, statements, *args, **env):
     """The full-screen mode after statements, on a screen of another size."""
     live = Live(tests, command=[tests.fret, "-c", statements + "; live " + " ".join(args)], size=size, **env)
-    live.wait(lambda s: s.modes.get(1049) and "keys  q quit" in s.text())
+    live.wait(lambda s: s.modes.get(1049) and "q quit  ? keys" in s.text())
     return live
 
 
@@ -54,7 +54,7 @@ def energies(tests):
         else:
             with tests.file("%s\n%s\n" % (SCENE, statement)) as path:
                 live = Live(tests, path, size=(50, 130))
-                live.wait("keys  q quit|end of the script")
+                live.wait("q quit|end of the script")
                 live.key(" ", "> cycle")
             live.key(" ", lambda s: "> cycle" not in s.row(0))
         tests.check("the energies of forty periods, " + name, live.wait(lambda s: live.value("W") == want and curve_ends(live)),
@@ -187,7 +187,7 @@ def begins_anew(tests):
     live.gone()
     with tests.file(SCENE + "\nstep Fx=20 N\nstep Fx+=0 N\nx = 3\n") as path:
         live = Live(tests, path)
-        live.wait("keys  q quit")
+        live.wait("q quit")
         live.key(" ", "> cycle")
         live.key(" ", lambda s: "> cycle" not in s.row(0) or "+=0" in live.status())
         if "+=0" not in live.status():
