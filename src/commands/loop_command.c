@@ -109,6 +109,8 @@ bool do_loop(shell *sh, lexer *lx, said *all) {
         snprintf(more, sizeof more, "%zu cycle%s%s", l.cycles, l.cycles == 1 ? "" : "s",
                  turned ? ", " TURNED_FX : "");
         columns_say(sh, &data, more);
+        if (l.cycle->ratio < -0.01) /* by more than noise makes of a loop without area */
+            shell_note(sh, "dW < 0: the loop runs the wrong way round: does one of the readings lag?");
         ok = tell(sh, lx, all, &data, &l);
     }
     loop_free(&l);

@@ -302,7 +302,8 @@ static bool rows_range(shell *sh, const lexer *lx, said *all, file_rows *r, size
     if (!r->names.count) {
         char columns[CALC_ERROR_TEXT / 2];
         csv_names(&r->data, columns, sizeof columns);
-        return calc_fail(lx->error, file->at, file->len, "no column of %.100s is used: they are %s",
+        return calc_fail(lx->error, file->at, file->len,
+                         "no column of %.100s is used: they are %s; using NAME=COLUMN names one",
                          r->data.path, columns);
     }
     r->at = (sweep_rows){r->names.count, r->names.column};

@@ -219,6 +219,14 @@ def loop_of(phase, slip=0.6, K=40.0, F=30.0):
     return x, f
 
 
+def wrong_way(tests):
+    """A loop that gives energy is no contact's: one reading lags."""
+    rows = [loop_of(2 * math.pi * i / 60) for i in range(61)]
+    for name, some, wrong in (("as it is", rows, False), ("the wrong way round", rows[::-1], True)):
+        done = tests.run("-c", "loop " + write(tests, "way.csv", some))
+        tests.check("loop " + name, done.returncode == 0 and ("the wrong way round" in done.stderr) == wrong, tests.report(done))
+
+
 def noisy(tests):
     """Within the noise, whatever the draw; turning points are found above it, and a cycle begins where one should."""
     M, cycles, sx, sF = 200, 5, 0.01, 0.5
@@ -313,4 +321,4 @@ def many_rows(tests):
 
 
 def run(tests):
-    tests.each([lambda room=room: room(tests) for room in (forms, words, polygons, sampled, drifting, noisy, much_noise, where_cycles_begin, rows_compared, many_rows)])
+    tests.each([lambda room=room: room(tests) for room in (forms, words, polygons, sampled, drifting, wrong_way, noisy, much_noise, where_cycles_begin, rows_compared, many_rows)])
