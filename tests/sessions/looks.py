@@ -234,6 +234,9 @@ def maps(tests):
     tests.check("where the contours are", len(values) > 2 and all(abs(y + 2 * z - v) < 2e-3 for v, y, z in values), str(values))
     text, _ = script(tests, "contours at an edge bear none", "plot map y^60 + z^60 for y = 0 .. 1 for z = 0 .. 1")
     tests.check("no value beyond the frame", "set contour" in text and "set label '" not in text, text[-1500:])
+    text, series = script(tests, "stress below part of a contact",
+                          "plot map mises(x, 0 m, z) for x = 0.05 mm .. 0.4 mm steps 4 for z = 0 m .. a steps 4")
+    tests.check("the contact is marked as far as the map goes", series == [[(50, 0), (186.625558, 0)]], str(series))
     text, _ = script(tests, "a map in a unit", "plot map -a in mm for k = 0 .. 0.5 for mu = 0.1 .. 0.2 xlabel \"X\" log y")
     there = [float(line.split()[2]) for line in re.search(r"\$map0_0 << END\n(.*?)END", text, re.S).group(1).splitlines() if line]
     tests.check("a map's unit, label and axis", 'set cblabel' in text and "[mm]\"" in text and 'set xlabel "X"\n' in text and
