@@ -46,8 +46,8 @@ static csv_values *column_at(csv *c, lexer *lx) {
     csv_values *column = NULL;
     snprintf(name, sizeof name, "%.*s", (int)(len - 2 * quoted), lx->text + at + quoted);
     char *end;
-    const unsigned long number = quoted || lx->kind != T_NUMBER ? 0 : strtoul(name, &end, 10);
-    if (lx->kind != T_NUMBER || quoted)
+    const unsigned long number = lx->kind == T_NUMBER ? strtoul(name, &end, 10) : 0;
+    if (lx->kind != T_NUMBER)
         column = csv_find(c, name);
     else if (*end == 0 && number > 0 && number <= c->columns)
         column = &c->column[number - 1];

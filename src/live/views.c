@@ -387,10 +387,11 @@ static void put_inputs_line(const live *l, rect at) {
         live_amount(s->in.v[shown[i]], quantity_dim(q, s), amount_of, sizeof amount_of);
         const int more = snprintf(one, sizeof one, "  %s %s", q->name, amount_of);
         if (n + more > at.cols) {
-            n += n + 3 <= at.cols ? snprintf(text + n, sizeof text - (size_t)n, " ..") : 0;
+            text_add(text, sizeof text, "%s", n + 3 <= at.cols ? " .." : "");
             break;
         }
-        n += snprintf(text + n, sizeof text - (size_t)n, "%s", one);
+        text_add(text, sizeof text, "%s", one);
+        n += more;
     }
     put_text(at, 0, INK_NONE, "%s", text);
 }

@@ -257,7 +257,6 @@ bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error) 
 bool scene_stress_field(scene *s, const fret_field **field, calc_error *error) {
     const load_reach *reach;
     const fret_contact *now, *straight;
-    fret_status st = fine;
     if (!scene_reach(s, &reach, error))
         return false;
     if (!reach->by)
@@ -272,7 +271,7 @@ bool scene_stress_field(scene *s, const fret_field **field, calc_error *error) {
         return true;
     if (!scene_straight(s, &straight, error))
         return false;
-    st = fret_field_make(straight, &s->answers.straight);
+    const fret_status st = fret_field_make(straight, &s->answers.straight);
     *field = s->answers.straight;
     return calc_status(error, st);
 }
