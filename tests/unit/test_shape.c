@@ -593,6 +593,29 @@ static void long_table(void) {
     fret_table_free(t);
 }
 
+/* As few pieces as the bumps of a gap want, and no further off than is said. */
+static void thinned(void) {
+    enum { ROWS = 20001 };
+    static double r[ROWS], f[ROWS];
+    struct fret_table *t = NULL;
+    const double bumps = 5e4, end = 1e-3;
+    for (int i = 0; i < ROWS; i++) {
+        r[i] = end * i / (ROWS - 1);
+        f[i] = 50 * r[i] * r[i] * (1 + 1e-3 * cos(bumps * r[i]));
+    }
+    CHECK_OK(fret_table_make(r, f, ROWS, NULL, &t));
+    const double within = fret_table_within(t);
+    const size_t pieces = fret_table_count(t);
+    CHECK(pieces > 100 && pieces <= 2000 && within <= 1e-9);
+    const fret_gap gap = {.kind = FRET_GAP_TABLE, .table = t};
+    for (int i = 0; i < ROWS; i += 7) {
+        fret_real at;
+        CHECK_OK(fret_gap_f(&gap, r[i], &at));
+        CHECK_ABS(at, f[i], f[ROWS - 1], within);
+    }
+    fret_table_free(t);
+}
+
 /* W of large steps of both forces over a coarse table: edge and front cross rows, where the profile is not
  * smooth. Small steps see one row at a time. */
 static void coarse_steps(void) {
@@ -642,6 +665,7 @@ int main(int argc, char **argv) {
     CASE(sloped());
     CASE(table_order());
     CASE(long_table());
+    CASE(thinned());
     if (!unit_skips(1))
         CASE(coarse_steps());
     return unit_finish();
