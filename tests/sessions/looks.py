@@ -117,6 +117,8 @@ def looks(tests):
     fails(tests, "plot loop log z", "expected log x, log y or log xy")
     fails(tests, "plot loop title hello", 'expected title "TEXT"')
     fails(tests, "plot x for x = 0 .. 1 for y = 0 .. 1", "two ranges make a map")
+    for more in ("with k = 0, 0.5", "steps 9", "along cycle"):
+        fails(tests, "plot regimes for dxA = 1 um .. 2 um for FN = 1 N .. 9 N " + more, "regimes go for dxA")
     fails(tests, "plot loop xrange 1 um .. 1 um", "the limits of the x axis are the same")
     fails(tests, "plot dissipation key", "expected key off")
 
