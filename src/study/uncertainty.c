@@ -167,7 +167,7 @@ static bool take_drawn(void *context, size_t i, const long double x[], const val
 }
 
 static void count_given(sampling *m) {
-    value v[UNCERTAIN_VALUES];
+    value v[UNCERTAIN_VALUES] = {{.v = 0}};
     for (size_t i = 0; i < m->s->of->samples; i++) {
         for (size_t k = 0; k < m->s->of->expressions; k++)
             v[k].v = m->s->of->given[k][i];
