@@ -38,7 +38,7 @@ static void half_space_reference(void) {
 
 static void half_space_identities(void) {
     for (double nu = -0.9; nu <= 0.5; nu += 0.1) {
-        fret_real hN, hT, beta;
+        fret_real hN = 0, hT = 0, beta = 0;
         CHECK_OK(half_space(0, nu, &hN, &hT, &beta));
         CHECK_REL(hN, 1.0L, UNIT_TOL(2e-18L, 2e-15L));
         CHECK_REL(hT, 2 / ((1 + (fret_real)nu) * (2 - (fret_real)nu)), UNIT_TOL(2e-18L, 2e-15L));
