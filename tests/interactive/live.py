@@ -569,7 +569,7 @@ def works(pid):
 
 
 # keys, what is said of it at the last row; None: it takes minutes, and is interrupted
-SAID = [("c", r"^c0 = 200 um"), (":undo\r", "^undo"), ("k", r"^k = 0\.05, c0 = 200 um"), ("u", "^undo"), ("b", "^undo"),
+SAID = [("c", r"^c0 = 200 um"), (":undo\r", "^undo"), ("k", r"^k = 0\.05, c0 = 200 um"), ("u", "^undo"), ("b", "^undo"), ("m", r"^mu = 0\.42$"), ("M", r"^mu = 0\.4$"),
         ("r", "^press FN=100 N"), ("I", r"step FN\+=500 mN"), ("J", r"step FN\+=-500 mN"),
         ("g", "geometry cone"), ("g", "geometry power n=4"), ("g", "geometry flat-rounded"), ("g", "geometry sphere"),
         (":geometry sum 2:50 m^-1\r", "geometry sum"), ("g", "geometry cone"), (":geometry sphere R=10 mm\r", "sphere"),

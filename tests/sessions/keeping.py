@@ -203,6 +203,10 @@ def recorded(tests):
     done = tests.run("--replay", "self.txt", cwd=where)
     tests.check("a transcript of itself ends", "nested more than" in done.stdout and done.returncode == 1,
                 tests.report(done))
+    with open(os.path.join(where, "sum.txt"), "w", encoding="ascii") as f:
+        f.write("fret> 1 + 1\n1 + 1 = 2\n")
+    done = tests.run("-c", "; ".join(9 * ["replay sum.txt"]), cwd=where)
+    tests.check("one after another they are not nested", done.stdout.count("1 passed, 0 failed") == 9, tests.report(done))
 
 
 def quoted(tests):
