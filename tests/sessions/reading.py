@@ -140,3 +140,6 @@ def run(tests):
     with tests.file(b"time [s];Fx [N];FN [kN]\n0;0;0,1\n1;15;0,12\n", ".csv") as path:
         done = tests.run("-c", SCENE + "geometry sphere R=10 mm; follow %s; FN, Fx" % path)
         tests.same("a load with other columns", "FN = 120 N\nFx = 15 N", done.stdout + done.stderr)
+    with tests.file(b"# a b\n# x y\n1 2\n3 4\n", ".txt") as path:
+        done = tests.run("--format=csv", "-c", "table x*y at %s" % path)
+        tests.same("names in the nearer of two comments", "x,y,x*y\n1,2,2\n3,4,12", done.stdout + done.stderr)
