@@ -239,6 +239,8 @@ def maps(tests):
     text, series = script(tests, "stress below part of a contact",
                           "plot map mises(x, 0 m, z) for x = 0.05 mm .. 0.4 mm steps 4 for z = 0 m .. a steps 4")
     tests.check("the contact is marked as far as the map goes", series == [[(50, 0), (186.625558, 0)]], str(series))
+    text, _ = script(tests, "below 0", "plot -x*1 um for x = 100 .. 200")
+    tests.check("a unit that fits what is below 0", "[\u00b5m]" in text, text[-1500:])
     text, _ = script(tests, "a map in a unit", "plot map -a in mm for k = 0 .. 0.5 for mu = 0.1 .. 0.2 xlabel \"X\" log y")
     there = [float(line.split()[2]) for line in re.search(r"\$map0_0 << END\n(.*?)END", text, re.S).group(1).splitlines() if line]
     tests.check("a map's unit, label and axis", 'set cblabel' in text and "[mm]\"" in text and 'set xlabel "X"\n' in text and

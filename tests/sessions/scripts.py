@@ -497,7 +497,8 @@ def own_lessons(tests):
         found = re.findall(r"(?m)^%s:(\d+):\d+: error: (.*)$" % re.escape(path), done.stderr)
         tests.check("mistakes of a lesson, line by line", done.returncode == 1 and not done.stdout and len(found) == len(MISTAKES) and
                     all(int(n) == line and told.startswith(words) for (n, told), (line, words) in zip(found, MISTAKES)) and
-                    "9 mistakes in %s: it is not played" % path in done.stderr, tests.report(done))
+                    "9 mistakes in %s: it is not played" % path in done.stderr and
+                    ":13:1: error: a lesson does not end" in done.stderr, tests.report(done))
         done = tests.run("--format=json", "-c", "demo " + path)
         rows = [row for row in map(json.loads, done.stdout.splitlines()) if row.get("file") == path]
         tests.check("mistakes in JSON", [row["line"] for row in rows] == [line for line, _ in MISTAKES], tests.report(done))
