@@ -542,7 +542,7 @@ static bool doubt(const csv *c, const csv_row *row, csv_values *column, const ce
 static void see_marks(csv *c) {
     if (c->separator != ',' ? !strchr(c->text, ',') || !strchr(c->text, '.') : !strchr(c->text, '"'))
         return;
-    for (const csv_row *row = c->row; row < c->row + c->rows; row++) {
+    for (const csv_row *row = c->row; row < c->row + c->rows && !*c->stop; row++) {
         const char *text = c->text + row->at;
         size_t at = 0;
         cell v;
