@@ -279,7 +279,7 @@ def campaign(problem, fret, env, seconds, seed, workers, most=math.inf):
 def run(tests):
     """Programs of fixed seeds; the sanitized build goes on with others."""
     count, wrong = campaign(problem, tests.fret, {**tests.env, "TMPDIR": tests.tmp}, math.inf, 1000000 if tests.sanitized else 1, 2,
-                            1 if tests.sanitized else 4 if tests.few else 20)
+                            1 if tests.sanitized else 4 if tests.few else 10)
     for seed, what in wrong:
         tests.check("random program %d" % seed, False, "%s\n%s" % (what, "\n".join(Writer(seed).program())))
     tests.record("random programs", count > len(wrong), count)

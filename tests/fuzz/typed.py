@@ -106,7 +106,7 @@ def session(fret, env, where, keys, r):
 
 def run(tests):
     count, wrong = programs.campaign(problem, tests.fret, {**tests.env, "TMPDIR": tests.tmp}, math.inf, 1000000 if tests.sanitized else 1, 2,
-                                     4 if tests.few else 30)
+                                     4 if tests.few else 15)
     for seed, what in wrong:
         tests.check("random keys %d" % seed, False, what)
     tests.record("random keys", count > len(wrong), count)

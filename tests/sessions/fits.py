@@ -73,7 +73,7 @@ def answers(tests, script):
 
 
 def noisy_loops(tests, count):
-    """mu and E0 within two standard errors, in at least 90 of 100 sets."""
+    """mu and E0 within two standard errors, in at least nine of ten sets; `make fits` has more of them."""
     mu, E0 = 0.35, 200e9
     path = path_of(0.8e-6, 25)
     clean = loop(mu, E0, path)
@@ -810,7 +810,7 @@ def run(tests):
     shapes(tests)
     not_closed(tests)
     refusals(tests)
-    noisy_loops(tests, 20 if tests.few else 100)
+    noisy_loops(tests, 20 if tests.few else 60)
     drifting(tests)
     noisy_in_both(tests)
     sharp_drive(tests)
