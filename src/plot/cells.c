@@ -91,7 +91,8 @@ static void put_dot(plot_pen *p, int x, int y) {
         plot_cells_dot(c, x, y, p->ink);
 }
 
-/* Half a dot at a time, as far as the line lies in the cells or near them. */
+/* Half a dot at a time, as far as the line lies in the cells or near them: between the parts t0 and t1 of it,
+ * which division by a difference of 0 makes infinite, or an empty part beside the cells. */
 void plot_pen_line(plot_pen *p, double x0, double y0, double x1, double y1) {
     const double from[2] = {x0, y0}, d[2] = {x1 - x0, y1 - y0},
                  most[2] = {p->on->cols * p->on->across, p->on->rows * p->on->up};
@@ -100,11 +101,6 @@ void plot_pen_line(plot_pen *p, double x0, double y0, double x1, double y1) {
         return;
     for (int i = 0; i < 2; i++) {
         const double lo = -1 - from[i], hi = most[i] - from[i];
-        if (d[i] == 0) {
-            if (lo > 0 || hi < 0)
-                return;
-            continue;
-        }
         t0 = fmax(t0, fmin(lo / d[i], hi / d[i]));
         t1 = fmin(t1, fmax(lo / d[i], hi / d[i]));
     }

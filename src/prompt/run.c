@@ -266,7 +266,7 @@ void shell_report(shell *sh, const source *from, const char *text, size_t len, s
     while (end < len && text[end] != '\n')
         end++;
     const size_t place = character_count(text + begin, at - begin) + 1;
-    while (begin > 0 && begin < at && text[begin] == ' ') /* indented, or behind a prompt in a transcript */
+    while (begin < at && text[begin] == ' ') /* indented, or behind a prompt in a transcript */
         begin++;
     answer a;
     answer_begin(&a, &sh->set, sh->out);

@@ -577,15 +577,12 @@ long double run_unsure(const long double at[LEVELS]) {
     return part_of(fmaxl(2 * fabsl(change), fabsl(at[2] - at[1]) / 256), at);
 }
 
-/* A member of the states of all levels, and its limit. Where they differ by rounding of `scale` alone it was
- * asked for: so it stays, 0 above all. */
-static void to_limit(const sight at[LEVELS], size_t member, long double scale, fret_state *out) {
+/* A member of the states of all levels, and its limit. */
+static void to_limit(const sight at[LEVELS], size_t member, fret_state *out) {
     long double v[LEVELS], unused;
     for (unsigned i = 0; i < LEVELS; i++)
         memcpy(&v[i], (const char *)&at[i].state + member, sizeof v[i]);
     v[0] = run_limit(v, &unused);
-    if (fabsl(v[LEVELS - 1] - v[LEVELS - 2]) <= 16 * LDBL_EPSILON * scale)
-        return;
     memcpy((char *)out + member, &v[0], sizeof v[0]);
 }
 
@@ -593,10 +590,10 @@ static void sight_limit(const sight at[LEVELS], sight *out) {
     const long double loss[LEVELS] = {at[0].loss, at[1].loss, at[2].loss};
     long double unused;
     out->state = at[LEVELS - 1].state;
-    to_limit(at, offsetof(fret_state, W), 0, &out->state);
-    to_limit(at, offsetof(fret_state, U), 0, &out->state);
-    to_limit(at, offsetof(fret_state, Fx), out->state.FN, &out->state);
-    to_limit(at, offsetof(fret_state, dx), out->state.dz, &out->state);
+    to_limit(at, offsetof(fret_state, W), &out->state);
+    to_limit(at, offsetof(fret_state, U), &out->state);
+    to_limit(at, offsetof(fret_state, Fx), &out->state);
+    to_limit(at, offsetof(fret_state, dx), &out->state);
     out->loss = run_limit(loss, &unused);
 }
 

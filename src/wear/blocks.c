@@ -190,7 +190,7 @@ fret_status fret_blocks_go_on(fret_wear_run *run) {
     const int stages = (int)fmax(2, ceil(sqrt(1 + step * run->fastest / 0.65)));
     const fret_status tried = block(a, run->nodes + 1, h, rate, step, stages, next, run->before, next_rate);
     const double off =
-        tried.code ? INFINITY : error_of(a, h, rate, next, next_rate, step, run->off) / run->tolerance;
+        tried.code ? INFINITY : error_of(a, h, rate, next, next_rate, step, run->before) / run->tolerance;
     if (tried.code && !(step > 1e-6 * done))
         return tried;
     if (run->rates + stages > RATES || !(off >= 0))

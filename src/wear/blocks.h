@@ -19,10 +19,10 @@ struct fret_wear_run {
     double tolerance;
     size_t nodes, count, room; /* of each ring; rings, ever wider */
     fret_blocks *blocks;
-    double step, fastest;         /* cycles of the next block; the fastest decay */
-    long rates, tried;            /* so far; blocks of the last ring */
-    bool arrived;                 /* the rest would wear next to nothing */
-    double *before, *stiff, *off; /* vectors, in one piece: of the stages, of the fastest decay, of errors */
+    double step, fastest;   /* cycles of the next block; the fastest decay */
+    long rates, tried;      /* so far; blocks of the last ring */
+    bool arrived;           /* the rest would wear next to nothing */
+    double *before, *stiff; /* vectors, in one piece: scratch of a step, of the fastest decay */
 };
 
 /* A ring from where the last one has come to, or the first; nodes are closest at `steep`. Errors:

@@ -193,10 +193,9 @@ fret_status fret_wear_run_make(const fret_normal *n, const fret_wear_held *held,
     if (!run)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     *run = (fret_wear_run){.normal = n, .held = *held, .tolerance = tolerance, .nodes = nodes_of(tolerance)};
-    run->before = calloc(3 * (run->nodes + 1), sizeof *run->before);
+    run->before = calloc(2 * (run->nodes + 1), sizeof *run->before);
     if (run->before) {
         run->stiff = run->before + run->nodes + 1;
-        run->off = run->stiff + run->nodes + 1;
         st = fret_blocks_begin(run, inner, inner, outer);
     } else
         st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);

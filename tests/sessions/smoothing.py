@@ -139,6 +139,13 @@ def hollows(tests):
                 and 1 < 1e6 * event["rms"] / math.sqrt(left / len(rows)) < 1.1, "%s %s" % (slopes, event))
 
 
+    rows = profile(lambda r: 50 * r ** 2 - 16.8 * r ** 3)  # f' falls near r = 1, r f' does not
+    (A, B, offset), _, _ = householder([powers(r, [0, 1]) for r, _ in rows], [f for _, f in rows])
+    _, got = smooth(tests, rows, "1")
+    tests.check("a piece is kept whose r f' grows", A + 3 * B < 0 < 4 * A + 9 * B and
+                close(got, [A * r ** 2 + B * r ** 3 for r in AT], 1e-9), "%g %g %s" % (A, B, got))
+
+
 def noise(tests):
     """A known sphere under known noise comes back within its standard error, and the misfit is the noise."""
     for seed in range(2, 7):
