@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a command answers, handed to the form that is set. */
+/* Passes the parts of an answer to the functions of its form. Writes to the answer's stream. */
 #include "statement/answer.h"
 
 #include <stdarg.h>

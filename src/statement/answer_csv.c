@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Answers as CSV: a header with units, then rows. What is no row is as in text. */
+/* Answers as CSV: a header with units, then rows; reports and pages are as in text. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 static void put_header(FILE *to, const column *columns, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const column *c = &columns[i];
-        const char *quote = strchr(c->name, ',') ? "\"" : ""; /* quotes and ends of lines are in no name */
+        const char *quote = strchr(c->name, ',') ? "\"" : ""; /* names have no quotes and no line ends */
         fprintf(to, *c->unit ? "%s%s%s [%s]%s" : "%s%s%s%s%s", i ? "," : "", quote, c->name, c->unit, quote);
     }
     putc('\n', to);
@@ -40,7 +40,7 @@ static void put_csv_row(answer *a, const long double *si) {
     put_csv_cells(a->to, a->columns, si, a->count);
 }
 
-static void put_mixed(answer *a, const answer_cell *cells) {
+static void put_csv_answer_cells(answer *a, const answer_cell *cells) {
     for (size_t i = 0; i < a->count; i++) {
         const answer_cell *c = &cells[i];
         const char *quote = c->words && strchr(c->words, ',') ? "\"" : "";
@@ -54,10 +54,9 @@ static void put_mixed(answer *a, const answer_cell *cells) {
     putc('\n', a->to);
 }
 
-/* ---- values: all of an answer are one row ------------------------------------------------------ */
+/* ---- values: all values of an answer make one row ---------------------------------------------- */
 
-/* `before`, a blank and `name` as the name, or one of them. unit: of whom the column has it; NULL: it has
- * none. */
+/* Adds a value called "before name" (either may be empty), with the unit of unit_of; NULL: without. */
 static void wait_for_row(answer *a, const char *before, const char *name, const column *unit_of,
                          long double si) {
     struct waiting *w = &a->waiting;
@@ -110,7 +109,7 @@ static void put_waiting(answer *a, bool ok) {
 }
 
 const answer_form answer_as_csv = {
-    .words = LAYOUT_PAGE, /* elsewhere the rows say it */
+    .words = LAYOUT_PAGE, /* in other layouts rows have the same facts */
     .value = put_csv_value,
     .estimate = put_csv_estimate,
     .close = text_close,
@@ -118,6 +117,6 @@ const answer_form answer_as_csv = {
     .share = put_share,
     .columns = put_csv_columns,
     .row = put_csv_row,
-    .cells = put_mixed,
+    .cells = put_csv_answer_cells,
     .end = put_waiting,
 };

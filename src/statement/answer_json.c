@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Answers as JSON: every line is one object, numbers in SI to the last digit. */
+/* Answers as JSON: one object a line, numbers in SI with 17 digits. Writes to the answer's stream. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 /* ---- strings and numbers ----------------------------------------------------------------------- */
 
-/* Length of the printable ASCII that begins there and stands for itself in JSON: most names are that. */
+/* Length of the beginning of `text` that needs no escape in JSON: for most names all of it. */
 static size_t plain_length(const char *text) {
     size_t n = 0;
     while (text[n] >= ' ' && text[n] < 0x7f && text[n] != '"' && text[n] != '\\')
@@ -16,7 +16,7 @@ static size_t plain_length(const char *text) {
     return n;
 }
 
-/* Quotation marks included; bytes that are no UTF-8 become U+FFFD. */
+/* Writes a JSON string. Bytes that are no UTF-8 become U+FFFD. */
 static void put_string(FILE *to, const char *text) {
     putc('"', to);
     size_t plain = plain_length(text);
@@ -42,7 +42,7 @@ static void put_string(FILE *to, const char *text) {
     putc('"', to);
 }
 
-/* JSON has no infinities; results never are, but a table may hold gaps. */
+/* JSON has no infinities and no NaN: a gap of a table is null. */
 static void put_number(FILE *to, int digits, long double v) {
     if (isfinite((double)v))
         print_number(to, 0, digits, (double)v);
@@ -52,7 +52,7 @@ static void put_number(FILE *to, int digits, long double v) {
 
 /* ---- objects ----------------------------------------------------------------------------------- */
 
-/* NULL: an item has none. */
+/* Begins a member; name NULL: an item of a list. */
 static void name_member(answer *a, const char *name) {
     if (a->any)
         putc(',', a->to);
@@ -120,7 +120,7 @@ static void put_json_estimate(answer *a, const column *c, const estimate *e) {
     put_json_value(a, c, e->v);
 }
 
-/* The units come first, once: rows have but numbers. */
+/* A first object names the unit of each column; rows have only numbers. */
 static bool put_json_columns(answer *a, const char *event) {
     char unit_text[COLUMN_UNIT];
     open_event(a, "event", event);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Answers as text, for readers: units that suit, as many digits as are set. */
+/* Answers as text for people: with units that suit and `set digits` digits. Writes to the answer's stream. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,7 +57,7 @@ static void put_share(answer *a, const char *name, double part) {
     a->any = true;
 }
 
-/* Shares are a line. */
+/* Ends the line that put_share has written. */
 static void end_group(answer *a) {
     if (a->any)
         putc('\n', a->to);
@@ -66,10 +66,10 @@ static void end_group(answer *a) {
 
 /* ---- tables ------------------------------------------------------------------------------------ */
 
-/* As wide as a number with its digits, or as the name. */
+/* Writes the header. A column is as wide as its name and unit, or as a number of this many digits. */
 static void text_head(answer *a) {
     for (size_t i = 0; i < a->count; i++) {
-        column c = a->columns[i]; /* in the unit that was asked for, or one that suits what is held */
+        column c = a->columns[i]; /* in the unit asked for, or in one that suits the rows held */
         column_suit(&c, a->held + i, a->rows, a->count + 1, a->set->digits);
         a->scale[i] = c.scale;
         const size_t unit_width = text_columns(c.unit, strlen(c.unit)),
@@ -97,7 +97,7 @@ static void text_row(const answer *a, const long double *si) {
     putc('\n', a->to);
 }
 
-static void release(answer *a) {
+static void put_held(answer *a) {
     a->headed = true;
     text_head(a);
     for (size_t row = 0; row < a->rows; row++)
@@ -107,7 +107,8 @@ static void release(answer *a) {
     a->rows = 0;
 }
 
-static void hold(answer *a, const long double *si) {
+/* Holds the row until TEXT_HELD rows choose the units; from then on writes it at once. */
+static void put_or_hold(answer *a, const long double *si) {
     long double row[COLUMNS + 1];
     memcpy(row, si, a->count * sizeof *row);
     row[a->count] = a->gap;
@@ -117,7 +118,7 @@ static void hold(answer *a, const long double *si) {
     if (a->headed)
         text_row(a, row);
     else if (a->rows == TEXT_HELD)
-        release(a);
+        put_held(a);
 }
 
 static bool put_text_columns(answer *a, const char *event) {
@@ -130,7 +131,7 @@ static bool put_text_columns(answer *a, const char *event) {
 
 static void end_text_table(answer *a, bool ok) {
     if (ok && a->held)
-        release(a);
+        put_held(a);
     free(a->held);
     a->held = NULL;
 }
@@ -144,6 +145,6 @@ const answer_form answer_as_text = {
     .share = put_share,
     .up = end_group,
     .columns = put_text_columns,
-    .row = hold,
+    .row = put_or_hold,
     .end = end_text_table,
 };

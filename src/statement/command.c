@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rows of the table of commands, as it has been handed down: who runs, completes or explains statements asks
- * here, and knows no handler. */
+/* Looks up rows of the table of commands, which main hands down: the code that runs, completes or explains
+ * statements needs no handler's name. */
 #include "statement/command.h"
 
 #include <assert.h>
 
-/* There is one program, and one table of it. */
+/* Set once by command_use. */
 static const command *all;
 static const hole_row *all_holes;
-static size_t count;
+static size_t count; /* of `all` */
 
 void command_use(const command *rows, const hole_row *of) {
     all = rows;
@@ -32,10 +32,10 @@ const command *command_find(const char *name, size_t len) {
 }
 
 const hole_row *hole_at(size_t i) {
-    return all_holes[i].name ? &all_holes[i] : NULL; /* asked one by one */
+    return all_holes[i].name ? &all_holes[i] : NULL; /* callers ask for i in order */
 }
 
-/* ---- what they take ---------------------------------------------------------------------------- */
+/* ---- grammars ---------------------------------------------------------------------------------- */
 
 enum { ROWS = 128, COMMANDS = 64 };
 
@@ -54,7 +54,7 @@ const grammar *grammar_made(const char *name, const char *shape, const char *tak
 }
 
 const grammar *command_form(const command *c) {
-    static const grammar *forms[COMMANDS]; /* asked for by every statement */
+    static const grammar *forms[COMMANDS]; /* faster than the search in grammar_made: every statement asks */
     const grammar **f = &forms[c - all];
     if (!*f)
         *f = grammar_made(c->name, NULL, c->takes, c->summary);

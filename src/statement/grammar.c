@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parsing what rows take. */
+/* Parses the grammar lines of rows. Uses the table of quantities. */
 #include "statement/grammar.h"
 
 #include <stdio.h>
@@ -9,12 +9,12 @@
 #include "scene/quantity.h"
 #include "text/words.h"
 
-/* Arguments that are no quantities, or by another name. */
+/* Arguments that are not the name of a quantity. */
 static const struct {
     const char *name;
     dim d;
     value_must must;
-    int in; /* as of a clause */
+    int in; /* as in `clause` */
 } others[] = {{"angle", {0, 0, 1, 0}, ANY, 0},
               {"half_angle", {0, 0, 1, 0}, ANY, 0},
               {"R1", {0, 1, 0, 0}, CURVED, 0},
@@ -31,10 +31,10 @@ typedef struct parsing {
     grammar *out;
     const hole_row *holes;
     const char *p;
-    clause *open; /* the clause whose holes may come */
-    bool bracket;
-    unsigned groups, first; /* of the ways that are parted here: the clauses from `first` on */
-    bool parted;
+    clause *open;           /* the clause that the next hole belongs to, or NULL */
+    bool bracket;           /* within [ ] */
+    unsigned groups, first; /* number of the present group, index of its first clause */
+    bool after_bar;         /* the next clause begins another alternative */
 } parsing;
 
 static bool is_capital(char c) {
@@ -50,17 +50,18 @@ static clause *add_clause(parsing *g, const char *name, size_t len) {
     if (f->count == CLAUSES || len >= CLAUSE_NAME)
         return NULL;
     clause *a = &f->clause[f->count++];
-    *a = (clause){.optional = g->bracket, .way = g->parted ? a[-1].way + 1 : 0, .group = g->groups};
-    if (!g->parted && f->count - 1 > g->first)
-        a->way = a[-1].way;
+    *a = (clause){
+        .optional = g->bracket, .alternative = g->after_bar ? a[-1].alternative + 1 : 0, .group = g->groups};
+    if (!g->after_bar && f->count - 1 > g->first)
+        a->alternative = a[-1].alternative;
     memcpy(a->name, name, len);
     a->text = name;
     a->len = len;
-    g->parted = false;
+    g->after_bar = false;
     return a;
 }
 
-/* NAME=, NAME:= or NAME+=, and an example as far as the next clause. */
+/* NAME=, NAME:= or NAME+=, and the example behind it, up to the next clause. */
 static bool parse_argument(parsing *g, size_t n) {
     const char *equals = memchr(g->p, '=', n);
     const bool marked = equals > g->p && strchr(":+", equals[-1]);
@@ -85,7 +86,7 @@ static bool parse_argument(parsing *g, size_t n) {
         a->must = others[other].must;
         a->in = others[other].in;
     } else if (!a->increment && quantity_is_input(q)) {
-        a->in = 1 + (int)quantity_input(q); /* where an increment leads to is known to the load alone */
+        a->in = 1 + (int)quantity_input(q); /* of an increment the load checks the sum */
     } else if (!a->increment) {
         a->must = POSITIVE;
     }
@@ -142,10 +143,10 @@ static bool parse_hole(parsing *g, size_t n, char before) {
     return true;
 }
 
-/* The clauses since the last bracket are ways of a group, where there are several. */
+/* The clauses since the last bracket are a group, if | has parted them into alternatives. */
 static void close_group(parsing *g) {
     grammar *f = g->out;
-    const bool several = f->count > g->first && f->clause[f->count - 1].way > 0;
+    const bool several = f->count > g->first && f->clause[f->count - 1].alternative > 0;
     for (unsigned i = g->first; i < f->count; i++)
         f->clause[i].group = several ? g->groups : 0;
     g->groups++;
@@ -184,22 +185,22 @@ static bool parse_all(parsing *g) {
             close_group(g);
             g->bracket = true;
             g->p++;
-        } else if (c == ']' && g->bracket && g->out->count > g->first && !g->parted) {
+        } else if (c == ']' && g->bracket && g->out->count > g->first && !g->after_bar) {
             const bool again = *++g->p == '*';
             for (unsigned i = g->first; i < g->out->count; i++)
                 g->out->clause[i].again = again;
             g->p += again;
             close_group(g);
             g->bracket = false;
-        } else if (c == '|' && g->p[1] == ' ' && g->out->count > g->first && !g->parted) {
-            g->parted = true;
+        } else if (c == '|' && g->p[1] == ' ' && g->out->count > g->first && !g->after_bar) {
+            g->after_bar = true;
             g->open = NULL;
             g->p++;
         } else if (!parse_word(g)) {
             return false;
         }
     }
-    if (g->bracket || g->parted)
+    if (g->bracket || g->after_bar)
         return false;
     close_group(g);
     return true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pages of HTML. Writes to the stream that it is given. */
+/* Writes pages of HTML to the stream given. */
 #include "statement/handout.h"
 
 #include <stdlib.h>
@@ -7,10 +7,10 @@
 
 #include "text/characters.h"
 
-/* Lines of a part that is no piece follow each other in one element. */
+/* The element of each part. Successive parts of the same kind share one element, unless `separate`. */
 static const struct {
     const char *begin, *end;
-    bool piece;
+    bool separate;
 } parts[] = {
     [PAGE_GAP] = {"", "", true},
     [PAGE_TITLE] = {"<h1>", "</h1>\n", true},
@@ -52,7 +52,7 @@ static const char head[] =
     "</style>\n"
     "<title>";
 
-/* What XML takes no other way, and what does not show, is written as what it is. */
+/* Writes text as XML: & < > as references; characters that do not print are escaped. */
 static void put_text(FILE *to, const char *text, size_t len) {
     char shown[CHARACTER_SHOWN];
     for (size_t i = 0, n; i < len; i += n) {
@@ -68,8 +68,7 @@ static void put_text(FILE *to, const char *text, size_t len) {
     }
 }
 
-/* A picture as it is, but for the names of its parts and where it refers to them: they are to be the only
- * ones on the page. */
+/* Writes an SVG picture. Its ids, and references to them, get a prefix that makes them unique on the page. */
 static void put_figure(handout *p, const char *text, size_t len) {
     static const char *const naming[] = {" id=\"", " id='", "href=\"#", "href='#", "url(#", "url('#"};
     bool tag = false;
@@ -94,7 +93,7 @@ void handout_begin(handout *p, FILE *to, const char *title) {
 
 static void close_part(handout *p, page_part next) {
     fputs(parts[p->open].end, p->to);
-    if (p->open == PAGE_WORDS && p->last == '?' && next != PAGE_QUESTION) { /* one by the way */
+    if (p->open == PAGE_WORDS && p->last == '?' && next != PAGE_QUESTION) { /* a question within a remark */
         fputs(parts[PAGE_ROOM].begin, p->to);
         fputs(parts[PAGE_ROOM].end, p->to);
     }
@@ -117,7 +116,7 @@ void handout_put(handout *p, page_part part, const char *text, size_t len) {
         end--;
     if (part == PAGE_ANSWER && p->open != PAGE_ANSWER && !end)
         return;
-    if (part != p->open || parts[part].piece) {
+    if (part != p->open || parts[part].separate) {
         close_part(p, part);
         fputs(parts[part].begin, p->to);
     }

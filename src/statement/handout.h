@@ -1,38 +1,38 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A session on a page of HTML, to hand out: one file, the figures in it, nothing fetched, and well-formed XML
- * too. */
+/* A session as a page of HTML to hand out: one file with the figures in it, well-formed as XML, which loads
+ * nothing else. Uses `text` alone. */
 #ifndef STATEMENT_HANDOUT_H
 #define STATEMENT_HANDOUT_H
 
 #include "text/file.h"
 
 typedef enum page_part {
-    PAGE_GAP, /* ends what is open */
+    PAGE_GAP, /* nothing: closes the open part */
     PAGE_TITLE,
-    PAGE_WORDS,
+    PAGE_WORDS, /* a remark */
     PAGE_STATEMENT,
-    PAGE_ANSWER, /* what the session answers */
+    PAGE_ANSWER, /* output of the session */
     PAGE_QUESTION,
     PAGE_CHOICE,
-    PAGE_ROOM,     /* for an answer by hand */
-    PAGE_SOLUTION, /* of a question: they come together, at the end */
+    PAGE_ROOM,     /* blank space for a written answer */
+    PAGE_SOLUTION, /* of a question; all of them are collected at the end of the page */
     PAGE_FIGURE    /* SVG */
 } page_part;
 
 typedef struct handout {
-    FILE *to; /* NULL: there is none */
+    FILE *to; /* NULL: there is no page */
     page_part open;
-    char last;           /* that was written, but for line ends */
+    char last;           /* last character of the last part, line ends and blanks aside */
     unsigned figures;    /* so far */
     file_text solutions; /* to the questions */
-    bool lost;           /* they found no memory */
+    bool lost;           /* no memory for solutions */
 } handout;
 
-/* Of one that is all 0. */
+/* Begins a page. *p must be all 0. */
 void handout_begin(handout *p, FILE *to, const char *title);
-/* Lines of text end in their own line ends. */
+/* Appends a part, or lines to the open part of the same kind; the text has its line ends. */
 void handout_put(handout *p, page_part part, const char *text, size_t len);
-/* With the solutions, also of one that has not begun; false: they are lost. */
+/* Writes the solutions and ends the page, if one has begun. False: solutions are lost. */
 bool handout_end(handout *p);
 
 #endif

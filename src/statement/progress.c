@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Progress of statements that take long. Writes to standard error, where that is a terminal: there is one,
- * and one line of it, hence the static state. */
+/* Shows the progress of long statements: one line on standard error, hence the static state. */
 #include "statement/progress.h"
 
 #include <string.h>
@@ -14,16 +13,16 @@ enum { LINE = 60, WHAT = 20 };
 static const double WAIT = 0.5, EVERY = 0.1; /* seconds */
 
 static struct {
-    int depth;    /* of statements; 0: none runs */
-    int terminal; /* is standard error one? Asked once, which takes a call of the system; negative: not yet */
-    bool on;
+    int depth;    /* of nested statements; 0: none runs */
+    int terminal; /* is standard error a terminal? negative: isatty has not been called yet */
+    bool on;      /* progress of this statement is shown */
     const shell *sh;
-    char what[WHAT];     /* without a NUL */
-    size_t len;          /* of it */
-    double began, shown; /* in seconds */
-    double part;         /* negative: not known */
-    int width;           /* of the line: one that wraps could not be wiped */
-    bool seen;           /* it is on the terminal */
+    char what[WHAT];     /* first word of the statement, without NUL */
+    size_t len;          /* of `what` */
+    double began, shown; /* time of the statement's begin, and of the last line; seconds */
+    double part;         /* done, 0 to 1; negative: unknown */
+    int width;           /* of the line, less than the terminal's: a line that wraps could not be wiped */
+    bool seen;           /* the line is on the terminal */
 } now = {.terminal = -1};
 
 void progress_begin(const shell *sh, const char *what, size_t len) {
@@ -57,7 +56,7 @@ void progress_words(const char *words) {
         find_width();
     }
     now.seen = true;
-    fprintf(stderr, "\r%-*.*s", now.width, now.width, words); /* past the recorder */
+    fprintf(stderr, "\r%-*.*s", now.width, now.width, words); /* not through sh->err: it is not recorded */
     fflush(stderr);
 }
 
@@ -93,11 +92,10 @@ void progress_wipe(void) {
     if (!now.seen)
         return;
     now.seen = false;
-    fprintf(stderr, "\r%*s\r", now.width + 2, ""); /* the ^C, too */
+    fprintf(stderr, "\r%*s\r", now.width + 2, ""); /* 2 more columns: a ^C that the terminal has echoed */
     fflush(stderr);
 }
 
-/* The answer, or an error, begins on a clean line. */
 void progress_end(void) {
     progress_wipe();
     if (--now.depth == 0)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statements by the rows that describe them. */
+/* Reads statements by the grammar of their rows. Uses `language`, `scene` and `text`. */
 #include "statement/reader.h"
 
 #include <math.h>
@@ -17,11 +17,11 @@ bool at_end(lexer *lx) {
     return !expr_stray_unit(lx, argument_word) && lex_fail(lx, "unexpected '%.*s'", LEX_WORD(lx));
 }
 
-/* ---- what has been said ------------------------------------------------------------------------ */
+/* ---- names and clauses ------------------------------------------------------------------------- */
 
-static const char blanks[] = " \t\n\r", word_ends[] = " \t\n\r,="; /* which no word of a table has */
+static const char blanks[] = " \t\n\r", word_ends[] = " \t\n\r,="; /* in no word of a table */
 
-/* Bytes up to one of these: names with hyphens are several tokens to the lexer. */
+/* Number of bytes before the next of `ends`. Words of tables may have hyphens, which the lexer splits. */
 static size_t bytes_to(const lexer *lx, const char *ends) {
     size_t end = lx->at;
     while (end < lx->end && !strchr(ends, lx->text[end]))
@@ -115,17 +115,19 @@ void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]) {
 void hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
     lexer own = *lx;
     own.at = part->at;
-    lex_filename(&own, name, FILE_NAME); /* as it has been read: it is one */
+    lex_filename(&own, name, FILE_NAME); /* cannot fail: read_hole has read it */
 }
 
 /* ---- errors ------------------------------------------------------------------------------------ */
 
-static const char *who(const grammar *f) {
+/* The name of a statement in error messages. */
+static const char *statement_name(const grammar *f) {
     return f->shape ? f->shape : f->command;
 }
 
 static bool not_taken(lexer *lx, const grammar *f, const char *name, token_kind how) {
-    return lex_fail(lx, "%s does not take %s by %s", who(f), name, how == T_DEFINE ? ":=" : "+=") ||
+    return lex_fail(lx, "%s does not take %s by %s", statement_name(f), name,
+                    how == T_DEFINE ? ":=" : "+=") ||
            add_usage(lx->error, f);
 }
 
@@ -136,29 +138,29 @@ static void clause_text(const clause *a, char buf[GRAMMAR_USAGE]) {
     takes_text(line, buf, GRAMMAR_USAGE);
 }
 
-/* "R1 and R2", or "for EXPR = EXPR to FILE": what a way takes. */
-static void way_words(const grammar *f, const clause *of, char *buf, size_t size) {
+/* "R1 and R2", or "for EXPR = EXPR to FILE": all clauses of the alternative that `of` belongs to. */
+static void alternative_text(const grammar *f, const clause *of, char *buf, size_t size) {
     char text[GRAMMAR_USAGE];
     *buf = 0;
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (a->group == of->group && a->way == of->way) {
+        if (a->group == of->group && a->alternative == of->alternative) {
             clause_text(a, text);
             list_word(buf, size, a->argument ? " and " : " ", text);
         }
 }
 
-/* Not twice the same, or another way than one that has been gone. */
 bool said_may_come(const lexer *lx, const said *s, const clause *a) {
     char one[80], other[80];
     for (const heard *h = s->list; h < s->list + s->count; h++) {
         if (h->of == a && !a->again)
             return calc_fail(lx->error, lx->at, lx->len, "%s is given twice", a->name);
-        if (!a->group || h->of->group != a->group || h->of->way == a->way)
+        if (!a->group || h->of->group != a->group || h->of->alternative == a->alternative)
             continue;
-        way_words(s->by, h->of, one, sizeof one);
-        way_words(s->by, a, other, sizeof other);
-        return calc_fail(lx->error, lx->at, lx->len, "give either %s or %s",
-                         h->of->way < a->way ? one : other, h->of->way < a->way ? other : one);
+        alternative_text(s->by, h->of, one, sizeof one);
+        alternative_text(s->by, a, other, sizeof other);
+        const bool in_order = h->of->alternative < a->alternative;
+        return calc_fail(lx->error, lx->at, lx->len, "give either %s or %s", in_order ? one : other,
+                         in_order ? other : one);
     }
     return true;
 }
@@ -199,13 +201,13 @@ static bool read_operand(shell *sh, lexer *lx, const dim *want, heard *h) {
     return ok;
 }
 
-/* name: as messages call it. */
+/* Reads a value of dimension d within its range; `name` is for error messages. */
 static bool read_value(shell *sh, lexer *lx, const char *name, dim d, heard *h) {
     return read_operand(sh, lx, &d, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
            in_range(lx, h);
 }
 
-/* The dimension of A follows from n. */
+/* The dimension of an argument. A, of the gap A r^n, has length^(1-n), so n must come first. */
 static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d) {
     *d = a->d;
     if (a->in != 1 + IN_A)
@@ -234,7 +236,7 @@ static bool read_argument(shell *sh, lexer *lx, said *s) {
     const clause *a = argument_named(lx, f);
     dim d;
     if (!a)
-        return lex_fail(lx, "%s has no %s '%.*s'", who(f), f->shape ? "parameter" : "argument",
+        return lex_fail(lx, "%s has no %s '%.*s'", statement_name(f), f->shape ? "parameter" : "argument",
                         LEX_WORD(lx)) ||
                add_usage(lx->error, f);
     if (!said_may_come(lx, s, a))
@@ -249,7 +251,7 @@ static bool read_argument(shell *sh, lexer *lx, said *s) {
     lex_next(lx);
     if (lx->cut)
         return read_hole(sh, lx, s, h, 0);
-    if (a->must == CURVED && lex_is(lx, "inf")) { /* of a plane */
+    if (a->must == CURVED && lex_is(lx, "inf")) { /* the radius of a plane */
         h->v = (value){INFINITY, d};
         h->hole[0] = (span){lx->at, lx->len};
         lex_next(lx);
@@ -281,7 +283,7 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
     }
     snprintf(word, sizeof word, "%.*s", LEX_SHOWN(len), lx->text + lx->at);
     lx->len = len;
-    if (!row->noun) { /* one of few */
+    if (!row->noun) { /* a table of few words: the message lists all */
         for (size_t i = 0; row->words(i); i++) {
             snprintf(word, sizeof word, "%s %s", h->of->name, row->words(i));
             list_word(list, sizeof list, row->words(i + 1) ? ", " : " or ", word);
@@ -304,8 +306,8 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
 
 /* ---- clauses ----------------------------------------------------------------------------------- */
 
-/* `at NAME =` belongs to the expression before it, `at FILE` does not. */
-static bool changes_scene(const lexer *lx) {
+/* Is the cursor on `at NAME =`? It belongs to the expression before it, `at FILE` is a clause. */
+static bool is_at_change(const lexer *lx) {
     if (!lex_is(lx, "at"))
         return false;
     lexer next = *lx;
@@ -314,9 +316,9 @@ static bool changes_scene(const lexer *lx) {
     return next.kind == T_NAME && lex_peek(&next) == T_ASSIGN;
 }
 
-/* The clause of the word at the cursor, or NULL. */
+/* The clause that the word at the cursor begins, or NULL. */
 static const clause *clause_named(const lexer *lx, const grammar *f) {
-    if (changes_scene(lx))
+    if (is_at_change(lx))
         return NULL;
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
         if (!a->argument && *a->name && (lex_is(lx, a->name) || (lx->kind == T_ASSIGN && *a->name == '=')))
@@ -324,15 +326,15 @@ static const clause *clause_named(const lexer *lx, const grammar *f) {
     return NULL;
 }
 
-/* ---- parts that are found ---------------------------------------------------------------------- */
+/* ---- holes whose text is only found ------------------------------------------------------------ */
 
-/* What stands where an `=` was meant. */
+/* Is the cursor on an `=`, or on what was typed in its place: == (no token), :=, +=? */
 static bool is_equals(const lexer *lx) {
-    const bool comparison = lx->error->raised && lx->text[lx->at] == '=';
-    return comparison || lx->kind == T_ASSIGN || lx->kind == T_DEFINE || lx->kind == T_INCREMENT;
+    const bool no_token = lx->error->raised && lx->text[lx->at] == '=';
+    return no_token || lx->kind == T_ASSIGN || lx->kind == T_DEFINE || lx->kind == T_INCREMENT;
 }
 
-/* The clause that the word at the cursor was meant for, or NULL. */
+/* The clause whose word differs by one letter from the word at the cursor, or NULL. */
 static const clause *clause_near(const lexer *lx, const grammar *f) {
     char word[LEX_NAME];
     if (lx->kind != T_NAME || lx->len < 2)
@@ -344,9 +346,9 @@ static const clause *clause_near(const lexer *lx, const grammar *f) {
     return NULL;
 }
 
-/* Is the name at the cursor the unit of the number before it? */
+/* May the name at the cursor be the unit of the number before it, or a misspelt unit? */
 static bool is_unit(const lexer *lx, const grammar *f) {
-    enum { SHORT = 3 }; /* what is no longer may be any unit, misspelt */
+    enum { SHORT = 3 }; /* so short a word may be any unit, misspelt */
     unit known;
     char word[LEX_NAME];
     lex_word(lx, word);
@@ -354,44 +356,45 @@ static bool is_unit(const lexer *lx, const grammar *f) {
            !clause_near(lx, f);
 }
 
-/* Skips what stands in the i-th hole of the clause. Only behind an operand can a word of the row begin a
- * clause, which ends the part, as does a name that cannot stand there; a comma may end it too, and an `=`
- * that does not belong to `at`. */
-static void skip_part(lexer *lx, said *s, const clause *a, unsigned i) {
-    calc_error *const error = lx->error, *const strange = error_quiet();
+/* Finds the end of the expressions in the i-th hole of the clause. Outside parentheses it is, behind an
+ * operand, a word that begins a clause, or a name that no expression can have there; it is also a |, a comma
+ * that repeats the clause, and an `=` before the next hole, unless that belongs to `at`. */
+static void skip_expression(lexer *lx, said *s, const clause *a, unsigned i) {
+    calc_error *const error = lx->error, *const no_token = error_quiet();
     const grammar *f = s->by;
     const hole_kind kind = a->hole[i].row->kind;
     const bool comma_ends = a->list && *a->name,
                equals_ends = i + 1 < a->holes && a->hole[i + 1].before == '=';
-    const bool titled = !*a->name && grammar_first(f, HOLE_WORD); /* it may begin with `map`, or a figure */
-    const size_t head = titled ? lx->at + lx->len : 0;
-    int depth = 0;
-    bool whole = false;    /* a unit may follow, as a number: (1/3) N, pi N */
-    bool word = false;     /* that of a clause stands for an operand */
-    bool changing = false; /* there has been an `at` */
-    bool named = false;    /* behind the name of `at` */
+    /* `plot map EXPR` and `plot FIGURE` begin with a word of their own, behind which a name may stand */
+    const bool titled = !*a->name && grammar_first(f, HOLE_WORD);
+    const size_t title_end = titled ? lx->at + lx->len : 0;
+    int depth = 0;               /* of parentheses */
+    bool takes_unit = false;     /* a unit may follow as it may a number: (1/3) N, pi N */
+    bool clause_operand = false; /* the last token is a clause's word in the place of an operand */
+    bool changing = false;       /* there has been an `at` */
+    bool at_name = false;        /* the last token is the name behind `at` */
     s->end = PART_VALUE;
     s->changed.len = 0;
-    for (lx->error = strange; lx->kind != T_END || strange->raised; lex_next(lx)) {
-        const bool name = lx->kind == T_NAME, operand = s->end >= PART_NUMBER;
+    for (lx->error = no_token; lx->kind != T_END || no_token->raised; lex_next(lx)) {
+        const bool name = lx->kind == T_NAME, operand = s->end >= PART_NUMBER; /* one precedes the cursor */
         const bool in = operand && lex_is(lx, "in"), at = operand && lex_is(lx, "at"),
                    joins = in || at || (operand && kind == HOLE_SPAN && lex_is(lx, "to"));
         const clause *next = name ? clause_named(lx, f) : NULL;
-        const bool figure = lx->last == head && !(clause_near(lx, f) && lex_peek(lx) != T_END);
+        const bool behind_title = lx->last == title_end && !(clause_near(lx, f) && lex_peek(lx) != T_END);
         const bool ends = name && operand &&
                           (next ||
-                           !(joins || word || figure || kind == HOLE_LOAD ||
-                             (s->end == PART_NUMBER && is_unit(lx, f)) || (whole && unit_at(lx))) ||
+                           !(joins || clause_operand || behind_title || kind == HOLE_LOAD ||
+                             (s->end == PART_NUMBER && is_unit(lx, f)) || (takes_unit && unit_at(lx))) ||
                            (lx->cut && argument_named(lx, f) && lex_assigns(lx)));
         if (depth == 0 && (lx->kind == T_BAR || (lx->kind == T_COMMA && comma_ends) ||
-                           (equals_ends && !named && is_equals(lx)) || ends))
+                           (equals_ends && !at_name && is_equals(lx)) || ends))
             break;
-        error_clear(strange); /* whoever parses the part reports what is no token */
+        error_clear(no_token); /* the parser of the expression reports it */
         depth += (lx->kind == T_OPEN) - (lx->kind == T_CLOSE);
         changing = changing || at;
-        named = name && s->end == PART_NAME;
-        word = next && !operand;
-        whole = lx->kind == T_CLOSE || lex_is(lx, "pi");
+        at_name = name && s->end == PART_NAME;
+        clause_operand = next && !operand;
+        takes_unit = lx->kind == T_CLOSE || lex_is(lx, "pi");
         if (name)
             s->changed = (span){lx->at, 0};
         else if (lx->kind == T_ASSIGN)
@@ -402,27 +405,28 @@ static void skip_part(lexer *lx, said *s, const clause *a, unsigned i) {
             s->end = in ? PART_UNIT : PART_VALUE;
         else if (lx->kind == T_NUMBER)
             s->end = PART_NUMBER;
-        else /* an operand */
-            s->end = name || whole || lx->kind == T_PERCENT || lx->kind == T_STRING ? PART_WHOLE : PART_VALUE;
+        else
+            s->end =
+                name || takes_unit || lx->kind == T_PERCENT || lx->kind == T_STRING ? PART_WHOLE : PART_VALUE;
     }
     lx->error = error;
-    if (strange->raised) /* it ends at what is no token */
+    if (no_token->raised) /* the text ends there: raise the error again, for the caller */
         lex_seek(lx, lx->at);
 }
 
-/* One name; of those that stand first several. */
+/* One name; where a list of names stands first, all of it. */
 static bool skip_names(lexer *lx, said *s, const clause *a) {
     if (lx->kind != T_NAME)
         return *a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name");
     if (a->list && !*a->name) {
-        skip_part(lx, s, a, 0);
+        skip_expression(lx, s, a, 0);
         return true;
     }
     lex_next(lx);
     return !lx->error->raised;
 }
 
-/* `3 um`, `"Load On Sample"`: a unit may follow; names need not be made of tokens. */
+/* `3 um`, `"Load On Sample"`: a column and perhaps a unit. Its name may contain what is no token. */
 static bool skip_column(lexer *lx, const said *s, span *part) {
     unit unused;
     error_clear(lx->error);
@@ -439,12 +443,12 @@ static bool skip_load(lexer *lx, said *s, const clause *a) {
     size_t load;
     if (!word_among(a->hole[0].row->words, lx->text + lx->at, lx->len, &load))
         return lex_fail(lx, "along what? program, cycle, step ... or cycle ...");
-    skip_part(lx, s, a, 0);
+    skip_expression(lx, s, a, 0);
     return true;
 }
 
-/* `1 N to 2 N`, which a file would follow. */
-static bool lacks_end(lexer *lx, const clause *a, const span *part) {
+/* Reports `for X = 1 N to 2 N`, where `to` has been taken for the clause `to FILE`. */
+static bool lacks_dots(lexer *lx, const clause *a, const span *part) {
     if (!lex_is(lx, "to") || strcmp(a->name, "for") != 0)
         return false;
     for (size_t i = part->at; i + 1 < lx->at; i++)
@@ -455,8 +459,8 @@ static bool lacks_end(lexer *lx, const clause *a, const span *part) {
 
 /* ---- holes ------------------------------------------------------------------------------------- */
 
-/* `mu=0.3` for `0.3`. */
-static bool skip_name(lexer *lx, const grammar *f, const hole_row *row) {
+/* Skips the `mu=` of `mu=0.3`. */
+static bool skip_quantity_name(lexer *lx, const grammar *f, const hole_row *row) {
     if (!lex_assigns(lx) || !lex_is(lx, row->noun))
         return true;
     if (lex_peek(lx) != T_ASSIGN)
@@ -479,9 +483,9 @@ static bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, uns
     return true;
 }
 
-/* What a number is of: `steps 7`, `digits 7`; of a word that must stand there, `jenkins N`. */
+/* What error messages call a number: `steps` of `steps 7`, `digits` of `set digits 7`, `N` of `jenkins N`. */
 static const char *count_name(const grammar *f, const clause *a) {
-    return !*a->name ? who(f) : a->optional || a->group ? a->name : a->hole[0].row->name;
+    return !*a->name ? statement_name(f) : a->optional || a->group ? a->name : a->hole[0].row->name;
 }
 
 static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
@@ -498,7 +502,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
         return false;
     switch (evaluated && lx->cut ? HOLE_EXPR : row->kind) {
     case HOLE_VALUE:
-        return skip_name(lx, s->by, row) && read_value(sh, lx, row->noun, h->of->d, h);
+        return skip_quantity_name(lx, s->by, row) && read_value(sh, lx, row->noun, h->of->d, h);
     case HOLE_SECONDS:
         return read_seconds(sh, lx, of, h);
     case HOLE_CHOICE:
@@ -525,7 +529,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
             return lex_fail(lx, "expected %s%s\"TEXT\"", a->name, *a->name ? " " : "");
         lex_next(lx);
         break;
-    case HOLE_WORD: /* which need not be made of tokens */
+    case HOLE_WORD: /* may contain what is no token */
         error_clear(lx->error);
         h->hole[i].len = bytes_to(lx, blanks);
         step_over(lx, h->hole[i].len);
@@ -533,8 +537,8 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
     default:
         if (row->kind == HOLE_MAYBE && lx->kind == T_NAME && clause_named(lx, s->by))
             break;
-        skip_part(lx, s, a, i);
-        ok = row->kind != HOLE_SPAN || !lacks_end(lx, a, &h->hole[i]);
+        skip_expression(lx, s, a, i);
+        ok = row->kind != HOLE_SPAN || !lacks_dots(lx, a, &h->hole[i]);
         break;
     }
     h->hole[i].len = lx->last > h->hole[i].at ? lx->last - h->hole[i].at : 0;
@@ -542,7 +546,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
            (h->hole[i].len || !*a->name || row->kind == HOLE_MAYBE || lex_fail(lx, "expected a value here"));
 }
 
-/* What parts the hole from the one before. */
+/* Skips the `=` or `+-` between a hole and the one before. */
 static bool read_between(lexer *lx, const heard *h, unsigned i) {
     const char before = h->of->hole[i].before;
     const span *name = &h->hole[i - 1];
@@ -574,8 +578,7 @@ static bool read_holes(shell *sh, lexer *lx, said *s, heard *h) {
 
 /* ---- the statement ----------------------------------------------------------------------------- */
 
-/* Of two clauses of one name the second, whose word the cursor is behind, is meant where its choice follows:
- * `log`, `log x`. */
+/* Of two clauses with the same word, `log` and `log AXES`, the second if a choice follows at the cursor. */
 static const clause *with_choice(const lexer *lx, const grammar *f, const clause *a) {
     for (const clause *b = a + 1; b < f->clause + f->count; b++)
         if (!strcmp(a->name, b->name) && (said_cut(lx) || (lx->kind == T_NAME && !clause_named(lx, f))))
@@ -591,7 +594,7 @@ static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
     const hole_row *row = first_hole(a);
     if (!h)
         return false;
-    if (row && row->kind == HOLE_FILE) /* a name need not be made of tokens */
+    if (row && row->kind == HOLE_FILE) /* its name may contain what is no token */
         error_clear(lx->error);
     if (lx->error->raised || !read_holes(sh, lx, s, h))
         return false;
@@ -604,14 +607,14 @@ static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
     return !lx->error->raised;
 }
 
-/* The word that what follows depends on, as the shape of a geometry. */
+/* Reads a first word that has a grammar of its own, such as the shape of a geometry, and switches to that. */
 static bool read_head(lexer *lx, said *s) {
     const clause *a = s->by->clause;
     const hole_row *row = s->by->count && !*a->name ? first_hole(a) : NULL;
     heard h = {.of = a};
     if (!row || !row->form || said_cut(lx) || (a->optional && lx->kind == T_END && !lx->error->raised))
         return true;
-    if (row->kind == HOLE_WORD) { /* which may begin an expression, too */
+    if (row->kind == HOLE_WORD) { /* or an expression, whose first name is none of the words */
         size_t i;
         if (lx->kind != T_NAME || !word_among(row->words, lx->text + lx->at, lx->len, &i) || !row->form(i))
             return true;
@@ -623,16 +626,17 @@ static bool read_head(lexer *lx, said *s) {
     return true;
 }
 
-/* Is the word of a row that may begin otherwise one of its clauses? `record off`, but `record off.txt`. */
+/* Does the word at the cursor begin the clause `a`, rather than fill the first hole? `off` does so in
+ * `record off`, but not in `record off.txt`. */
 static bool begins_clause(const lexer *lx, const clause *a, hole_kind first) {
     const bool whole = first == HOLE_COUNT || bytes_to(lx, blanks) == lx->len;
     return a && first != HOLE_EXPR && whole && (a->holes == 0 || first != HOLE_FILE || lex_peek(lx) != T_END);
 }
 
-/* What may only stand first. */
+/* Reads the holes that stand first, without a word before them. */
 static bool read_first(shell *sh, lexer *lx, said *s) {
     const clause *a = s->by->clause, *end = a + s->by->count;
-    while (a + 1 < end && !*a[1].name) /* any expression may stand where a word may */
+    while (a + 1 < end && !*a[1].name) /* the last of these alternatives: EXPR takes any WORD, too */
         a++;
     const hole_row *row = a < end && !*a->name ? first_hole(a) : NULL;
     if (!row || said_cut(lx) || begins_clause(lx, clause_named(lx, s->by), row->kind) ||
@@ -648,7 +652,7 @@ static bool read_first(shell *sh, lexer *lx, said *s) {
     return true;
 }
 
-/* `with = 0.3`: a clause whose name is missing. */
+/* Is it `with = 0.3`, a clause whose name is missing, rather than an argument? */
 static bool lacks_name(const lexer *lx, const grammar *f) {
     const clause *a = clause_named(lx, f);
     return a && a->holes && (a->hole[0].row->kind == HOLE_NAME || a->hole[0].row->kind == HOLE_INPUT);
@@ -682,7 +686,7 @@ static bool misspelt(lexer *lx, const said *s) {
     return meant && !lex_fail(lx, "unexpected '%.*s': did you mean %s?", LEX_WORD(lx), meant->name);
 }
 
-/* `sphere 10 mm`, `nu 0.3`: an argument without its name, or its `=`. */
+/* Reports `sphere 10 mm` or `nu 0.3`: an argument without its name or its `=`. */
 static bool half_named(lexer *lx, const said *s) {
     const clause *a = s->by->clause, *end = a + s->by->count;
     const bool bare = lx->kind == T_NUMBER || lx->kind == T_MINUS || lx->kind == T_OPEN;
@@ -694,8 +698,8 @@ static bool half_named(lexer *lx, const said *s) {
              add_usage(lx->error, s->by));
 }
 
-/* `to my loop.png` */
-static bool parts_file(lexer *lx, const said *s) {
+/* Reports `to my loop.png`. */
+static bool has_blank_in_file(lexer *lx, const said *s) {
     const heard *h = s->count ? s->list + s->count - 1 : NULL;
     const hole_row *row = h ? first_hole(h->of) : NULL;
     return row && row->kind == HOLE_FILE && (lx->kind == T_NAME || lx->kind == T_NUMBER) &&
@@ -707,7 +711,7 @@ static bool parts_file(lexer *lx, const said *s) {
 bool said_end(lexer *lx, const said *s) {
     if (lx->kind == T_COMMA)
         return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", s->by->command);
-    if (misspelt(lx, s) || half_named(lx, s) || parts_file(lx, s))
+    if (misspelt(lx, s) || half_named(lx, s) || has_blank_in_file(lx, s))
         return false;
     return at_end(lx) || (lx->kind != T_END && !s->count && *s->by->takes && add_usage(lx->error, s->by));
 }
@@ -726,8 +730,8 @@ bool said_hides(const lexer *lx, const said *s, const char *word) {
     return false;
 }
 
-/* Of words that stand for themselves one must be said: `auto | off | on`. */
-static bool has_way(lexer *lx, const said *s) {
+/* Of alternatives that are not optional one must be given: `auto | off | on`. */
+static bool has_alternative(lexer *lx, const said *s) {
     const clause *a = s->by->clause, *end = a + s->by->count;
     char list[CALC_ERROR_TEXT / 2] = "";
     if (a == end || s->count || a->optional || a->argument || !a->group)
@@ -737,7 +741,7 @@ static bool has_way(lexer *lx, const said *s) {
     return lex_fail(lx, "expected %s", list);
 }
 
-/* Clauses that may not be left out. */
+/* Are all clauses given that are not optional? Else an error. */
 static bool is_whole(lexer *lx, said *s) {
     char text[GRAMMAR_USAGE];
     for (const clause *a = s->by->clause; a < s->by->clause + s->by->count; a++) {
@@ -750,7 +754,7 @@ static bool is_whole(lexer *lx, said *s) {
         clause_text(a, text);
         return lex_fail(lx, "expected %s", text);
     }
-    return has_way(lx, s);
+    return has_alternative(lx, s);
 }
 
 bool said_read(shell *sh, lexer *lx, const grammar *f, said *out) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading a statement by what its row takes: which clauses have been said, and what stands in their holes.
- * Numbers, words and arguments are read at once; expressions, spans and names of files are found, as parts of
- * the statement for their command to read. Changes nothing but which names are known. */
+/* Reading a statement by the grammar of its row: which clauses are given, and the text in their holes.
+ * Numbers, words and arguments are evaluated at once; of expressions, spans and file names only the place is
+ * found, and the command reads them. Changes nothing in the session but which names are known. */
 #ifndef STATEMENT_READER_H
 #define STATEMENT_READER_H
 
@@ -11,93 +11,95 @@
 
 /* ---- at the cursor ---- */
 
-/* Nothing may follow. */
+/* Is the cursor at the end of the statement? Else an error. */
 bool at_end(lexer *lx);
-/* Is it a word that may follow a number: one that the table of commands names, or of a range? In command.c.
- */
+/* Is the cursor on a word that may follow a number: `in`, `at`, or a clause of any command? In command.c. */
 bool argument_word(const lexer *lx);
 
-/* ---- what has been said ---- */
+/* ---- the clauses of a statement ---- */
 
-/* A part of the statement. */
+/* A place in the text of the statement, in bytes. */
 typedef struct span {
     size_t at, len;
 } span;
 
-/* What has been said for one clause of the row. */
+/* One clause as a statement gives it. */
 typedef struct heard {
-    const clause *of;
-    size_t at, len; /* of the word, or the name */
-    span hole[CLAUSE_HOLES];
-    bool increment;
-    value v;       /* of an argument, a value or a number of seconds */
-    counted *live; /* of an argument, to be taken over or dropped */
-    unsigned count;
-    size_t choice;
+    const clause *of;        /* its clause of the grammar */
+    size_t at, len;          /* place of the clause's word, or of the argument's name */
+    span hole[CLAUSE_HOLES]; /* place of the text in each hole */
+    bool increment;          /* an argument given by += */
+    value v;                 /* of an argument, HOLE_VALUE or HOLE_SECONDS */
+    counted *live;  /* definition of an argument given by :=; the command takes it over, or said_drop */
+    unsigned count; /* of HOLE_COUNT */
+    size_t choice;  /* index of the word of HOLE_CHOICE */
 } heard;
 
-/* How what stands in a hole ends: what follows. */
+/* What is still missing, or may follow, where the text of a hole ends: for completion. */
 typedef enum part_end {
-    PART_EMPTY,  /* all of it */
-    PART_VALUE,  /* a value, as behind + */
-    PART_NAME,   /* a name, behind `at` */
-    PART_UNIT,   /* a unit, behind `in` */
-    PART_NUMBER, /* nothing, or the unit of a number */
-    PART_WHOLE   /* nothing */
+    PART_EMPTY,  /* the hole is empty */
+    PART_VALUE,  /* a value is missing, as behind + */
+    PART_NAME,   /* a name is missing, behind `at` */
+    PART_UNIT,   /* a unit is missing, behind `in` */
+    PART_NUMBER, /* nothing is missing; the unit of a number may follow */
+    PART_WHOLE   /* nothing is missing */
 } part_end;
 
 enum { HEARD = 40, FILE_NAME = 4096 };
+/* A statement: all clauses that it gives. */
 typedef struct said {
-    const grammar *by; /* of the row, or of the word that stands first, where that has its own */
-    size_t row;        /* the place of that word in its table */
-    bool wakes;   /* names of its own, unknown before, stand behind what uses them: known until said_drop */
-    size_t names; /* of the session, before */
-    unsigned count;
-    heard list[HEARD]; /* in their order */
-    const heard *open; /* the last of them, where it has a hole: that hole, and how it ends */
-    unsigned hole;
-    part_end end;
-    span changed; /* the NAME of `NAME =` whose value it ends with; len 0: none */
+    const grammar *by; /* of the row, or of the word after the command (a shape), where that has its own */
+    size_t row;        /* index of that word in its table */
+    bool wakes;        /* names of its own (`for NAME =`) have been made known: see said_wake */
+    size_t names;      /* how many names the session had before them */
+    unsigned count;    /* of `list` */
+    heard list[HEARD]; /* in the order of the statement */
+    const heard *open; /* the clause of the hole that was read last; NULL: its last token was no hole */
+    unsigned hole;     /* index of that hole */
+    part_end end;      /* how its text ends */
+    span changed;      /* the NAME, where its text ends within the value of `NAME =`; len 0: it does not */
 } said;
 
-/* Nothing has been said of the row so far. */
+/* Begins an empty statement of this grammar. */
 static inline void said_begin(said *s, const grammar *f) {
     s->by = f;
     s->wakes = false;
     s->count = 0;
     s->open = NULL;
 }
-/* All to the end of the statement, the cursor behind the command word. */
+/* Reads the whole statement behind the command word (at the cursor). False with an error, after said_drop. */
 bool said_read(shell *sh, lexer *lx, const grammar *f, said *out);
-/* The same as far as the row goes, and the end behind it: no comma, no word misspelt. Of a statement that is
- * cut nothing is evaluated, and `out` tells where it ends if said_cut(lx), whatever comes back. */
+/* Reads clauses as far as they go, without a check of missing ones or of the rest. If lx->cut, nothing is
+ * evaluated; if also said_cut(lx) after it, out->open and below tell how the text ends, even on false. */
 bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out);
+/* Is the cursor at the end of a text that is still being typed (lx->cut), behind all its tokens? */
 bool said_cut(const lexer *lx);
-/* May the clause come, or come again, behind those that have been said? Else an error says why not. */
+/* May the clause be given, or be given again, after those of `s`? Else an error. */
 bool said_may_come(const lexer *lx, const said *s, const clause *a);
+/* Does the statement end at the cursor? Else an error: a misspelt word, an argument without its name, ... */
 bool said_end(lexer *lx, const said *s);
-/* What is live goes, unless it has been taken over, and what became known. */
+/* Releases live definitions that no command has taken over, and forgets the statement's own names. */
 void said_drop(shell *sh, said *s);
-/* The names alone, where another statement comes between; and known again. */
+/* The statement's own names (`for NAME = ...`), which the session may not know: said_wake makes them known,
+ * so that its expressions can be parsed, said_sleep forgets them. False: out of memory. */
 void said_sleep(shell *sh, said *s);
 bool said_wake(shell *sh, const lexer *lx, said *s);
 
-/* Is the word of a clause within an expression instead, where something is missing before it? Then an error
- * says so. */
+/* Has an expression swallowed the word of a clause, as in `a*for FN = ..`? Then an error says so. */
 bool said_hides(const lexer *lx, const said *s, const char *word);
 
-/* The name at the cursor becomes known, until said_drop of what wakes; before: how many names there were. */
+/* Makes the name at the cursor known until said_sleep of the statement whose `names` is `before`. */
 bool names_wake(shell *sh, const lexer *lx, size_t before);
 
-/* The i-th time that the clause of this name has been said, or NULL; "" is what stands first. */
+/* The i-th clause of this name, or NULL; name "": the clause without a word, which stands first. */
 heard *said_of(said *s, const char *name, size_t i);
-/* A lexer over the hole alone, at its beginning. */
+/* A lexer over the text of one hole. */
 lexer hole_lexer(const lexer *lx, const span *part);
-/* The word that stands first there; empty where it is longer than any name. */
+/* The text of the first hole; empty if it is longer than any name. */
 void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]);
-/* The name of a file that stands there: of FILE. */
+/* The file name in a HOLE_FILE, without quotation marks. */
 void hole_file(const lexer *lx, const span *part, char name[FILE_NAME]);
-/* Points the error, where it has no place, at the first hole. */
+/* Points an error that has no place yet at the first hole; false. */
 #define heard_place(error, h) calc_place(error, (h)->hole[0].at, (h)->hole[0].len)
 
 #endif

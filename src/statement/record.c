@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Transcripts and pages as a session goes on: streams that write to two places. Writes the file that it is
- * given. */
+/* Records a session in a transcript or on a page, by streams that write to two places (file_stream). Writes
+ * the file given and the session's streams. */
 #include "statement/record.h"
 
 #include <stdlib.h>
@@ -11,11 +11,11 @@
 
 /* ---- two places -------------------------------------------------------------------------------- */
 
-/* There is one session that can record. */
+/* The recorder in use, for record_aside; one session at a time records. */
 static struct recorder *recording;
 
-/* Past the recorder, a stream of which may be what calls this. */
-static void tell_below(struct recorder *r, const char *text) {
+/* Reports an error past the recorder: the caller may be one of its streams. */
+static void report_outside(struct recorder *r, const char *text) {
     shell *sh = r->sh;
     FILE *out = sh->out, *err = sh->err;
     sh->out = r->outer_out ? r->outer_out : r->out;
@@ -25,22 +25,22 @@ static void tell_below(struct recorder *r, const char *text) {
     sh->err = err;
 }
 
-/* After an error nothing more is recorded. */
-static void check(struct recorder *r, bool ok, const calc_error *error) {
+/* Stops recording after an error. */
+static void stop_on_error(struct recorder *r, bool ok, const calc_error *error) {
     if (ok)
         return;
     shell *sh = r->sh;
     char text[CALC_ERROR_TEXT + 40];
     snprintf(text, sizeof text, "%s; what follows is not recorded", error->text);
     r->lost = sh->lost = true;
-    tell_below(r, text);
+    report_outside(r, text);
 }
 
 static void add_to_log(struct recorder *r, const char *bytes, size_t n) {
     calc_error error;
     error_clear(&error);
     if (!r->lost)
-        check(r, file_log_add(&r->log, bytes, n, &error), &error);
+        stop_on_error(r, file_log_add(&r->log, bytes, n, &error), &error);
 }
 
 static ssize_t write_log(void *cookie, const char *bytes, size_t n) {
@@ -48,7 +48,7 @@ static ssize_t write_log(void *cookie, const char *bytes, size_t n) {
     return (ssize_t)n;
 }
 
-/* To the page, or to the transcript, line by line. */
+/* Writes to the page or the transcript; the stream is line-buffered. */
 static ssize_t write_kept(void *cookie, const char *bytes, size_t n) {
     struct recorder *r = cookie;
     if (r->page.to)
@@ -58,7 +58,7 @@ static ssize_t write_kept(void *cookie, const char *bytes, size_t n) {
     return (ssize_t)n;
 }
 
-/* Without colours. */
+/* Records bytes without escape sequences. */
 static void keep_bytes(struct recorder *r, const char *bytes, size_t n) {
     for (size_t i = 0; i < n && !r->apart; i++) {
         if (r->escape)
@@ -79,7 +79,7 @@ static void write_both(struct recorder *r, FILE *to, const char *bytes, size_t n
 }
 
 static ssize_t write_out(void *cookie, const char *bytes, size_t n) {
-    fflush(((struct recorder *)cookie)->both_err); /* errors before this output come first in the file too */
+    fflush(((struct recorder *)cookie)->both_err); /* keeps the order of errors and output in the record */
     write_both(cookie, ((struct recorder *)cookie)->out, bytes, n);
     return (ssize_t)n;
 }
@@ -90,7 +90,7 @@ static ssize_t write_err(void *cookie, const char *bytes, size_t n) {
 }
 
 static bool free_recorder(struct recorder *r) {
-    FILE *const streams[] = {r->both_out, r->both_err, r->kept}; /* each writes to those behind it */
+    FILE *const streams[] = {r->both_out, r->both_err, r->kept}; /* `kept` last: the others write to it */
     for (size_t i = 0; i < sizeof streams / sizeof *streams; i++)
         if (streams[i])
             fclose(streams[i]);
@@ -111,7 +111,7 @@ static struct recorder *make_recorder(shell *sh, calc_error *error) {
         r->both_err = file_stream(r, write_err);
         if (r->kept && r->both_out && r->both_err) {
             setvbuf(r->kept, NULL, _IOLBF, BUFSIZ);
-            setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* what is recorded survives a crash */
+            setvbuf(r->both_out, NULL, _IOLBF, BUFSIZ); /* line by line: the record survives a crash */
             setvbuf(r->both_err, NULL, _IOLBF, BUFSIZ);
             return r;
         }
@@ -157,7 +157,7 @@ bool record_begin(shell *sh, const char *path, const char *beginning, calc_error
     if (!r)
         return false;
     if (html && !(r->to_log = file_stream(r, write_log)))
-        calc_no_memory(error); /* before the file is emptied */
+        calc_no_memory(error); /* before file_log_open empties the file */
     else
         file_log_open(&r->log, path, &shell_stop, &over, error);
     if (error->raised) {
@@ -197,7 +197,7 @@ bool record_end(shell *sh, bool tells) {
     return true;
 }
 
-/* The part of a line before its `record`: answers to the rest are not recorded. */
+/* The length of a line before its `record` statement: this record does not get the answers to the rest. */
 static size_t until_record(const char *text, size_t len) {
     static const char word[] = "record ";
     enum { WORD = sizeof word - 1 };
@@ -216,7 +216,7 @@ static size_t until_record(const char *text, size_t len) {
     return len;
 }
 
-/* `fret> ` and `....> ` before its physical lines, whose marks have become blanks. */
+/* The reader of lines has made blanks of the \ at the ends of physical lines. */
 void record_line(shell *sh, const char *text, size_t len) {
     struct recorder *r = sh->record;
     if (!r)
@@ -224,9 +224,9 @@ void record_line(shell *sh, const char *text, size_t len) {
     fflush(sh->out);
     len = until_record(text, len);
     if (r->page.to && len > 0) {
-        const bool words = *text == '#';
-        handout_put(&r->page, words ? PAGE_WORDS : PAGE_STATEMENT, text + words, len - words);
-        handout_put(&r->page, words ? PAGE_WORDS : PAGE_STATEMENT, "\n", 1);
+        const bool remark = *text == '#';
+        handout_put(&r->page, remark ? PAGE_WORDS : PAGE_STATEMENT, text + remark, len - remark);
+        handout_put(&r->page, remark ? PAGE_WORDS : PAGE_STATEMENT, "\n", 1);
         return;
     }
     const char *prompt = "fret> ";
@@ -288,7 +288,7 @@ bool record_page_end(shell *sh, calc_error *error) {
 
 void record_tell(shell *sh, const char *text) {
     if (record_alone(sh))
-        tell_below(sh->record, text);
+        report_outside(sh->record, text);
 }
 
 bool record_on_page(const shell *sh) {
@@ -321,7 +321,7 @@ void record_together(shell *sh) {
 
 /* ---- what is typed ----------------------------------------------------------------------------- */
 
-/* A line that goes on over others does so again. */
+/* Ends the physical lines of a continued line in \ again. */
 void typed_keep(shell *sh, const char *line) {
     for (const char *p = line; *p; p++) {
         if (*p == '\n')

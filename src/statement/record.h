@@ -1,64 +1,66 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a session writes, kept as a transcript that `--replay` accepts; and what has been typed in it. */
+/* Records a session: as a transcript that `--replay` accepts or as a page of HTML. Keeps typed lines. */
 #ifndef STATEMENT_RECORD_H
 #define STATEMENT_RECORD_H
 
 #include "statement/handout.h"
 #include "statement/shell.h"
 
-/* A recorder, and the session's own streams below it. */
+/* A recorder takes the place of the session's streams and writes to both them and the record. A lesson's page
+ * (record_page) takes their place alone, and suspends the recorder before it. */
 struct recorder {
     shell *sh;
     file_log log;
-    FILE *out, *err;           /* of the session; NULL: a page has it alone */
-    FILE *both_out, *both_err; /* with the file */
-    FILE *kept;                /* what is recorded, without colours: on the page, or in the file */
-    handout page;              /* of HTML, where it is no transcript */
-    FILE *to_log;              /* of a page that grows with the session; or NULL */
-    bool apart;                /* what is written now is on the page in another way */
-    struct recorder *outer;    /* goes on after a page that has the session alone */
+    FILE *out, *err; /* the session's own streams; NULL: the page alone is written */
+    FILE *both_out,
+        *both_err;          /* shell.out and shell.err meanwhile: pass on to `out` or `err` and to `kept` */
+    FILE *kept;             /* writes to the page or the transcript; without colours */
+    handout page;           /* page.to is NULL: a transcript is written */
+    FILE *to_log;           /* page.to of a recording, writes to `log`; NULL: transcript or lesson's page */
+    bool apart;             /* output is not recorded: the page has it in another way (record_apart) */
+    struct recorder *outer; /* of a lesson's page: the recorder that goes on after it, or NULL */
     FILE *outer_out, *outer_err;
-    bool escape; /* within a colour, which a transcript does without */
-    bool lost;   /* the file cannot be written any more */
+    bool escape; /* within an escape sequence (a colour), which is not recorded */
+    bool lost;   /* writing failed: nothing more is recorded */
 };
 
-/* Does the recorder pass on to standard output? */
+/* Does the recorder pass output on to standard output? */
 static inline bool record_shows(const shell *sh) {
     return sh->record && sh->record->out == stdout;
 }
 
-/* A page, as .html asks for, or a transcript? */
+/* Is the record of this path a page (.html)? Else it is a transcript. */
 bool record_as_page(const char *path);
-/* Begins it with these statements, for a replay begins without
- * a scene, then whatever comes; what has been recorded so far ends. Nothing is recorded in a replay. What
- * cannot be written any more is told at once, and the session goes on. The statements end in a mark: what is
- * noted or warned of there was said before. */
+/* Begins a record of this path and ends the one before; in a replay it does nothing. The record begins with
+ * the statements `beginning`, which set up the present scene, since a replay begins without one. In a
+ * transcript they end in RECORD_GIVEN: their notes and warnings were given earlier, so a replay does not
+ * expect them. A write that fails later is reported once, and the session goes on without a record. */
 #define RECORD_GIVEN " # as it was"
 bool record_begin(shell *sh, const char *path, const char *beginning, calc_error *error);
-/* Ends it, and tells what it wrote; false: there was none. */
+/* Ends the record; tells: reports its size. False: there was none (in a replay always true). */
 bool record_end(shell *sh, bool tells);
-/* The line that will be run, physical lines and all. */
+/* Records the logical line that is run next, by its physical lines. */
 void record_line(shell *sh, const char *text, size_t len);
-/* Text that reached the terminal by another way than the session's streams. */
+/* Records text that reached the terminal past the session's streams (by the pager). */
 void record_aside(const char *text);
-/* Others in place of the session's own streams, below a recorder, which are those then. */
+/* Swaps the session's own streams (below a recorder, if there is one) with *out and *err. */
 void record_swap(shell *sh, FILE **out, FILE **err);
 
-/* Until the end the session is written on a page alone, whatever else is recorded. False: with the error. */
+/* Until record_page_end the session is written on a page only, not to its streams or record. */
 bool record_page(shell *sh, FILE *to, const char *title, calc_error *error);
 bool record_page_end(shell *sh, calc_error *error);
-/* Is there a page, and does it have the session alone? */
+/* Is a page being written? Is it one of record_page? */
 bool record_on_page(const shell *sh);
 bool record_alone(const shell *sh);
-/* An error that ends what is played, to whoever waits for the page that has the session alone. */
+/* Reports an error that ends the lesson on the streams outside the page of record_page; else does nothing. */
 void record_tell(shell *sh, const char *text);
-/* This on a page, if there is one, in place of what the session writes before record_together. */
+/* Puts a part on the page, if there is one, in place of what the session writes before record_together. */
 void record_apart(shell *sh, page_part part, const char *text);
 void record_together(shell *sh);
 
-/* What is typed at the prompt is kept for `save history`. */
+/* Keeps a line typed at the prompt, for `save history`. */
 void typed_keep(shell *sh, const char *line);
-/* False: there was no memory to keep all of it. */
+/* Writes the lines kept. False: memory ran out, some are missing. */
 bool typed_write(const shell *sh, FILE *to);
 void typed_forget(shell *sh);
 

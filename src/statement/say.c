@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a session says beside its answers: notes, errors without a place, and whom it says them to. */
+/* Notes, warnings and errors beside the answers, and where they go. Writes to the session's streams. */
 #include <errno.h>
 #include <poll.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 
 volatile sig_atomic_t shell_stop;
 
-/* Among the answers, for a program that reads them. kind: "note", "warning", "error". */
+/* Writes a message among the answers, where programs read them (JSON). kind: "note", "warning", "error". */
 static void tell_programs(const shell *sh, const char *kind, const char *text) {
     answer a;
     answer_begin(&a, &sh->set, sh->out);
@@ -22,7 +22,7 @@ static void tell_programs(const shell *sh, const char *kind, const char *text) {
     fflush(sh->out);
 }
 
-enum { NOTE = 8192 }; /* holds a file's name, escaped or not */
+enum { NOTE = 8192 }; /* larger than a file name */
 
 void shell_tell(shell *sh, const char *kind, const char *before, const char *format, ...) {
     char text[NOTE];

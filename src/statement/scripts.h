@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scripted sessions of scripts/, a lesson or a figure of the paper each, and the topics of help, as the
- * build has put them into the program. */
+/* The sessions of scripts/ (lessons, figures of the paper) and topics of help, built into the program. */
 #ifndef STATEMENT_SCRIPTS_H
 #define STATEMENT_SCRIPTS_H
 
@@ -8,13 +7,12 @@
 
 typedef struct script {
     const char *name;
-    const char *title;       /* one line */
-    const char *const *line; /* statements and comments, or text; ended by NULL */
-    const char *const
-        *answer; /* to its questions, in their order, likewise; NULL: it has none, and is no lesson */
+    const char *title;         /* one line */
+    const char *const *line;   /* statements and comments, or the text of a topic; NULL after the last */
+    const char *const *answer; /* to its questions, in order, NULL after the last; NULL: it is no lesson */
 } script;
 
-extern const script scripts[], topics[]; /* ended by a row without a name */
+extern const script scripts[], topics[]; /* a row without a name ends them */
 
 const char *script_name(size_t i); /* NULL after the last */
 

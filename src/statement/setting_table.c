@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of settings, and showing them. Touches the settings and the scene's choice of a
- * model. */
+/* The table of settings; sets and shows them. Changes shell.set and the scene's model. */
 #include "statement/setting_table.h"
 
 #include <stddef.h>
 #include <string.h>
 
-/* ---- those that are no int --------------------------------------------------------------------- */
+/* ---- settings that are no int ------------------------------------------------------------------ */
 
 static const char *const papers[] = {
     [PAPER_USUAL] = "auto", [PAPER_SLIDE] = "slide", [PAPER_COLUMN] = "column"};
@@ -182,17 +181,17 @@ size_t setting_find(const char *name) {
     return i;
 }
 
-/* ---- by the table ------------------------------------------------------------------------------ */
+/* ---- setting and showing ----------------------------------------------------------------------- */
 
 const grammar *setting_form(size_t i) {
     return i < SETTINGS ? grammar_made("set", rows[i].name, rows[i].takes, rows[i].summary) : NULL;
 }
 
-static int *held(const shell *sh, const setting *row) {
+static int *value_of(const shell *sh, const setting *row) {
     return (int *)(void *)((char *)sh + row->at);
 }
 
-/* Of a row that takes a number its first word stands for 0. */
+/* Index of the first word among the clauses: 1 behind the hole of a number, where the word means 0. */
 static int first_word(const grammar *f) {
     return *f->clause->name ? 0 : 1;
 }
@@ -202,7 +201,7 @@ bool setting_apply(shell *sh, lexer *lx, const said *all) {
     const heard *h = &all->list[0];
     if (row->apply)
         return row->apply(sh, lx, all);
-    *held(sh, row) = h->of->holes ? (int)h->count : (int)(h->of - all->by->clause) - first_word(all->by);
+    *value_of(sh, row) = h->of->holes ? (int)h->count : (int)(h->of - all->by->clause) - first_word(all->by);
     return true;
 }
 
@@ -217,7 +216,7 @@ bool setting_format(settings *set, const char *word) {
 void setting_show(size_t i, const shell *sh, FILE *to) {
     const setting *row = &rows[i];
     const grammar *f = setting_form(i);
-    const int is = row->show ? 0 : *held(sh, row);
+    const int is = row->show ? 0 : *value_of(sh, row);
     fprintf(to, "set %s ", row->name);
     if (row->show)
         row->show(sh, to);
@@ -230,6 +229,7 @@ void setting_show(size_t i, const shell *sh, FILE *to) {
 
 void settings_write(const shell *sh, FILE *to) {
     for (size_t i = 0; i < SETTINGS; i++)
-        if (rows[i].show ? rows[i].differs && rows[i].differs(sh) : *held(sh, &rows[i]) != rows[i].initial)
+        if (rows[i].show ? rows[i].differs && rows[i].differs(sh)
+                         : *value_of(sh, &rows[i]) != rows[i].initial)
             setting_show(i, sh, to);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The program around the language: statements in, answers and errors out. */
+/* The session: it reads statements and writes answers and errors. May use `language` and `text`. */
 #ifndef STATEMENT_SHELL_H
 #define STATEMENT_SHELL_H
 
@@ -14,17 +14,17 @@ enum { EXIT_OK = 0, EXIT_ERROR = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
 
 /* Where statements come from. */
 typedef struct source {
-    const char *name; /* for messages; NULL at the prompt and in a replay: messages have no place then */
-    bool keep_going;
+    const char *name; /* for error messages; NULL at the prompt and in a replay: they name no place */
+    bool keep_going;  /* after an error */
 } source;
 
-/* Share `number` of the rows of a run, of so many; 0: it is no share. What is said before the rows comes in
- * the first share, and after them in the last, so that all of them in their order are what the whole run
- * writes. */
+/* The share `--part number/of` of a run computes only some rows of the one table or map; of == 0: no share.
+ * The first share also writes the output before those rows, the last share the output after them, so that
+ * all shares joined in order are the output of the whole run. */
 typedef struct run_share {
     unsigned number, of;
-    bool met; /* what has rows to share */
-    FILE *out;
+    bool met;  /* the table or map whose rows are shared has been reached */
+    FILE *out; /* the session's output; shell.out discards everything outside the share */
 } run_share;
 
 enum { EXPRESSIONS = 40 };
@@ -36,67 +36,66 @@ typedef struct shell {
     FILE *out, *err;
     run_share share; /* --part */
     bool interactive, quit;
-    bool waits;              /* a lesson that waits for who plays it: it asks */
+    bool waits;              /* a lesson is played step by step: `ask` waits for the user's guess */
     bool lost;               /* a recording could not be written */
-    bool stopped, refused;   /* there was an error of that kind */
+    bool stopped, refused;   /* an error of that kind (calc_error) has occurred */
     bool replaying;          /* a transcript: see shell_aside */
     struct recorder *record; /* or NULL */
-    file_text typed;         /* at the prompt, for `save history`; else closed */
-    unsigned warned;         /* of what holds still, see warnings.c */
-    bool widest_known;       /* the press from which on it is too wide: */
-    fret_press widest;
-    /* The scene as statements, handed down by who can write it: see show.h. */
+    file_text typed;         /* lines typed at the prompt, for `save history`; closed in other sessions */
+    unsigned warned;         /* bits of the warnings given that still hold, see warnings.c */
+    bool widest_known;       /* `widest` has been computed for the present scene */
+    fret_press widest;       /* the largest normal load within the half-space approximation */
+    /* Writes the scene as statements (scene_write); a callback, since the function is in a room above. */
     bool (*write_scene)(struct shell *sh, FILE *to, bool whole);
-    side_by_side compared;  /* by live */
-    int nesting;            /* of `source` and `replay` */
+    side_by_side compared;  /* what `compare` sets and `live` shows */
+    int nesting;            /* depth of `source` */
     struct fitted *fitted;  /* the last fit, for its figure; or NULL */
-    expr list[EXPRESSIONS]; /* of a print, table or plot statement, reused */
+    expr list[EXPRESSIONS]; /* storage of a statement's expressions, reused by the next statement */
 } shell;
 
-/* ---- say.c: what is said beside answers ---- */
+/* ---- say.c: notes, warnings and errors ---- */
 
 /* Set by the SIGINT handler. */
 extern volatile sig_atomic_t shell_stop;
 
 /* Reports an error that has no place in a statement. */
 void shell_error(shell *sh, const char *text);
-/* `error: ...`, behind a place or not. */
+/* Writes `error: TEXT` to sh->err; a caller that knows the place in a script writes it first. */
 void shell_print_error(const shell *sh, const char *text);
-/* The stream that keeps nothing, which stays open; NULL with the error. */
+/* A stream that discards what is written (/dev/null); it stays open. NULL with the error. */
 FILE *shell_nowhere(calc_error *error);
-/* Has whoever read standard output gone, as `head` does? That is no error to be told of. */
+/* Has the reader of standard output closed the pipe, as `head` does? Such a write error is not reported. */
 bool shell_unread(void);
-/* Things to be told that are no errors, on standard error, `before` it what they are; a program that reads
- * answers finds them among them, as `kind`. */
+/* Writes a message that is no error to standard error, after the prefix `before`; in JSON also among the
+ * answers, as an object of this kind ("note", "warning"). */
 LIKE_PRINTF(4, 5)
 void shell_tell(shell *sh, const char *kind, const char *before, const char *format, ...);
 #define shell_say(sh, ...) shell_tell(sh, "note", "", __VA_ARGS__)
 #define shell_note(sh, ...) shell_tell(sh, "note", "note: ", __VA_ARGS__)
 #define shell_warning(sh, ...) shell_tell(sh, "warning", "warning: ", __VA_ARGS__)
 
-/* Is a line to be written that is for who types, and has no place in a script's output? In a replay it is,
- * after a mark: a transcript may have it or not. */
+/* Should a line that only helps a user at the prompt be written? True at the prompt, and in a replay after
+ * writing a mark to `to`: the transcript may have the line or not. */
 bool shell_aside(const shell *sh, FILE *to);
-/* Marks of replays, first bytes of a line: an aside, and a drawing, which depends on the terminal. */
+/* First bytes of lines in a replay: MARK_ASIDE as above, MARK_DRAWING: depends on the terminal. */
 enum { MARK_ASIDE = 1, MARK_DRAWING };
-/* A note on what was pasted begins so. */
+/* The beginning of a note on pasted text. */
 #define PASTED "pasted: "
-/* Is standard output a terminal that shows what the session writes? */
+/* Is the session's output shown on a terminal (standard output)? */
 bool shell_on_terminal(const shell *sh);
-/* Does the terminal obey escapes, as those of colours? Not a dumb one, nor one that nobody names. */
+/* Does the terminal named by TERM obey escape sequences such as colours? False for "dumb" and unset. */
 bool shell_escapes(void);
 
 /* ---- warnings.c ---- */
 
-/* After a change of the scene: warns of what has not been warned of yet. */
+/* Called after a change of the scene: gives the warnings that hold and have not been given yet. */
 void shell_warn(shell *sh);
-/* The same of bodies that are dissimilar alone: something tangential has been asked for. */
+/* The warning of elastically dissimilar bodies alone: for statements that ask for something tangential. */
 void shell_warn_dissimilar(shell *sh);
-/* A step has been taken: says what no press has said, of bodies that are dissimilar, of a contact too wide.
- */
+/* Called after a load step: the warnings of dissimilar bodies, yield, and a contact too wide. */
 void shell_pressed(shell *sh, const load_step *step);
 
-/* ---- run.c: statements, lines and streams ---- */
+/* ---- prompt/run.c: statements, lines and streams ---- */
 
 void shell_init(shell *sh, FILE *out, FILE *err);
 void shell_free(shell *sh);
@@ -104,29 +103,26 @@ void shell_free(shell *sh);
 /* Runs one statement; the error is filled in on failure. */
 bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error);
 
-/* Runs a logical line of several statements, reporting errors; false if one failed. `line` is the number
- * of its first physical line. */
+/* Runs a logical line, which begins at line number `line`, and reports errors; false: a statement failed. */
 bool shell_line(shell *sh, const source *from, const char *text, size_t len, size_t line);
 
-/* Tells an error at its place in a line, as shell_line does. */
+/* Reports an error at byte `at` of a line, as shell_line does. */
 void shell_report(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
                   const calc_error *error);
 
-/* Runs what can be read to its end, or to the first error, says so if it was interrupted, and closes it.
- * Returns an exit status. */
+/* Runs `in` to its end, or to an error unless sh->keep_going, and closes it. Returns an exit status. */
 int shell_stream(shell *sh, file_in *in);
-/* The file, `-` is standard input; or a text by that name. */
+/* Runs the file (`-`: standard input), or `text` if it is not NULL; `path` names it in messages. */
 int shell_run(shell *sh, const char *path, const char *text);
 
-/* ---- prompt.c, replay.c ---- */
+/* ---- prompt/prompt.c, prompt/replay.c ---- */
 
-/* The interactive session. */
+/* The interactive session. Returns an exit status. */
 int shell_prompt(shell *sh, bool quiet, bool read_rc);
-/* Runs a transcript in a session of its own and compares, reports on the output of this one; returns an exit
- * status. error: why the transcript could not be run; empty: it has been. */
+/* Runs a transcript in a session of its own, compares the answers, and reports on the output of `sh`.
+ * Returns an exit status; error: set if the transcript could not be run. */
 int shell_replay(const shell *sh, const char *path, double tolerance, calc_error *error);
-/* `?WORD` and `!COMMAND` as a line that a statement stands for; true: it was one of them, and has
- * been run. */
+/* Runs a line `?WORD` (help) or `!COMMAND` (system); false if the line is neither. */
 bool shell_special(shell *sh, const source *from, const char *text);
 
 #endif

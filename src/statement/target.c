@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files of tables, and others. */
+/* Opens, shares and closes the destinations of tables. Writes files by text/file.h. */
 #include "statement/target.h"
 
 #include <string.h>
 
-/* Forms by their endings. */
+/* Forms by name extension. */
 static const struct {
     const char *ending;
     int format;
@@ -48,7 +48,7 @@ bool target_open(shell *sh, const lexer *lx, said *all, target *t) {
 
 /* ---- shares ------------------------------------------------------------------------------------ */
 
-/* The first row of the share after so many; the first share has one, however few there are. */
+/* The index of the first row after `shares` shares. Earlier shares get the rows left over by the division. */
 static size_t row_after(const run_share *p, size_t rows, unsigned shares) {
     const size_t each = rows / p->of, more = rows % p->of;
     return each * shares + (shares < more ? shares : more);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Text on its way out: as it is, as an object for programs, or by the pager, a program that is started at the
- * user's terminal, of which a recorder is told. */
+/* Writes long texts: as they are, as a JSON object, or through the pager. Starts the pager's program on the
+ * terminal, and gives the recorder what that shows. */
 #include "statement/text.h"
 
 #include <signal.h>
@@ -16,8 +16,8 @@
 
 /* ---- the pager: $PAGER, else less or more ------------------------------------------------------- */
 
-/* Columns that a line takes, without colours. */
-static size_t columns(const char *line, size_t n) {
+/* Width of a line on the terminal, without escape sequences. */
+static size_t line_width(const char *line, size_t n) {
     size_t count = 0;
     for (size_t i = 0, plain; i < n; i += plain) {
         plain = line[i] == '\033' ? strcspn(line + i, "m") + 1 : strcspn(line + i, "\033\n");
@@ -26,7 +26,7 @@ static size_t columns(const char *line, size_t n) {
     return count;
 }
 
-/* Does the text have more lines than the terminal of standard output? False where that is none. */
+/* Does the text need more lines than the terminal has? False if standard output is no terminal. */
 static bool pager_needed(const char *text) {
     struct winsize size = {.ws_row = 0};
     size_t rows = 1; /* the prompt */
@@ -34,14 +34,14 @@ static bool pager_needed(const char *text) {
     if (size.ws_row == 0 || size.ws_col == 0)
         return false;
     while (*text) {
-        const size_t n = strcspn(text, "\n"), wide = columns(text, n);
+        const size_t n = strcspn(text, "\n"), wide = line_width(text, n);
         rows += wide > 0 ? (wide - 1) / size.ws_col + 1 : 1;
         text += n + (text[n] == '\n');
     }
     return rows > size.ws_row;
 }
 
-/* A command of the shell. */
+/* A command for /bin/sh; NULL: $PAGER says that there is to be no pager. */
 static const char *pager_program(void) {
     const char *wanted = getenv("PAGER");
     if (wanted)
@@ -49,15 +49,15 @@ static const char *pager_program(void) {
     return "for i in less more; do command -v $i >/dev/null 2>&1 && exec $i; done; exit 1";
 }
 
-/* Shows it; false: there is no pager, or it failed. */
+/* Shows the text by the pager; false: there is none, or it failed. */
 static bool pager_show(const char *text) {
     const char *name = pager_program();
     struct sigaction ignore = {.sa_handler = SIG_IGN}, before;
     if (!name)
         return false;
-    setenv("LESS", "FRX", 0); /* ends by itself where all fits, and leaves the text on the screen */
+    setenv("LESS", "FRX", 0); /* F: quit if all fits on the screen; R: colours; X: leave the text there */
     fflush(stdout);
-    sigaction(SIGINT, &ignore, &before); /* Ctrl-C is the pager's, which asks for its own */
+    sigaction(SIGINT, &ignore, &before); /* Ctrl-C is for the pager alone */
     FILE *to = popen(name, "w");
     if (to)
         fputs(text, to);
@@ -81,7 +81,7 @@ bool text_begin(text_out *t, const shell *sh, text_kind kind, calc_error *error)
     return true;
 }
 
-/* A recorder has it either way. */
+/* Shows the text by the pager or on the output stream; either way it is recorded. */
 static void show_text(const text_out *t) {
     const bool page = t->set->pages && t->set->pager != PAGER_OFF &&
                       (t->set->pager == PAGER_ON || pager_needed(t->kept.text));
@@ -92,7 +92,7 @@ static void show_text(const text_out *t) {
         fputs(t->kept.text, t->out);
 }
 
-/* The text with what does not show escaped, in place of it. */
+/* Replaces the text by one in which characters that do not print are escaped. False: out of memory. */
 static bool make_safe(text_out *t) {
     file_text safe;
     const bool ok = file_text_open(&safe);

@@ -1,29 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Warnings of what the theory leaves out: bodies that are dissimilar, contacts too wide or too steep for
- * half-spaces, bulk stress, yield. Each is said once, until it holds no more. */
+/* Warnings of what the theory leaves out: elastically dissimilar bodies, contacts too wide or too steep for
+ * half-spaces, bulk stress, yield. Each is given once, and again after its condition has ceased to hold. */
 #include <math.h>
 
 #include "scene/functions.h"
 #include "statement/shell.h"
 
-/* Bits of what has been said. */
-enum { DISSIMILAR = 1, WIDE = 2, STEEP = 4, BULK = 8, YIELDS = 16 }; /* of the second body: 32 */
+/* Bits of shell.warned. */
+enum { DISSIMILAR = 1, WIDE = 2, STEEP = 4, BULK = 8, YIELDS = 16 }; /* 32: yield of the second body */
 
-/* Is it to be said, as what holds and has not been said yet? */
-static bool is_news(shell *sh, unsigned what, bool holds) {
+/* Updates the bit of a warning; true if its condition holds and the warning has not been given yet. */
+static bool is_new(shell *sh, unsigned what, bool holds) {
     const bool said = sh->warned & what;
     sh->warned = holds ? sh->warned | what : sh->warned & ~what;
     return holds && !said;
 }
 
-/* By how many per cent friction stiffens the normal contact where nothing slips, at most: artanh(beta)/beta -
- * 1 (Spence, Proc. R. Soc. A 305, 1968), for any shape, k = 0. */
-static double stiffened(const fret_foundation *f) {
+/* By how many per cent full stick stiffens the normal contact, the most that friction can: artanh(beta)/beta
+ * - 1 for any shape, k = 0 (Spence, Proc. R. Soc. A 305, 1968). */
+static double stiffening(const fret_foundation *f) {
     return 100 * (double)(atanhl(f->mismatch) / f->mismatch - 1);
 }
 
-/* The theory leaves coupling out, which is exact for a normal load without friction: said of what is
- * tangential, a load or a question. */
+/* The theory leaves out the coupling of normal and tangential contact. That is exact for a normal load
+ * without friction, so the warning waits for a tangential load or question. */
 void shell_warn_dissimilar(shell *sh) {
     scene *s = &sh->calc.scene;
     const fret_normal *normal;
@@ -33,11 +33,11 @@ void shell_warn_dissimilar(shell *sh) {
     const fret_foundation *f = fret_normal_foundation(normal);
     const bool tangential =
         s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, error_quiet()) && reach->by);
-    if (is_news(sh, DISSIMILAR, !f->similar && (sh->warned & DISSIMILAR || tangential))) {
+    if (is_new(sh, DISSIMILAR, !f->similar && (sh->warned & DISSIMILAR || tangential))) {
         char size[80] = "; how far off for k other than 0 is unknown";
         if (f->k == 0)
             snprintf(size, sizeof size, ", kn up to %.2g %% too small (help limits tells of dW)",
-                     stiffened(f));
+                     stiffening(f));
         shell_warning(sh,
                       "the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
                       "are coupled, and these results are an approximation%s",
@@ -45,10 +45,10 @@ void shell_warn_dissimilar(shell *sh) {
     }
 }
 
-/* Beyond these the bodies are no half-spaces, which the theory takes them for. */
-static const double most_radius = 0.3, most_slope = 0.36397023426620236; /* of R; tan 20 deg */
+/* Limits of the half-space approximation: of a/R, and of the slope (tan 20 deg). */
+static const double most_radius = 0.3, most_slope = 0.36397023426620236;
 
-/* Where contact is widest: now, or within the cycle that ends here. */
+/* The press of the widest contact: the present one, or the largest of the cycle that ends now (within). */
 static bool find_wide(scene *s, fret_press *wide, bool *within) {
     const fret_press *now;
     const fret_normal *normal;
@@ -62,7 +62,7 @@ static bool find_wide(scene *s, fret_press *wide, bool *within) {
     long double FNA = 0, phase = 0;
     scene_get(s, IN_FNA, &FNA, error_quiet());
     scene_get(s, IN_PHASE, &phase, error_quiet());
-    const fret_real most = now->F + fabsl(FNA) - FNA * cosl(phase); /* it ends at FN + FNA cos(phase) */
+    const fret_real most = now->F + fabsl(FNA) - FNA * cosl(phase); /* now is FN + FNA cos(phase) */
     if (most > now->F && !fret_press_by_force(normal, (double)most, &top).code) {
         *wide = top;
         *within = true;
@@ -70,8 +70,8 @@ static bool find_wide(scene *s, fret_press *wide, bool *within) {
     return true;
 }
 
-/* The smallest radius of curvature of a body; infinite where there is none. Two that fit closely are together
- * far flatter than each of them. */
+/* The smallest radius of curvature of a body, infinite if there is none; *name: what it is called. The radii
+ * of the bodies count, not the relative one, which is far larger where a ball lies in a socket. */
 static long double least_radius(scene *s, const char **name) {
     const double *R = s->in.radii;
     long double of_both = INFINITY;
@@ -93,12 +93,12 @@ static void warn_half_space(shell *sh) {
     const long double R = least_radius(s, &name);
     if (inputs_take(&s->in, IN_SLOPE))
         scene_get(s, IN_SLOPE, &slope, error_quiet());
-    if (is_news(sh, WIDE, press.a > most_radius * R))
+    if (is_new(sh, WIDE, press.a > most_radius * R))
         shell_warning(sh,
                       "a/%s = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
                       "an approximation",
                       name, (double)(press.a / R), within ? " within the cycle" : "");
-    if (is_news(sh, STEEP, slope > most_slope))
+    if (is_new(sh, STEEP, slope > most_slope))
         shell_warning(sh,
                       "slope = %.3g: flanks steeper than 20 deg leave the half-space, and these "
                       "results are an "
@@ -111,13 +111,13 @@ static void warn_half_space(shell *sh) {
 static void warn_bulk(shell *sh) {
     long double sB = 0;
     scene_get(&sh->calc.scene, IN_SB, &sB, error_quiet());
-    if (is_news(sh, BULK, sB != 0))
+    if (is_new(sh, BULK, sB != 0))
         shell_warning(sh, "a bulk stress also shifts the stick zone, which is left out: in the plane case by "
                           "a*sB/(4*mu*p0) (Nowell, Hills 1987)");
 }
 
-/* Beyond yield stress of bodies without a plastic part is none. again: bodies of which it has been said need
- * a look. */
+/* Notes that the stress exceeds the yield stress, where the bodies would deform plastically. again: bodies of
+ * which this has been noted are checked, too. */
 static void note_yield(shell *sh, bool again) {
     scene *s = &sh->calc.scene;
     const fret_press *press;
@@ -132,7 +132,7 @@ static void note_yield(shell *sh, bool again) {
         const bool may = (s->in.set[in] || s->in.bound[in]) && !(body && s->in.second == SECOND_RIGID) &&
                          scene_get(s, in, &yield, error_quiet()) && scene_press(s, &press, error_quiet()) &&
                          press->a > 0;
-        if (!is_news(sh, yields, may && scene_hardest(s, press->a, body ? -1 : 1, at, &most) && most > yield))
+        if (!is_new(sh, yields, may && scene_hardest(s, press->a, body ? -1 : 1, at, &most) && most > yield))
             continue;
         calc_value_text((dim){1, -2, 0, 0}, (double)most, text[0]);
         calc_value_text((dim){1, -2, 0, 0}, (double)yield, text[1]);
@@ -146,7 +146,7 @@ static void note_yield(shell *sh, bool again) {
     s->used = used;
 }
 
-/* The press from which on the contact is too wide. */
+/* Sets sh->widest, the press at a = most_radius * R; 0 if it cannot be found, infinite without R. */
 static void find_widest(shell *sh) {
     scene *s = &sh->calc.scene;
     const fret_normal *normal;

@@ -49,7 +49,8 @@ static void arguments(void) {
     const clause *Fx = &parsed.clause[0], *dx = &parsed.clause[1], *FN = &parsed.clause[2],
                  *dz = &parsed.clause[3], *steps = &parsed.clause[4];
     CHECK(Fx->argument && Fx->increment && !Fx->live && Fx->optional && dim_equal(Fx->d, DIM_FORCE));
-    CHECK(Fx->group && Fx->group == dx->group && Fx->way != dx->way && Fx->in == 0 && Fx->must == ANY);
+    CHECK(Fx->group && Fx->group == dx->group && Fx->alternative != dx->alternative && Fx->in == 0 &&
+          Fx->must == ANY);
     CHECK(FN->live && !FN->increment && FN->in == 1 + IN_FN && FN->group == 0);
     CHECK(!dz->optional && dz->in == 1 + IN_DZ);
     CHECK(!steps->argument && steps->holes == 1 && steps->hole[0].most == 1000);
