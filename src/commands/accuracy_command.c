@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command `accuracy`: its arguments, its progress, what the study says, and the figure of it. */
+/* accuracy: runs the study of errors and times of all models, answers with it, and draws it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "statement/progress.h"
 #include "study/accuracy.h"
 
-/* Columns of its answer. */
+/* Columns of the answer. */
 enum { HEAD_MODEL, HEAD_PARAMETER, HEAD_VALUE, HEAD_ERROR, HEAD_BOUND, HEAD_SECONDS, HEAD_RATIO, HEADS };
 
 /* ---- measuring --------------------------------------------------------------------------------- */
@@ -29,7 +29,7 @@ static void show_progress(void *context, const accuracy_row *row) {
     progress_words(words);
 }
 
-/* Measures what has been said; progress is shown on a terminal. */
+/* Runs the study of the cycle given by FA or dxA, or of the last one. */
 static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *error) {
     const heard *FA = said_of(given, "FA", 0), *dxA = said_of(given, "dxA", 0), *v = dxA ? dxA : FA,
                 *within = said_of(given, "within", 0);
@@ -39,7 +39,7 @@ static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *e
                                 .seconds = within ? (double)within->v.v : 3};
     bool ok = accuracy_measure(sh->calc.now, &load, show_progress, NULL, out, error);
     const char *blamed = error->raised && error->kind == ERROR_STATUS ? error->status.quantity : NULL;
-    if (v && blamed && !strcmp(blamed, "FA")) /* a dxA has no bound */
+    if (v && blamed && !strcmp(blamed, "FA")) /* a dxA has no limit to exceed */
         heard_place(error, v);
     return ok;
 }
@@ -74,7 +74,7 @@ static void format_ratio(double ratio, char *buf, size_t size) {
     snprintf(buf, size, ratio < 999.5 ? "%.3g" : "%.0f", ratio);
 }
 
-/* A bound is rounded up. */
+/* "1.2e-05", or "<2e-16" where only a bound is known, which is rounded up. */
 static void format_error(const accuracy_row *row, char *buf, size_t size) {
     const double e = (double)row->error;
     if (row->below)
@@ -83,7 +83,7 @@ static void format_error(const accuracy_row *row, char *buf, size_t size) {
         snprintf(buf, size, "%.1e", e);
 }
 
-/* The first of the springs that err by 1e-6 at most, or the best. */
+/* The first row of springs with an error of 1e-6 at most, or else the one with the smallest error. */
 static const accuracy_row *good_springs(const accuracy_study *study) {
     const accuracy_row *best = NULL;
     for (size_t i = 0; i < study->count; i++)
@@ -93,9 +93,9 @@ static const accuracy_row *good_springs(const accuracy_study *study) {
     return best;
 }
 
-/* What the springs pay, a separator, and what auto picks and why. */
+/* What springs cost, a separator, and what `set model auto` picks and why. */
 static void advise(const accuracy_study *study, const char *separator, char *buf, size_t size) {
-    const accuracy_row *row = &study->row[0], *springs = good_springs(study); /* auto's choice comes first */
+    const accuracy_row *row = &study->row[0], *springs = good_springs(study); /* row 0: what auto picks */
     char error[40], t[40], ratio[40];
     *buf = 0;
     if (springs) {
@@ -116,7 +116,7 @@ static void advise(const accuracy_study *study, const char *separator, char *buf
 
 enum { SHORT = 40 };
 
-/* For readers. */
+/* A row of the table in text. */
 #define WORDS_OF_ROW "%-18s %12s %*s %9s %10s %10s\n"
 
 static void say_row(answer *out, const accuracy_study *study, const accuracy_row *row, long double scale) {
@@ -219,7 +219,7 @@ bool do_accuracy(shell *sh, lexer *lx, said *all) {
     accuracy_study study;
     if (!run_study(sh, all, &study, lx->error))
         return false;
-    if (sh->replaying) /* times, and what follows from them */
+    if (sh->replaying) /* times differ from run to run */
         fprintf(sh->out, "%c\n", MARK_DRAWING);
     else
         say_study(sh, &study);

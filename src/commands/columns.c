@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which column is which. Changes the names, units and signs of columns, and which names are known. */
+/* Assigns columns of files. Changes their names, units and signs, and which names the session knows. */
 #include "commands/columns.h"
 
 #include <math.h>
@@ -12,22 +12,22 @@
 
 /* ---- using ------------------------------------------------------------------------------------- */
 
-/* One of several? */
-static bool is_one_of(const heard *file) {
+/* Is it the file of a clause `at` or `over`? A `using` applies to the last such clause before it. */
+static bool has_own_using(const heard *file) {
     return !strcmp(file->of->name, "at") || !strcmp(file->of->name, "over");
 }
 
-/* The file that a `using` stands behind; NULL: there is none. */
+/* The file that a `using` applies to, or NULL. */
 static const heard *file_before(const said *all, const heard *using) {
     for (const heard *h = using; h-- > all->list;)
-        if (is_one_of(h))
+        if (has_own_using(h))
             return h;
     return NULL;
 }
 
-/* Does a `using` tell of this file? */
-static bool is_chosen(const said *all, const heard *h, const heard *file) {
-    return !strcmp(h->of->name, "using") && (!is_one_of(file) || file_before(all, h) == file);
+/* Is the clause h a `using` that applies to this file? */
+static bool is_using_of(const said *all, const heard *h, const heard *file) {
+    return !strcmp(h->of->name, "using") && (!has_own_using(file) || file_before(all, h) == file);
 }
 
 bool columns_placed(const said *all, calc_error *error) {
@@ -37,7 +37,7 @@ bool columns_placed(const said *all, calc_error *error) {
     return true;
 }
 
-/* `3`, `Weg`, `"Load On Sample"`. */
+/* The column at the cursor, as `3`, `Weg`, or `"Load On Sample"`. NULL with an error. */
 static csv_values *column_at(csv *c, lexer *lx) {
     char name[CSV_NAME], layout[CALC_ERROR_TEXT / 2];
     const size_t at = lx->at, quoted = lx->kind == T_STRING, word = strcspn(lx->text + at, " \t"),
@@ -63,8 +63,8 @@ static csv_values *column_at(csv *c, lexer *lx) {
     return lx->error->raised ? NULL : column;
 }
 
-/* Where the file has no unit, or none that is known, one may stand behind the column. */
-static bool read_choice(csv *c, const lexer *lx, const heard *h) {
+/* Applies one `using NAME = COLUMN [UNIT]`; the unit is for columns whose header has none that is known. */
+static bool apply_using(csv *c, const lexer *lx, const heard *h) {
     const span *name = &h->hole[0];
     lexer own = hole_lexer(lx, &h->hole[1]);
     char called[CSV_NAME];
@@ -98,7 +98,7 @@ bool columns_read(const lexer *lx, const said *all, const heard *file, csv *out)
     if (!csv_read(name, &shell_stop, out, lx->error))
         return heard_place(lx->error, file);
     for (const heard *h = all->list; h < all->list + all->count; h++)
-        if (is_chosen(all, h, file) && !read_choice(out, lx, h))
+        if (is_using_of(all, h, file) && !apply_using(out, lx, h))
             return calc_place(lx->error, h->hole[1].at, h->hole[1].len);
     return true;
 }
@@ -137,7 +137,7 @@ csv_values *columns_take(csv *c, const char *name, dim d, calc_error *error) {
                   name, wants, names, name);
         return NULL;
     }
-    if (!column || column->twice) /* which tells what there is */
+    if (!column || column->twice) /* csv_column raises the error: it lists the columns */
         return csv_column(c, name, error), NULL;
     if (same_dim(column->d, d))
         return csv_load(c, column, error) ? column : NULL;
@@ -175,7 +175,7 @@ bool columns_at_rig(shell *sh, csv *c) {
 }
 
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
-    double x = 0, F = 0, sum = 0, rounding = 0; /* about the means: between neighbours noise would tell */
+    double x = 0, F = 0, sum = 0, rounding = 0; /* covariance: noise would decide between neighbouring rows */
     for (size_t i = 0; i < c->rows; i++) {
         x += dx->v[i] / (double)c->rows;
         F += Fx->v[i] / (double)c->rows;
@@ -187,15 +187,15 @@ bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
     return sum < -rounding;
 }
 
-/* ---- against what is computed ------------------------------------------------------------------ */
+/* ---- comparison with computed values ----------------------------------------------------------- */
 
-long double columns_differ(comparison *c, size_t row, long double ours) {
-    const long double theirs = c->with->v[row], difference = theirs - ours;
+long double columns_differ(comparison *c, size_t row, long double computed) {
+    const long double measured = c->with->v[row], difference = measured - computed;
     if (!isfinite(difference))
         return difference;
     c->rows++;
     c->squares += difference * difference;
-    c->largest = fmaxl(c->largest, fabsl(theirs));
+    c->largest = fmaxl(c->largest, fabsl(measured));
     if (fabsl(difference) >= fabsl(c->worst)) {
         c->worst = difference;
         c->worst_row = row;
@@ -207,20 +207,20 @@ long double columns_rms(const comparison *c) {
     return sqrtl(c->squares / (long double)c->rows);
 }
 
-/* ---- as names ---------------------------------------------------------------------------------- */
+/* ---- columns as names of expressions ----------------------------------------------------------- */
 
-/* Those that are results, or no names, have no say, and are missed if they are asked for; one that is named
- * in vain is no matter. */
+/* Leaves out columns whose title is no name, or is the name of a result; columns_missed explains that to a
+ * user whose expression mentions one. */
 bool columns_wake(shell *sh, csv *data, said *all, named_columns *out, calc_error *error) {
     out->count = 0;
     all->wakes = true;
     for (size_t i = 0; i < data->columns; i++) {
         csv_values *of_file = &data->column[i];
-        calc_error *useless = error_quiet();
+        calc_error *no_name = error_quiet();
         lexer lx;
         knob *k = &out->column[out->count].name;
-        lex_start(&lx, of_file->name, strlen(of_file->name), useless);
-        if (useless->raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble ||
+        lex_start(&lx, of_file->name, strlen(of_file->name), no_name);
+        if (no_name->raised || lx.kind != T_NAME || lex_peek(&lx) != T_END || of_file->trouble ||
             of_file->twice)
             continue;
         const quantity *known = quantity_find(of_file->name, strlen(of_file->name));
@@ -229,7 +229,7 @@ bool columns_wake(shell *sh, csv *data, said *all, named_columns *out, calc_erro
             continue;
         if (!names_wake(sh, &lx, all->names))
             return calc_no_memory(error);
-        knob_name(&sh->calc, &lx, k); /* there is one */
+        knob_name(&sh->calc, &lx, k); /* cannot fail: the name is known now */
         if (k->is_input && !calc_takes(&sh->calc, k->in, error_quiet()))
             continue;
         if (k->is_input && !same_dim(k->d, of_file->d))
@@ -288,10 +288,10 @@ bool columns_missed(const shell *sh, const lexer *lx, csv *data) {
     return false;
 }
 
-/* ---- what was understood ----------------------------------------------------------------------- */
+/* ---- the note ---------------------------------------------------------------------------------- */
 
 void columns_say(shell *sh, const csv *c, const char *more) {
-    char text[CSV_COLUMNS * 160]; /* each clause is shorter */
+    char text[CSV_COLUMNS * 160]; /* no column takes more */
     bool plain = c->plain && !c->encoding && !c->without && !c->words && !*more;
     snprintf(text, sizeof text, "%zu row%s from line %zu", c->rows, c->rows == 1 ? "" : "s", c->row[0].line);
     for (size_t i = 0; i < c->columns; i++) {

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The columns of a file that a command asks for: by name, as `using NAME = COLUMN, ...` tells, by dimension,
- * or as names of expressions; and what was understood, in one line. A command reads the file (columns_read),
- * takes its columns (columns_take, or csv_column by name alone), leaves out the rows without a value
- * (csv_settle), and says so (columns_say); as names they become known (columns_wake), and those that are used
- * are taken and their rows settled (columns_load). */
+/* Assigns the columns of a CSV file to quantities: by name, by `using NAME = COLUMN, ...`, or by dimension. A
+ * command calls columns_read, columns_take for each column (or csv_column, by name only), csv_settle, which
+ * leaves out rows without a value, and columns_say, which notes how the file was understood. If columns are
+ * names in expressions, it calls columns_wake before these are parsed, and columns_load after. */
 #ifndef COMMANDS_COLUMNS_H
 #define COMMANDS_COLUMNS_H
 
@@ -14,74 +13,75 @@
 #include "study/points.h"
 #include "text/csv.h"
 
-/* Does every `using` stand behind the file that it tells of, `at FILE` or `over FILE`? */
+/* Does an `at FILE` or `over FILE` precede every `using`? Else an error. */
 bool columns_placed(const said *all, calc_error *error);
 
-/* The file of a clause, its columns called as `using` says. Errors have their place. Free with csv_free
- * whatever comes. */
+/* Reads the file named in the clause `file`, and renames its columns by `using`. Errors have their place.
+ * Free `out` with csv_free, also after an error. */
 bool columns_read(const lexer *lx, const said *all, const heard *file, csv *out);
 
-/* Without its directories. */
+/* The name of the file, without directories. */
 static inline const char *columns_file(const csv *c) {
     const char *slash = strrchr(c->path, '/');
     return slash ? slash + 1 : c->path;
 }
 
-/* Of the same dimension, an angle being none of a number? */
+/* Are the dimensions equal, an angle being other than a number? */
 bool same_dim(dim a, dim b);
-/* The one column of this dimension that is called after no quantity and has not been read: NULL, names and
- * how many where there are none or several. */
+/* The column of this dimension that has not been read and is not named after a quantity; NULL if there is not
+ * just one. names, *count: all such columns. */
 csv_values *column_of_dim(csv *c, dim d, char *names, size_t size, size_t *count);
-/* The column of this name and dimension, with its values; where none has the name the one of the dimension,
- * which has the name from then on. NULL with an error. */
+/* Reads the column of this name and dimension. If none has the name, takes the only one of the dimension, and
+ * gives it the name. NULL with an error. */
 csv_values *columns_take(csv *c, const char *name, dim d, calc_error *error);
-/* A normal force that is negative throughout is compression: turned. */
+/* If all values of FN (may be NULL) are negative, turns their sign: compression is positive. True: done. */
 bool columns_turn_pull(const csv *c, csv_values *FN);
+/* Reverses the sign of a column. */
 void columns_turn(const csv *c, csv_values *column);
-/* Of a loop: is its displacement the reading at a rig? Where the file has drig, or has no dx and the scene a
- * rig. Its name is loop_column then. */
+/* Is the displacement of a measured loop read at the rig, including its compliance? It is if the file has a
+ * column drig, or if it has no dx and the scene has a rig. loop_column: what the column is called. */
 bool columns_at_rig(shell *sh, csv *c);
 static inline const char *loop_column(bool rig) {
     return rig ? "drig" : "dx";
 }
-/* Does F_x fall where d_x grows? */
+/* Is F_x negatively correlated with d_x, so that one of them has the opposite sign? */
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx);
-/* How these are told. */
+/* Notes on reversed signs. */
 #define TURNED_FN "FN is negative throughout, which is compression here: its sign is turned"
 #define TURNED_FX "Fx falls where dx grows: its sign is turned"
 
-/* What is computed against a column of the file. */
+/* Statistics of the differences between a column of the file and computed values. */
 typedef struct comparison {
-    const csv_values *with; /* NULL: there is nothing to compare */
-    size_t of;              /* the expression */
-    size_t rows, worst_row;
-    long double squares, worst, largest; /* of differences; the largest value of the column */
+    const csv_values *with;              /* the column; NULL: there is nothing to compare */
+    size_t of;                           /* index of the expression that computes the values */
+    size_t rows, worst_row;              /* number of differences; row of the largest */
+    long double squares, worst, largest; /* sum of squares; largest difference; largest value of the column */
 } comparison;
 
-/* What the file has in that row more than `ours`. */
-long double columns_differ(comparison *c, size_t row, long double ours);
-/* The root mean square; NaN: there is no difference. */
+/* Adds a row to the statistics, and returns the file's value less the computed one. */
+long double columns_differ(comparison *c, size_t row, long double computed);
+/* The root mean square of the differences; NaN if there are none. */
 long double columns_rms(const comparison *c);
 
-/* Columns as names of expressions: of inputs that the scene takes, or free ones. */
+/* Columns as names of expressions: of inputs that the scene takes, or of new names. */
 typedef struct named_columns {
     size_t count;
-    column_knob column[CSV_COLUMNS];
-    csv_values *of[CSV_COLUMNS];
-    bool used;   /* an expression mentions one */
-    bool turned; /* FN */
+    column_knob column[CSV_COLUMNS]; /* name and, after columns_load, values */
+    csv_values *of[CSV_COLUMNS];     /* the column of the file */
+    bool used;                       /* an expression mentions one of them */
+    bool turned;                     /* the sign of FN has been reversed */
 } named_columns;
 
-/* They are known until what has been said is dropped. */
+/* Makes the names of columns known to expressions, until said_drop(all). */
 bool columns_wake(shell *sh, csv *data, said *all, named_columns *out, calc_error *error);
-/* Leaves those that have a say, with their values, in rows where each has one: inputs, and what the first
- * expressions in sh->list mention. An input that is not mentioned may be no number. */
+/* Keeps the columns that matter: inputs, and names that the first `expressions` of sh->list mention. Reads
+ * them and leaves out rows without a value. A column of an input that is not mentioned may be unreadable. */
 bool columns_load(const shell *sh, csv *data, size_t expressions, named_columns *out, calc_error *error);
-/* Says more of a name that is unknown because something is wrong in its column, or there is none; false. */
+/* Explains the error of an unknown name: its column cannot be read, or which columns there are. False. */
 bool columns_missed(const shell *sh, const lexer *lx, csv *data);
 
-/* "loop.csv: 800 rows from line 21, dx from "Weg [um]", ...", and what more there is to say (may be empty): a
- * note, unless all is as the header says. */
+/* Notes how the file was understood: "loop.csv: 800 rows from line 21, dx from "Weg [um]", ...", then `more`
+ * (may be empty). No note if header and rows say it all. */
 void columns_say(shell *sh, const csv *c, const char *more);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* export: the contact for a dynamics code, as the stiffnesses of its first harmonic, or as the branches of
- * its loop. Leaves the scene as it is. */
+/* export: the contact for a dynamics code, as parallel Jenkins elements, as the stiffnesses of its first
+ * harmonic, or as the branches of its loop. Does not change the scene. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 
 typedef struct export_table {
     si_table t;
-    size_t rows, all; /* that there have been, that will be */
+    size_t rows, all; /* written so far, in all */
     const volatile sig_atomic_t *stop;
     calc_error *error;
 } export_table;
@@ -26,7 +26,7 @@ static bool put_row(export_table *t, const long double *si) {
     return !calc_stopped(t->stop, t->error);
 }
 
-/* As `to FILE` has it: columns of these names, the rows by `write`. */
+/* Writes the table of `to FILE` with columns of these names, ended by NULL; `write` writes the rows. */
 static bool write_table(shell *sh, lexer *lx, said *all, const char *const *names, size_t rows,
                         bool (*write)(export_table *t, void *context), void *context) {
     export_table t = {.all = rows, .stop = sh->calc.scene.stop, .error = lx->error};
@@ -92,7 +92,7 @@ static bool export_harmonic(shell *sh, lexer *lx, said *all) {
 
 /* ---- loop -------------------------------------------------------------------------------------- */
 
-/* The last period goes from one peak to the other and back; where it turns both branches have a row. */
+/* The last period goes from one peak to the other and back; both branches have the turning point. */
 static bool write_loop(export_table *t, void *context) {
     trial_along *a = context;
     const size_t turn = t->all / 2 - 1;
@@ -124,15 +124,14 @@ static bool export_loop(shell *sh, lexer *lx, said *all) {
     return ok;
 }
 
+/* ---- jenkins: forms ---------------------------------------------------------------------------- */
+
 typedef struct model {
     unsigned count;
     jenkins_element *element;
     jenkins_error quality;
     fret_pressed contact;
 } model;
-
-/* ---- jenkins: forms -------------------------------------------------------------------------------------
- */
 
 static bool write_csv(const settings *set, const model *m, FILE *to) {
     answer a;
@@ -208,9 +207,9 @@ static writer *form_of(const lexer *lx, const span *part) {
     return NULL;
 }
 
-/* ---- jenkins ------------------------------------------------------------------------------- */
+/* ---- jenkins ----------------------------------------------------------------------------------- */
 
-/* FA: up to there; or NULL: no limit. */
+/* Makes the elements for amplitudes up to FA, or for all amplitudes if it is NULL. */
 static bool make_model(trial *t, const heard *FA, model *m, calc_error *error) {
     double amplitude = (double)INFINITY;
     fret_loading first;
@@ -230,8 +229,8 @@ static bool make_model(trial *t, const heard *FA, model *m, calc_error *error) {
                    error);
 }
 
-/* Into the file, and how good it is to the reader; what can fail without the file comes first. */
-static bool give_model(shell *sh, lexer *lx, const span *name, writer *write, const model *m) {
+/* Writes the file, then answers with the errors; what can fail without the file comes first. */
+static bool write_model(shell *sh, lexer *lx, const span *name, writer *write, const model *m) {
     target to;
     column columns[2] = {{.name = NULL}};
     const long double si[] = {m->quality.worst, m->quality.worst / m->quality.scale};
@@ -268,7 +267,7 @@ static bool export_jenkins(shell *sh, lexer *lx, said *all) {
                          "up to FA one of the elements only sticks: take 2 or more");
     model m = {.count = count->count};
     trial *t = trial_open(&sh->calc, lx->error);
-    const bool ok = t && make_model(t, FA, &m, lx->error) && give_model(sh, lx, name, write, &m);
+    const bool ok = t && make_model(t, FA, &m, lx->error) && write_model(sh, lx, name, write, &m);
     calc_word(&sh->calc, lx->error);
     trial_close(t);
     free(m.element);
@@ -279,7 +278,7 @@ static bool export_jenkins(shell *sh, lexer *lx, said *all) {
 
 static const struct {
     const char *name;
-    const char *takes; /* behind the name, see grammar.h */
+    const char *takes; /* grammar behind the name, see grammar.h */
     const char *summary;
     bool (*write)(shell *sh, lexer *lx, said *all);
 } exported[] = {

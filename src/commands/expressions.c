@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading lists of expressions. */
+/* Reads lists of expressions, names and equations into the session's storage. */
 #include "commands/expressions.h"
 
 #include <float.h>
@@ -46,7 +46,7 @@ static bool read_column(shell *sh, lexer *lx, expr *e, column *c) {
 }
 
 bool read_expression(shell *sh, lexer *lx, size_t i, column *c) {
-    lx->list = true; /* another may follow */
+    lx->list = true; /* a comma may follow */
     const bool ok = read_column(sh, lx, &sh->list[i], c);
     lx->list = false;
     return ok;
@@ -56,7 +56,7 @@ bool read_one_expression(shell *sh, lexer *lx, column *c) {
     return read_column(sh, lx, &sh->list[0], c) && at_end(lx);
 }
 
-/* `1,5 mm` is two values: one may have been meant. */
+/* Notes that `1,5 mm` is two values, since a decimal comma may have been meant. */
 static void note_comma(shell *sh, const lexer *lx) {
     const char *comma = lx->text + lx->at;
     size_t from, len;
@@ -103,7 +103,7 @@ bool read_name(shell *sh, lexer *lx, bool known, size_t most, knob *names, size_
     return true;
 }
 
-/* A side of the equation. What no scene moves has no use for `at`, which the other side was meant to have. */
+/* Reads a side of the equation. An `at` behind a constant is an error: it was meant for the other side. */
 static bool read_side(shell *sh, lexer *lx, expr *e) {
     bool call;
     size_t at;

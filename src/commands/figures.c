@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of figures, and those that no sweep can draw. */
+/* The table of figures, and the map of running conditions, which is no plot of a sweep. */
 #include "commands/figures.h"
 
 #include <math.h>
@@ -11,14 +11,14 @@
 
 static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
 
-/* Of a homogeneous body that is not compared with others. */
+/* `when` of the figure E: the body is homogeneous, so there is no c0 to scale depth by. */
 static bool lacks_c0(const inputs *in, bool compared) {
     const bool graded = !inputs_any(in, INPUT_MODULUS) || in->v[IN_K] != 0 || in->set[IN_C0];
     return !graded && !(in->bindings & (INPUT_BIT(IN_K) | INPUT_BIT(IN_C0))) && !compared;
 }
 
-/* Nothing has worn yet, but the last cycle does. */
-static bool is_new(const inputs *in, bool compared) {
+/* `when` of the figure wear: nothing has worn yet (Nw is 0); the last cycle's wear is drawn instead. */
+static bool is_unworn(const inputs *in, bool compared) {
     return !inputs_any(in, INPUT_BIT(IN_NW)) && !compared;
 }
 
@@ -51,7 +51,7 @@ static const figure figures[] = {
      .summary = "hwear(r) of Nw cycles, or dhwear(r) of the last one, with c and a marked",
      .statement = "hwear(r) for r = 0 m .. 1.25*a",
      .instead = "dhwear(r) for r = 0 m .. 1.25*a",
-     .when = is_new,
+     .when = is_unworn,
      .marks = "ca"},
     {.name = "profile",
      .title = "worn profile",
@@ -122,9 +122,9 @@ const grammar *figure_form(size_t i) {
 
 /* ---- running conditions ------------------------------------------------------------------------- */
 
-/* Amplitudes over the other name where c still sticks: delta = mu eta (g(a) - g(c)), and at the rig
- * mu [F_N(a) - F_N(c)]/K_rig more. Up to the first all does: at c = a a flat end has a jump of g, and other
- * shapes nothing. */
+/* The borders are amplitudes of displacement at which the stick radius is c = a, a/2 and 0, as functions of
+ * the other name: mu eta (dz - g(c)), and at the rig mu (FN - FN(g(c)))/K_rig more. At c = a that is 0, but
+ * for flat ends, where dz > g(a): they stick fully below it. */
 enum { STICK, HALF, GROSS, BORDERS, PLACES = 200 };
 static const char *const amplitudes[] = {"dxA", "drigA"};
 static const char *const borders[][BORDERS] = {{"mu*eta*(dz - g(a))", "mu*eta*(dz - g(a/2))", "dxmax"},
@@ -133,20 +133,21 @@ static const char *const borders[][BORDERS] = {{"mu*eta*(dz - g(a))", "mu*eta*(d
                                                 "dxmax + mu*FN/K_rig"}};
 static const char *const titles[] = {"c = a", "c = a/2", "c = 0"};
 
-/* Between two borders, or the ends; in blue, yellow and grey, which the colour-blind tell apart. */
+/* Regions between two borders, or a border and an end of the range. Their styles are blue, yellow and grey,
+ * which colour-blind readers can tell apart. */
 static const struct {
     const char *name;
-    int from, to, style;
+    int from, to, style; /* from -1: lower end of the range; to BORDERS: upper end */
 } regions[] = {{"stick", -1, STICK, 0}, {"partial slip", STICK, GROSS, 4}, {"gross slip", GROSS, BORDERS, 6}};
 enum { REGIONS = sizeof regions / sizeof *regions };
 
 typedef struct regimes {
     plot_panel *p;
-    sweep_range ends;         /* of amplitudes */
-    bool rig, across, log;    /* they are at the rig; are the ordinate; in ratios */
-    size_t count;             /* so far */
-    double other[PLACES + 1]; /* the other name, */
-    double amplitude[BORDERS][PLACES + 1];
+    sweep_range ends;         /* of the amplitude */
+    bool rig, across, log;    /* the amplitude is drigA; is the ordinate; its axis is logarithmic */
+    size_t count;             /* values of the other name so far */
+    double other[PLACES + 1]; /* values of the other name */
+    double amplitude[BORDERS][PLACES + 1]; /* the borders there */
     calc_error *error;
 } regimes;
 
@@ -161,24 +162,24 @@ static bool take_borders(void *context, const sweep *s, size_t curve, long doubl
     return true;
 }
 
-/* At a border or an end, within the ends. */
+/* The amplitude at a border or end (see regions), cut off at the ends of the range. */
 static double amplitude_at(const regimes *r, int border, size_t i) {
     const double lo = (double)r->ends.lo, hi = (double)r->ends.hi;
     return border < 0 ? lo : border == BORDERS ? hi : fmin(fmax(r->amplitude[border][i], lo), hi);
 }
 
-static bool add_place(const regimes *r, plot_series *s, double amplitude, size_t i) {
+static bool add_point(const regimes *r, plot_series *s, double amplitude, size_t i) {
     return plot_point(s, r->across ? r->other[i] : amplitude, r->across ? amplitude : r->other[i]) ||
            calc_no_memory(r->error);
 }
 
-/* Where an amplitude lies along its axis, 0 to 1. */
+/* Position of an amplitude along its axis, 0 to 1. */
 static double part_of(const regimes *r, double amplitude) {
     const double lo = (double)r->ends.lo, hi = (double)r->ends.hi;
     return r->log ? log(amplitude / lo) / log(hi / lo) : (amplitude - lo) / (hi - lo);
 }
 
-/* The area, and its name where it is widest. */
+/* Adds the area of a region, unless it is narrow, and its name where it is widest. */
 static bool add_region(const regimes *r, int region) {
     const int from = regions[region].from, to = regions[region].to;
     double widest = 0.01, at[2] = {0, 0};
@@ -194,9 +195,9 @@ static bool add_region(const regimes *r, int region) {
         return true;
     plot_series *s = plot_series_add(r->p, PLOT_BAND, NULL, r->error);
     bool ok = s != NULL;
-    for (size_t i = 0; ok && i <= 2 * PLACES + 1; i++) /* there and back */
-        ok = i <= PLACES ? add_place(r, s, amplitude_at(r, from, i), i)
-                         : add_place(r, s, amplitude_at(r, to, 2 * PLACES + 1 - i), 2 * PLACES + 1 - i);
+    for (size_t i = 0; ok && i <= 2 * PLACES + 1; i++) /* forth along one border, back along the other */
+        ok = i <= PLACES ? add_point(r, s, amplitude_at(r, from, i), i)
+                         : add_point(r, s, amplitude_at(r, to, 2 * PLACES + 1 - i), 2 * PLACES + 1 - i);
     if (!ok)
         return false;
     s->style = regions[region].style;
@@ -216,13 +217,13 @@ static bool draw_regimes(const regimes *r) {
         if (s)
             s->thin = i == HALF;
         for (size_t j = 0; j <= PLACES; j++)
-            if (!s || !add_place(r, s, r->amplitude[i][j], j))
+            if (!s || !add_point(r, s, r->amplitude[i][j], j))
                 return false;
     }
     return true;
 }
 
-/* Places in the formulas mean nothing in the statement. */
+/* Evaluates the borders over the range. An error within their formulas has no place in the statement. */
 static bool run_borders(shell *sh, range *over, regimes *r) {
     const column columns[BORDERS] = {{.scale = 1}, {.scale = 1}, {.scale = 1}};
     calc_error mine = ERROR_NONE;
@@ -245,7 +246,7 @@ static bool run_borders(shell *sh, range *over, regimes *r) {
     return ok;
 }
 
-/* Where all sticks, its rim slips, or all slips, over the amplitude of displacement and an input. */
+/* The map of running conditions: full stick, partial and gross slip over the amplitude and an input. */
 static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     range r[2];
     sweep_range ends[2] = {{.lo = 0}, {.lo = 0}};

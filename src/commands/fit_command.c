@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* fit: values from measured data, with how sure they are; and the figure of it. The scene stays as it is. */
+/* fit: estimates values and standard errors from measured data; draws the fit. Does not change the scene. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,9 +16,9 @@
 
 const char study_library[] = "";
 
-/* ---- fit: what is read ------------------------------------------------------------------------- */
+/* ---- fit: reading ------------------------------------------------------------------------------ */
 
-/* A name that is to be found needs a value to start from. */
+/* Reads the names to estimate; the fit starts from their present values. */
 static bool read_names(shell *sh, lexer *lx, fit_question *q) {
     for (;;) {
         if (!read_name(sh, lx, true, FIT_NAMES, q->name, &q->count))
@@ -32,7 +32,8 @@ static bool read_names(shell *sh, lexer *lx, fit_question *q) {
     }
 }
 
-/* A quantity in the equation that is also a column, whose rows it does not take: one of them was meant. */
+/* Raises an error, and is true, if the equation has a quantity that is also a column but does not take its
+ * values from it (a result, or an input that the scene does not take). */
 static bool ambiguous(const shell *sh, csv *data, const expr *e, calc_error *error) {
     const quantity *of;
     bool call;
@@ -113,7 +114,7 @@ static bool read_loop(shell *sh, const lexer *lx, const said *all, const heard *
     return true;
 }
 
-/* `noise dx=10 nm Fx=0.5 N`, or one of them. */
+/* Reads `noise dx=10 nm Fx=0.5 N`, or one of the two. */
 static bool read_noise(const lexer *lx, said *all, fit_loop *loop) {
     const heard *word = said_of(all, "noise", 0), *of[2] = {said_of(all, "dx", 0), said_of(all, "Fx", 0)};
     for (size_t i = 0; i < 2; i++) {
@@ -140,9 +141,9 @@ static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data
     return along ? read_loop(sh, lx, all, along, q, data) : read_equation(sh, lx, all, q, data, columns);
 }
 
-/* ---- fit: what is said ------------------------------------------------------------------------- */
+/* ---- fit: reporting ---------------------------------------------------------------------------- */
 
-/* Of intervals that are not even. */
+/* The lower (side < 0) or upper ends of the intervals that are uneven, as a group. */
 static void report_ends(answer *out, const fit_question *q, const fit_answer *a, const char *name, int side) {
     bool any = false;
     for (size_t i = 0; i < q->count; i++) {
@@ -186,7 +187,7 @@ static void report_fit(answer *out, const fit_question *q, const fit_answer *a) 
     answer_done(out);
 }
 
-/* What the event has is said in words to readers; what to think of it, to all. */
+/* Says in words what report_fit has for programs, and adds notes on how to judge it. */
 static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_answer *a) {
     char rms[COLUMN_UNIT + NUMBER_TEXT];
     for (size_t i = 0; i < q->count; i++)
@@ -276,7 +277,7 @@ static void cycle_columns(const fit_question *q, si_table *t) {
     table_column(t, "slides", DIM_NONE);
 }
 
-/* Rows of one cycle, begun where the one before has ended. */
+/* Fits one cycle. from: where the search starts, the result of the cycle before; or NULL. */
 static bool fit_cycle(const fit_question *q, const loop_cycle *c, const double *from, fit_answer *a,
                       calc_error *error) {
     fit_question one = *q;
@@ -351,14 +352,14 @@ static bool is_by_cycle(const lexer *lx, said *all) {
 
 /* ---- the figure -------------------------------------------------------------------------------- */
 
-/* The last fit, as it is drawn. */
+/* The last fit, kept for its figure. */
 struct fitted {
-    fit_question q; /* its expressions have gone with their statement */
+    fit_question q; /* do not use q.sides but as a flag: the expressions have gone with their statement */
     csv data;
     named_columns columns;
     fit_answer a;
     fit_points points;
-    char up[COLUMN_UNIT]; /* the ordinate: the left side, or Fx */
+    char up[COLUMN_UNIT]; /* name of the ordinate: the left side of the equation, or Fx */
 };
 
 static void fitted_free(struct fitted *f) {
@@ -374,8 +375,7 @@ void fit_forget(shell *sh) {
     sh->fitted = NULL;
 }
 
-/* An equation is drawn over the one column that its left side is not; where there are several, over its rows.
- */
+/* The abscissa of an equation: the only column that is not its left side; NULL if there are several: rows. */
 static const column_knob *abscissa(const fit_question *q) {
     const column_knob *found = NULL;
     for (size_t j = 0; j < q->columns; j++) {
@@ -389,7 +389,7 @@ static const column_knob *abscissa(const fit_question *q) {
     return found;
 }
 
-static double across(const fit_question *q, const column_knob *over, size_t row) {
+static double abscissa_at(const fit_question *q, const column_knob *over, size_t row) {
     return !q->sides ? q->loop.dx[row] : over ? over->v[row] : (double)(row + 1);
 }
 
@@ -398,7 +398,7 @@ static bool add_rows(const struct fitted *f, plot_panel *p, const char *title, c
     const column_knob *over = abscissa(&f->q);
     plot_series *s = plot_series_add(p, PLOT_MEASURED, title, error);
     for (size_t i = 0; s && i < f->q.rows; i++)
-        if (!plot_point(s, across(&f->q, over, i), y[i]))
+        if (!plot_point(s, abscissa_at(&f->q, over, i), y[i]))
             return calc_no_memory(error);
     return s;
 }
@@ -414,7 +414,7 @@ static bool add_curve(const struct fitted *f, plot_series *s, calc_error *error)
     place *at = malloc(n * sizeof *at);
     bool ok = at;
     for (size_t i = 0; ok && i < n; i++)
-        at[i] = k->nodes ? (place){k->x[i], k->y[i]} : (place){across(&f->q, over, i), k->right[i]};
+        at[i] = k->nodes ? (place){k->x[i], k->y[i]} : (place){abscissa_at(&f->q, over, i), k->right[i]};
     if (ok && f->q.sides)
         qsort(at, n, sizeof *at, fret_ascending);
     for (size_t i = 0; ok && i < n; i++)
@@ -435,7 +435,7 @@ static bool finish_axes(lexer *lx, const struct fitted *f, const looks *l, plot_
     return looks_axis(lx, l, p, true, &x) && looks_axis(lx, l, p, false, ordinate);
 }
 
-/* The key has the curve to each name. */
+/* One entry of the key for each name, all in the style of the curve; only the first has its points. */
 bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
     const struct fitted *f = sh->fitted;
     (void)all;

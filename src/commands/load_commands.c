@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands of the load program: press, step, cycle, follow, and the ways back. Each reads everything,
- * then changes everything or nothing. */
+/* press, step, cycle, follow, reset, undo. Each reads all, then changes the scene or nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,15 +11,15 @@
 
 /* ---- reports ----------------------------------------------------------------------------------- */
 
-enum { REPORTED = 8 }; /* quantities at most */
+enum { REPORTED = 8 }; /* the most quantities of a report */
 
-/* Programs are told of all; else a report is for who types. */
+/* Are load commands reported? `set report auto`: at the prompt, and to programs. */
 static bool reports(const shell *sh) {
     return sh->set.report == REPORT_ON ||
            (sh->set.report == REPORT_AUTO && (sh->interactive || sh->replaying || answer_is_data(&sh->set)));
 }
 
-/* What they are is found first: it may take its time, and show that. */
+/* Computes all quantities before it writes, since that may take long and show its progress. */
 void report_event(shell *sh, const char *event, const char *const *names) {
     const quantity *of[REPORTED];
     value v[REPORTED];
@@ -45,13 +44,13 @@ void report_event(shell *sh, const char *event, const char *const *names) {
 
 /* ---- press, step, cycle ------------------------------------------------------------------------ */
 
-/* Of another load: what has worn was of the last cycle. */
+/* Notes that a new load has set Nw to 0, if there was wear. */
 static void note_unworn(shell *sh, bool worn) {
     if (worn && !inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW)))
         shell_note(sh, "Nw = 0 again: wear is that of the last cycle");
 }
 
-/* Where a step or a cycle may go to. */
+/* The targets of a step, and the amplitudes of a cycle. */
 static const struct {
     const char *name;
     bool normal;
@@ -67,7 +66,7 @@ static void take_target(load_step *step, const heard *h, bool normal, load_by by
         step->relative |= normal ? RELATIVE_NORMAL : RELATIVE_TANGENTIAL;
 }
 
-/* What a step or a cycle was given. last: the target that the error of the load belongs to. */
+/* Fills in a step or cycle from its arguments. *last: the last target, which errors of the load point at. */
 static void load_of(said *s, load_step *step, cycle_extra *extra, const heard **last) {
     const heard *FNA = said_of(s, "FNA", 0), *phase = said_of(s, "phase", 0), *steps = said_of(s, "steps", 0),
                 *times = said_of(s, "times", 0);
@@ -88,8 +87,8 @@ static void load_of(said *s, load_step *step, cycle_extra *extra, const heard **
         extra->times = times->count;
 }
 
-/* A live amplitude has its value in the scene as it is. */
-static bool live_values(shell *sh, lexer *lx, said *s) {
+/* Evaluates live amplitudes in the present scene. */
+static bool evaluate_live(shell *sh, lexer *lx, said *s) {
     for (heard *h = s->list; h < s->list + s->count; h++) {
         const clause *a = h->of;
         if (!h->live)
@@ -102,11 +101,12 @@ static bool live_values(shell *sh, lexer *lx, said *s) {
     return true;
 }
 
+/* Makes a step or cycle of the clauses; an error if it has no target. */
 static bool read_targets(shell *sh, lexer *lx, bool cycle, said *s, load_step *step, cycle_extra *extra,
                          const heard **last) {
     *step = (load_step){.kind = cycle ? LOAD_CYCLE : LOAD_STEP};
     *extra = (cycle_extra){.times = 1};
-    if (cycle && !live_values(sh, lx, s))
+    if (cycle && !evaluate_live(sh, lx, s))
         return false;
     load_of(s, step, extra, last);
     return step->tangential || (!cycle && step->normal) ||
@@ -157,9 +157,9 @@ bool do_step(shell *sh, lexer *lx, said *all) {
         return false;
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error))
         return heard_place(lx->error, last);
-    if (reports(sh)) /* a step may wait until it is asked for */
+    if (reports(sh)) /* else scene_load may leave the step to be run later */
         report_event(sh, "step", step.normal ? oblique : names);
-    if (shell_stop) { /* run_command takes back what other loads are */
+    if (shell_stop) { /* `step` has no undo mark in run_row, which takes back other commands */
         calc_undo(&sh->calc);
         return calc_interrupted(lx->error);
     }
@@ -201,19 +201,20 @@ bool do_cycle(shell *sh, lexer *lx, said *all) {
 
 /* ---- follow ------------------------------------------------------------------------------------ */
 
-enum { AT_ONCE = 4096 }; /* rows; then it is told how far it has come */
-#define SAME 1e-4        /* what the digits of a table as text may move */
+enum { AT_ONCE = 4096 }; /* rows between reports of progress */
+#define SAME 1e-4        /* relative; rounding to the digits of a text table may change so much */
 
-/* Rows as they are followed: FN,Fx drive, or dz,dx; or dx at constant F_N, and F_x is compared. Of both
- * pairs, as `history` writes them, the forces drive and dx is compared. */
+/* The rows of a file and what drives the contact: FN and Fx; or dz and dx; or dx at constant F_N, with Fx
+ * compared. If the file has both pairs, as `history` writes them, the forces drive and dx is compared. */
 typedef struct rows {
     csv *data;
     load_by normal_by, by;
-    csv_values *normal, *Fx, *dx; /* NULL: not taken */
-    bool rig;                     /* dx is a reading at it */
+    csv_values *normal, *Fx, *dx; /* NULL: not used */
+    bool rig;                     /* dx is read at the rig */
     double mu;
 } rows;
 
+/* Presses by the first row, if there is no load yet. */
 static bool follow_press(shell *sh, const rows *w, calc_error *error) {
     const bool force = w->normal_by == BY_FORCE;
     const load_step press = {
@@ -226,8 +227,8 @@ static bool follow_press(shell *sh, const rows *w, calc_error *error) {
     return scene_load(&sh->calc.scene, &press, NULL, error);
 }
 
-/* No force tells how far it slides, nor that dx is held while F_N changes: then dx drives, where it is known.
- */
+/* What drives a row. A force does not tell how far the contact slides in gross slip, nor that dx is held
+ * while F_N changes: there dx drives, if the file has it. */
 static load_by driver_of(const rows *w, size_t row) {
     if (w->by != BY_FORCE || !w->dx)
         return w->by;
@@ -236,7 +237,7 @@ static load_by driver_of(const rows *w, size_t row) {
     return held || fabs(w->Fx->v[row]) >= w->mu * FN[row] * (1 - SAME) ? BY_DISPLACEMENT : BY_FORCE;
 }
 
-/* Rows become steps. */
+/* Appends the rows as steps, in runs with the same driver. */
 static bool follow_rows(shell *sh, const rows *w, size_t row, calc_error *error) {
     const csv *data = w->data;
     for (size_t count; row < data->rows; row += count) {
@@ -259,12 +260,12 @@ static bool follow_rows(shell *sh, const rows *w, size_t row, calc_error *error)
             return false;
         }
     }
-    progress_part(-1); /* what springs make of it is not known yet */
+    progress_part(-1); /* the model of springs has yet to run */
     return true;
 }
 
-/* What the contact reads where a rig has offsets. */
-static bool take_off(shell *sh, input offset, csv_values *v, size_t n, calc_error *error) {
+/* Subtracts an offset of the rig from its readings. */
+static bool subtract_offset(shell *sh, input offset, csv_values *v, size_t n, calc_error *error) {
     long double by;
     if (!scene_get(&sh->calc.scene, offset, &by, error))
         return false;
@@ -273,7 +274,7 @@ static bool take_off(shell *sh, input offset, csv_values *v, size_t n, calc_erro
     return true;
 }
 
-/* dx or drig drives at constant F_N, and F_x is compared. */
+/* Reads the columns where dx or drig drives at constant F_N and Fx is compared. */
 static bool read_compared(shell *sh, csv *data, rows *w, calc_error *error) {
     w->rig = columns_at_rig(sh, data);
     w->dx = columns_take(data, loop_column(w->rig), DIM_LENGTH, error);
@@ -283,10 +284,11 @@ static bool read_compared(shell *sh, csv *data, rows *w, calc_error *error) {
     return w->Fx && (sh->calc.scene.end.steps || calc_missing(error, IN_FN));
 }
 
+/* Reads the columns, and decides what drives. */
 static bool read_rows(shell *sh, csv *data, rows *w, calc_error *error) {
     const bool FN = csv_has(data, "FN"), Fx = csv_has(data, "Fx"), dz = csv_has(data, "dz"),
                dx = csv_has(data, "dx");
-    /* of a pair one may have its name, and the other is the one of its dimension */
+    /* if one of a pair has its name, columns_take finds the other by dimension */
     const bool forces = FN && (Fx || !dx), places = dz && (dx || !(Fx || FN));
     *w = (rows){.data = data, .by = forces ? BY_FORCE : BY_DISPLACEMENT};
     w->normal_by = forces || places ? w->by : BY_NONE;
@@ -299,11 +301,11 @@ static bool read_rows(shell *sh, csv *data, rows *w, calc_error *error) {
         return false;
     if ((!forces && !places && !read_compared(sh, data, w, error)) || !csv_settle(data, error))
         return false;
-    return !w->rig ||
-           (take_off(sh, IN_D0, w->dx, data->rows, error) && take_off(sh, IN_F0, w->Fx, data->rows, error));
+    return !w->rig || (subtract_offset(sh, IN_D0, w->dx, data->rows, error) &&
+                       subtract_offset(sh, IN_F0, w->Fx, data->rows, error));
 }
 
-/* What the file has of the state, beside what that is in the rows that have been followed last. */
+/* Compares Fx and dx of the file with the states at the steps that its rows have become. */
 enum { OF_FX, OF_DX, COMPARED_COLUMNS };
 
 static bool compare_rows(shell *sh, const rows *w, comparison of[COMPARED_COLUMNS], calc_error *error) {
@@ -318,9 +320,9 @@ static bool compare_rows(shell *sh, const rows *w, comparison of[COMPARED_COLUMN
     while (trace_next(&t, error)) {
         const size_t at = trace_now(&t)->at.steps;
         run_sight(t.run, t.levels, &now);
-        const long double ours[] = {now.state.Fx, now.state.dx};
+        const long double computed[] = {now.state.Fx, now.state.dx};
         for (int k = 0; k < COMPARED_COLUMNS && at >= before; k++)
-            columns_differ(&of[k], at - before, ours[k]);
+            columns_differ(&of[k], at - before, computed[k]);
     }
     trace_end(&t);
     return !error->raised;
@@ -338,7 +340,7 @@ static void report_compared(shell *sh, const char *name, dim d, double rms) {
     shell_note(sh, "%s of the file is %s (rms) from %s here", name, text, name);
 }
 
-/* Of both pairs that is told which does not agree, as in another scene. */
+/* If the file has both pairs, reports only columns that do not agree: the file may be of another scene. */
 static void report_differences(shell *sh, const rows *w, const comparison of[COMPARED_COLUMNS]) {
     static const char *const names[] = {"Fx", "dx"};
     static const dim dims[] = {{1, 0, 0, 0}, {0, 1, 0, 0}};
@@ -350,7 +352,7 @@ static void report_differences(shell *sh, const rows *w, const comparison of[COM
     }
 }
 
-/* A live mu may depend on the press. */
+/* Reads mu after the press, on which a live mu may depend. */
 static bool follow_file(shell *sh, csv *data, calc_error *error) {
     scene *s = &sh->calc.scene;
     rows w;
@@ -383,7 +385,7 @@ bool do_follow(shell *sh, lexer *lx, said *all) {
     return true;
 }
 
-/* ---- the ways back ----------------------------------------------------------------------------- */
+/* ---- reset and undo ---------------------------------------------------------------------------- */
 
 bool do_reset(shell *sh, lexer *lx, said *all) {
     (void)lx;

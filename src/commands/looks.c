@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of looks, and measured points from files. Touches the panel only. */
+/* The table of looks, measured points from files, and the units of axes. Changes the panel given. */
 #include "commands/looks.h"
 
 #include <math.h>
@@ -8,32 +8,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A look at work. */
+/* Arguments of a function that applies one look. */
 typedef struct reading {
     shell *sh;
     const lexer *lx;
     const said *all;
-    const heard *said;
+    const heard *said; /* the clause */
     plot_panel *p;
-    size_t at; /* of what is set, in it */
+    size_t at; /* offset in *p of the member to set */
     looks *out;
 } reading;
 
-/* What the row sets, of the panel. */
-static void *place(const reading *r) {
+static void *member(const reading *r) {
     return (char *)r->p + r->at;
 }
 
 static bool read_text(const reading *r) {
     const span *quoted = &r->said->hole[0];
-    char **text = place(r);
+    char **text = member(r);
     free(*text);
     *text = strndup(r->lx->text + quoted->at + 1, quoted->len - 2);
     return *text || calc_no_memory(r->lx->error);
 }
 
 static bool read_flag(const reading *r) {
-    *(bool *)place(r) = true;
+    *(bool *)member(r) = true;
     return true;
 }
 
@@ -86,15 +85,15 @@ static bool read_residuals(const reading *r) {
     return true;
 }
 
-/* Taken with its file. */
+/* Only checked here: columns_read applies it with its file. */
 static bool read_using(const reading *r) {
     return columns_placed(r->all, r->lx->error);
 }
 
 static const struct {
-    const char *line;
+    const char *line; /* grammar, see grammar.h */
     bool (*read)(const reading *r);
-    size_t at; /* of what it sets, in the panel */
+    size_t at; /* offset in plot_panel of the member that it sets */
 } rows[] = {{"[title TEXT]*", read_text, offsetof(plot_panel, title)},
             {"[xlabel TEXT]*", read_text, offsetof(plot_panel, xlabel)},
             {"[ylabel TEXT]*", read_text, offsetof(plot_panel, ylabel)},
@@ -126,7 +125,7 @@ bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, look
 
 /* ---- measured points --------------------------------------------------------------------------- */
 
-/* Does the column bear a name of the axis: `dW` of dW(F), `c` of a, c? */
+/* Has the column the name of one of the axis' expressions: `dW` for dW(F), `c` for "a, c"? */
 static bool is_named(const csv_values *v, const axis_of *axis) {
     const size_t n = strlen(v->name);
     const char *next;
@@ -150,8 +149,8 @@ static csv_values *column_named(csv *c, const axis_of *axis) {
     return NULL;
 }
 
-/* The column that stands for an axis: of its name, else of its dimension, which has the name from then on. */
-static csv_values *take(csv *c, const axis_of *axis, calc_error *error) {
+/* The column for an axis, read: the one of its name, else of its dimension, see columns_take. */
+static csv_values *take_column(csv *c, const axis_of *axis, calc_error *error) {
     const csv_values *named = column_named(c, axis);
     char name[CSV_NAME];
     const size_t word = strcspn(axis->name, "(,"); /* `dW` of dW(F) */
@@ -163,18 +162,18 @@ const csv_values *looks_column(csv *c, const axis_of *axis, bool alone, calc_err
     char names[CSV_NAME];
     size_t count;
     if (column_named(c, axis))
-        return take(c, axis, error);
+        return take_column(c, axis, error);
     csv_values *one = alone ? column_of_dim(c, axis->d, names, sizeof names, &count) : NULL;
     return one && *one->name && csv_load(c, one, error) ? one : NULL;
 }
 
-/* Names come first. */
+/* The columns of both axes: first the one found by name, so that dimension can tell the other. */
 static bool find_columns(csv *c, const axis_of *x, const axis_of *y, csv_values **of_x, csv_values **of_y,
                          calc_error *error) {
     const bool y_first = column_named(c, y);
     csv_values **first = y_first ? of_y : of_x, **second = y_first ? of_x : of_y;
-    *first = take(c, y_first ? y : x, error);
-    *second = *first ? take(c, y_first ? x : y, error) : NULL;
+    *first = take_column(c, y_first ? y : x, error);
+    *second = *first ? take_column(c, y_first ? x : y, error) : NULL;
     return *second && csv_settle(c, error);
 }
 
@@ -204,21 +203,22 @@ bool looks_lay_over(lexer *lx, const looks *l, plot_panel *p, const axis_of *x, 
 
 /* ---- axes -------------------------------------------------------------------------------------- */
 
-/* All numbers along an axis. */
-static void see_all(const plot_panel *p, bool x_axis, void (*see)(double *v, void *context), void *context) {
+/* Calls `visit` with each number drawn along an axis. */
+static void for_each(const plot_panel *p, bool x_axis, void (*visit)(double *v, void *context),
+                     void *context) {
     for (size_t i = 0; i < p->count; i++) {
         const plot_series *s = p->series[i];
         for (size_t j = 0; j < s->count; j++) {
-            see(x_axis ? &s->x[j] : &s->y[j], context);
+            visit(x_axis ? &s->x[j] : &s->y[j], context);
             if (!x_axis && s->y2)
-                see(&s->y2[j], context);
+                visit(&s->y2[j], context);
         }
     }
     for (size_t i = 0; i < (x_axis ? p->map.nx : p->map.ny); i++)
-        see(x_axis ? &p->map.x[i] : &p->map.y[i], context);
+        visit(x_axis ? &p->map.x[i] : &p->map.y[i], context);
 }
 
-static void span_over(double *v, void *context) {
+static void extend(double *v, void *context) {
     axis_extent *e = context;
     if (!isfinite(*v))
         return;
@@ -229,7 +229,7 @@ static void span_over(double *v, void *context) {
 
 axis_extent looks_extent(const plot_panel *p, bool x_axis) {
     axis_extent e = {INFINITY, -INFINITY, INFINITY};
-    see_all(p, x_axis, span_over, &e);
+    for_each(p, x_axis, extend, &e);
     return e;
 }
 
@@ -237,7 +237,7 @@ static void divide(double *v, void *context) {
     *v = (double)(*v / *(const long double *)context);
 }
 
-/* What the unit is to fit: the largest value, on a logarithmic axis the middle. */
+/* The value that the unit should suit: the largest, on a logarithmic axis the geometric mean of the ends. */
 static double typical(const plot_panel *p, bool x_axis) {
     const double lo = fabs(x_axis ? p->xlo : p->ylo), hi = fabs(x_axis ? p->xhi : p->yhi);
     const bool given = isfinite(lo) && isfinite(hi);
@@ -269,7 +269,7 @@ bool looks_axis(lexer *lx, const looks *l, plot_panel *p, bool x_axis, const axi
     }
     if (u->scale == 0)
         *u = axis_unit_for(axis->like, axis->d, typical(p, x_axis));
-    see_all(p, x_axis, divide, &u->scale);
+    for_each(p, x_axis, divide, &u->scale);
     for (int i = 0; i < 2; i++)
         divide(end[i], &u->scale);
     if (!*label)

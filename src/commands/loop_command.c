@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* loop: what a measured file says by itself. Asks no scene. */
+/* loop: evaluates a measured hysteresis loop, without a model. Does not use the scene. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,38 +8,38 @@
 #include "measured/loop.h"
 #include "statement/command.h"
 
-/* What is told of a cycle, in the order of its table; the flag at the end is 1 or 0 there. */
+/* The quantities of a cycle, in the order of the table's columns. */
 static const struct {
     const char *name;
     dim d;
-    size_t at;
-} told[] = {{"dW", {1, 1, 0, 0}, offsetof(loop_cycle, dW)},
-            {"dxA", {0, 1, 0, 0}, offsetof(loop_cycle, dxA)},
-            {"FA", {1, 0, 0, 0}, offsetof(loop_cycle, FA)},
-            {"dx0", {0, 1, 0, 0}, offsetof(loop_cycle, dx0)},
-            {"Fx0", {1, 0, 0, 0}, offsetof(loop_cycle, Fx0)},
-            {"secant", {1, -1, 0, 0}, offsetof(loop_cycle, secant)},
-            {"unloading", {1, -1, 0, 0}, offsetof(loop_cycle, unloading)},
-            {"flank", {0, 0, 0, 0}, offsetof(loop_cycle, flank)},
-            {"energy_ratio", {0, 0, 0, 0}, offsetof(loop_cycle, ratio)}};
-enum { TOLD = sizeof told / sizeof *told, LOOP_COLUMNS = TOLD + 3 };
+    size_t at; /* offset of a double in loop_cycle */
+} measured[] = {{"dW", {1, 1, 0, 0}, offsetof(loop_cycle, dW)},
+                {"dxA", {0, 1, 0, 0}, offsetof(loop_cycle, dxA)},
+                {"FA", {1, 0, 0, 0}, offsetof(loop_cycle, FA)},
+                {"dx0", {0, 1, 0, 0}, offsetof(loop_cycle, dx0)},
+                {"Fx0", {1, 0, 0, 0}, offsetof(loop_cycle, Fx0)},
+                {"secant", {1, -1, 0, 0}, offsetof(loop_cycle, secant)},
+                {"unloading", {1, -1, 0, 0}, offsetof(loop_cycle, unloading)},
+                {"flank", {0, 0, 0, 0}, offsetof(loop_cycle, flank)},
+                {"energy_ratio", {0, 0, 0, 0}, offsetof(loop_cycle, ratio)}};
+enum { MEASURED = sizeof measured / sizeof *measured, LOOP_COLUMNS = MEASURED + 3 };
 
 static double value_at(const loop_cycle *c, size_t i) {
-    return *(const double *)(const void *)((const char *)c + told[i].at);
+    return *(const double *)(const void *)((const char *)c + measured[i].at);
 }
 
 static bool write_table(shell *sh, si_table *t, const csv *data, const loop_answer *l, calc_error *error) {
     table_column(t, "cycle", DIM_NONE);
     table_column(t, "line", DIM_NONE);
-    for (size_t i = 0; i < TOLD; i++)
-        table_column(t, told[i].name, told[i].d);
+    for (size_t i = 0; i < MEASURED; i++)
+        table_column(t, measured[i].name, measured[i].d);
     table_column(t, "slides", DIM_NONE);
     if (!table_begin(sh, t, "loop", error))
         return false;
     for (size_t k = 0; k < l->cycles; k++) {
         const loop_cycle *c = &l->cycle[k];
         long double row[LOOP_COLUMNS] = {(long double)(k + 1), (long double)data->row[c->first].line};
-        for (size_t i = 0; i < TOLD; i++)
+        for (size_t i = 0; i < MEASURED; i++)
             row[2 + i] = value_at(c, i);
         row[LOOP_COLUMNS - 1] = c->slides;
         answer_row(&t->a, row);
@@ -48,7 +48,7 @@ static bool write_table(shell *sh, si_table *t, const csv *data, const loop_answ
 }
 
 static void report_cycles(const shell *sh, const csv *data, const loop_answer *l) {
-    answer said_once, *a = &said_once;
+    answer out, *a = &out;
     answer_begin(a, &sh->set, sh->out);
     for (size_t k = 0; k < l->cycles; k++) {
         const loop_cycle *c = &l->cycle[k];
@@ -56,9 +56,9 @@ static void report_cycles(const shell *sh, const csv *data, const loop_answer *l
         answer_page(a, "measured");
         answer_number(a, "cycle", (double)(k + 1));
         answer_number(a, "line", (double)data->row[c->first].line);
-        for (size_t i = 0; i < TOLD; i++)
+        for (size_t i = 0; i < MEASURED; i++)
             if (isfinite(value_at(c, i)))
-                answer_quantity(a, told[i].name, (value){value_at(c, i), told[i].d});
+                answer_quantity(a, measured[i].name, (value){value_at(c, i), measured[i].d});
         answer_fact(a, "flanks", c->slides ? "slide" : "do not slide");
         answer_done(a);
     }
@@ -75,7 +75,7 @@ static void report_cycles(const shell *sh, const csv *data, const loop_answer *l
     answer_end(a, true);
 }
 
-static bool tell(shell *sh, lexer *lx, said *all, const csv *data, const loop_answer *l) {
+static bool answer_loop(shell *sh, lexer *lx, said *all, const csv *data, const loop_answer *l) {
     si_table t;
     if (!table_open(sh, lx, all, &t))
         return false;
@@ -109,9 +109,9 @@ bool do_loop(shell *sh, lexer *lx, said *all) {
         snprintf(more, sizeof more, "%zu cycle%s%s", l.cycles, l.cycles == 1 ? "" : "s",
                  turned ? ", " TURNED_FX : "");
         columns_say(sh, &data, more);
-        if (l.cycle->ratio < -0.01) /* by more than noise makes of a loop without area */
+        if (l.cycle->ratio < -0.01) /* noise alone makes it slightly negative */
             shell_note(sh, "dW < 0: the loop runs the wrong way round: does one of the readings lag?");
-        ok = tell(sh, lx, all, &data, &l);
+        ok = answer_loop(sh, lx, all, &data, &l);
     }
     loop_free(&l);
     csv_free(&data);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Maps: grids of values as contours. */
+/* Reads and runs maps, and puts their values into a panel as contours. */
 #include "commands/map.h"
 
 #include <math.h>
@@ -45,13 +45,12 @@ static double largest(const long double *v, size_t n) {
     return most;
 }
 
-static void copy(double *to, const long double *v, size_t n, long double scale) {
+static void copy_scaled(double *to, const long double *v, size_t n, long double scale) {
     for (size_t i = 0; i < n; i++)
         to[i] = (double)(v[i] / scale);
 }
 
-/* Of stress inside, over a plane through the middle: z goes down, and where it is the surface, the contact is
- * marked. */
+/* In a map of the stress inside, over x or y and z: draws z downward, and the contact as a line. */
 static bool show_body(shell *sh, const sweep *over, plot_panel *p, calc_error *error) {
     const char *x = over->var.text, *z = over->with.text;
     const plot_map *m = &p->map;
@@ -72,8 +71,8 @@ static bool show_body(shell *sh, const sweep *over, plot_panel *p, calc_error *e
     return s ? (plot_point(s, lo, 0) && plot_point(s, hi, 0)) || calc_no_memory(error) : !error->raised;
 }
 
-static bool give_values(shell *sh, lexer *lx, const sweep *s, const grid_values *of, const looks *l,
-                        const column *c, dim d, plot_panel *p) {
+static bool fill_map(shell *sh, lexer *lx, const sweep *s, const grid_values *of, const looks *l,
+                     const column *c, dim d, plot_panel *p) {
     plot_map *m = &p->map;
     const axis_of x = {.name = s->var.text, .d = s->var.d}, y = {.name = s->with.text, .d = s->with.d};
     p->logx = p->logx || s->log;
@@ -82,9 +81,9 @@ static bool give_values(shell *sh, lexer *lx, const sweep *s, const grid_values 
         return calc_fail(lx->error, l->over[0]->hole[0].at, l->over[0]->hole[0].len,
                          "points cannot lie over a map");
     const axis_unit z = axis_unit_for(c, d, largest(of->v, m->nx * m->ny));
-    copy(m->x, of->a, m->nx, 1);
-    copy(m->y, of->b, m->ny, 1);
-    copy(m->z, of->v, m->nx * m->ny, z.scale);
+    copy_scaled(m->x, of->a, m->nx, 1);
+    copy_scaled(m->y, of->b, m->ny, 1);
+    copy_scaled(m->z, of->v, m->nx * m->ny, z.scale);
     m->label = plot_label(c->name, z.text);
     return (m->label || calc_no_memory(lx->error)) && show_body(sh, s, p, lx->error) &&
            looks_axis(lx, l, p, true, &x) && looks_axis(lx, l, p, false, &y);
@@ -96,7 +95,7 @@ static bool run_map(shell *sh, lexer *lx, const sweep *s, column *c, const looks
     sweep_job sweeping = range_job(sh, c, 1, &f, NULL, NULL, lx->error);
     if (!plot_map_make(p, s->steps + 1, s->curves, lx->error))
         return false;
-    const bool ok = grid_keep(s, &sweeping, &values) && give_values(sh, lx, s, &values, l, c, f.d[0], p);
+    const bool ok = grid_keep(s, &sweeping, &values) && fill_map(sh, lx, s, &values, l, c, f.d[0], p);
     grid_values_free(&values);
     if (ok)
         note_missing(sh, &sweeping);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures as they are written, and the curves that sweeps make of them. */
+/* Reads figures and draws their curves by sweeps into a panel. */
 #include "commands/panel.h"
 
 #include <ctype.h>
@@ -12,13 +12,13 @@
 #include "statement/progress.h"
 
 enum {
-    PLOTTED = 8,
-    EVENLY = 100,
-    MOVING = 300, /* frames take a curve as it is sampled */
-    ALONG = 1000
-}; /* expressions of a panel, points of its curves to begin with */
+    PLOTTED = 8,  /* the most expressions of a panel */
+    EVENLY = 100, /* points of a curve before the sweep refines it */
+    MOVING = 300, /* the same in a frame of an animation */
+    ALONG = 1000  /* points of a curve along a load */
+};
 
-/* A panel on its way: expressions of a sweep become curves. */
+/* State of a panel while its sweep runs. */
 typedef struct panel_job {
     shell *sh;
     plot_panel *p;
@@ -26,26 +26,25 @@ typedef struct panel_job {
     const figure *figure; /* or NULL */
     const sweep *s;
     motion *m;
-    size_t index;         /* of the panel */
-    size_t count;         /* expressions that are drawn */
-    size_t against;       /* expressions behind them that are abscissas; 0: the range is */
-    size_t over[PLOTTED]; /* which of these, for each that is drawn */
+    size_t index;         /* of the panel in the figure */
+    size_t count;         /* expressions that are drawn (ordinates) */
+    size_t against;       /* expressions behind them that are abscissas; 0: the range is the abscissa */
+    size_t over[PLOTTED]; /* index of the abscissa of each ordinate */
     const column *columns;
     const char *statement;
     calc_error *error;
-    bool lost;                                   /* there was no memory for a point */
-    bool moved;                                  /* the range that has been said is that of a motion */
-    size_t each;                                 /* series of a curve */
-    bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series told apart by their bound */
-    double last[PLOTTED][2];
+    bool lost;                                   /* out of memory for a point */
+    bool moved;                                  /* the statement's range is that of the animation */
+    size_t each;                                 /* series for each value of `with` */
+    bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series of role s: the last point slips; there is one */
+    double last[PLOTTED][2];                     /* that point */
     found found;
-    file_rows *measured; /* residuals of the file whose rows it goes over; or NULL */
-    comparison residuals;
-    size_t rows; /* of it that have come */
+    file_rows *measured;  /* draw residuals: the file's values less the expressions; or NULL */
+    comparison residuals; /* of these */
+    size_t rows;          /* of the file so far */
 } panel_job;
 
-/* c curve, t thin line, b an edge of a band, of two; s a curve told apart where it is at the bounds that
- * follow it. Of several curves the bands would cover each other: their edges are lines. */
+/* The letter of figure.roles for expression i; but bands of several curves would cover each other. */
 static char role_of(const panel_job *job, size_t i) {
     const char role = job->figure && job->figure->roles ? job->figure->roles[i] : 'c';
     return role == 'b' && job->s->curves ? 't' : role;
@@ -64,7 +63,7 @@ static size_t main_count(const panel_job *job) {
 
 /* ---- curves ------------------------------------------------------------------------------------ */
 
-/* The value of a curve: as it is written where that says more than the number, as c0 = 2*a0 does. */
+/* The value of `with` for a curve: as typed if that says more than its number (c0 = 2*a0). */
 static void value_text(const panel_job *job, size_t curve, char *text, size_t size) {
     const sweep *s = job->s;
     const char *written = job->statement + s->value_at[curve];
@@ -77,8 +76,8 @@ static void value_text(const panel_job *job, size_t curve, char *text, size_t si
 
 enum { TITLE = 520 };
 
-/* "k = 0.5", the expression, or both: what tells the curves apart; then the part, which may be NULL. NULL:
- * there is nothing to tell. */
+/* The title of a series: "k = 0.5", the expression, or both, as needed to tell it from others, then `part`
+ * ("stick"; may be NULL). NULL: it needs none. */
 static const char *title_of(const panel_job *job, size_t curve, size_t i, const char *part,
                             char title[TITLE]) {
     char number[160], name[TITLE / 2];
@@ -113,8 +112,7 @@ static plot_series *add_series(panel_job *job, plot_role role, const char *title
     return s;
 }
 
-/* The series of a curve: one an expression, one for both edges of a band, two where stick and slip are told
- * apart. */
+/* Adds the series of a value of `with`: for each expression, both edges of a band, stick and slip. */
 static bool add_curve(panel_job *job, size_t curve) {
     for (size_t i = 0; i < job->count; i++) {
         const char role = role_of(job, i);
@@ -146,8 +144,8 @@ static void add_point(panel_job *job, plot_series *s, double x, double y) {
     job->lost = !plot_point(s, x, y) || job->lost;
 }
 
-/* To the stick or the slip series at j, j+1; the point between is in both, so that they join. */
-static void add_told_apart(panel_job *job, size_t j, size_t i, double x, const long double *values) {
+/* Adds a point to the stick or slip series (j, j + 1). A new one begins with the last point of the other. */
+static void add_stick_slip(panel_job *job, size_t j, size_t i, double x, const long double *values) {
     plot_series *const *s = job->p->series + j;
     const double u = (double)values[i], bound = fabs((double)values[i + 1]);
     if (!(bound > 1e-12 * fabs(u))) { /* out of contact */
@@ -168,11 +166,12 @@ static void add_told_apart(panel_job *job, size_t j, size_t i, double x, const l
     add_point(job, s[slips], x, u);
 }
 
-static bool is_over(const panel_job *job, const sweep *s, long double time) {
+/* Is it after the time of this frame? */
+static bool is_later(const panel_job *job, const sweep *s, long double time) {
     return job->m && job->m->at && s->along && time > (long double)job->m->until + 1e-9L;
 }
 
-/* What is measured less what the expressions say. */
+/* The residuals of a row: the file's value less those of the expressions. */
 static bool subtract(panel_job *job, const long double *values, long double *left) {
     const axis_of axis = {.name = job->columns[0].name, .d = job->found.d[0]};
     comparison *c = &job->residuals;
@@ -200,7 +199,7 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
     values = job->measured ? left : values;
     if (at >= job->p->count && !add_curve(job, curve))
         return false;
-    if (is_over(job, s, x))
+    if (is_later(job, s, x))
         return true;
     for (size_t i = 0, j = at; i < job->count; i++, j++) {
         const char role = role_of(job, i);
@@ -209,7 +208,7 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
         if (role == 'b')
             job->lost = !plot_band(to, abscissa, (double)values[i], (double)values[i + 1]) || job->lost;
         else if (role == 's')
-            add_told_apart(job, j, i, abscissa, values);
+            add_stick_slip(job, j, i, abscissa, values);
         else
             add_point(job, to, abscissa, (double)values[i]);
         i += role == 'b';
@@ -218,7 +217,7 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
     return !job->lost || calc_no_memory(job->error);
 }
 
-/* The last point of every main curve, marked. */
+/* In a frame along a load, marks the last point of every main curve. */
 static bool mark_now(panel_job *job) {
     const size_t series = job->p->count;
     if (!job->m || !job->m->at || !job->s->along)
@@ -232,7 +231,7 @@ static bool mark_now(panel_job *job) {
     return now && (!job->lost || calc_no_memory(job->error));
 }
 
-/* Lines across where the abscissa is a quantity of the figure, if that is one curve over a place. */
+/* Draws vertical lines at the lengths of figure.marks, if the figure is one curve over a place. */
 static bool mark_places(panel_job *job) {
     plot_panel *p = job->p;
     const char *marks = job->figure && job->figure->marks ? job->figure->marks : "";
@@ -252,7 +251,7 @@ static bool mark_places(panel_job *job) {
     return !job->lost || calc_no_memory(job->error);
 }
 
-/* Their names beside them: they are the last series, in the unit of the axis. */
+/* Places the names beside these lines, which are the last series and are in the unit of the axis by now. */
 static void name_marks(plot_panel *p) {
     const axis_extent e = looks_extent(p, true);
     const double lo = isfinite(p->xlo) ? p->xlo : e.lo, hi = isfinite(p->xhi) ? p->xhi : e.hi;
@@ -266,13 +265,13 @@ static void name_marks(plot_panel *p) {
 
 /* ---- axes -------------------------------------------------------------------------------------- */
 
-/* Points without a place on their axes are gaps, too. */
+/* Notes that points are left out on a logarithmic axis. */
 static void note_logarithms(shell *sh, const plot_panel *p) {
     if ((p->logx && looks_extent(p, true).lo <= 0) || (p->logy && looks_extent(p, false).lo <= 0))
         shell_note(sh, "a logarithmic axis has no place for what is not above 0");
 }
 
-/* An axis by the expressions that share it, each once, as far as there is room for them. */
+/* The name of an axis: the expressions that share it, each once; empty if they do not fit. */
 static void shared_name(const panel_job *job, size_t first, size_t end, char *name, size_t size) {
     *name = 0;
     for (size_t i = first; i < end; i++) {
@@ -289,7 +288,7 @@ static void shared_name(const panel_job *job, size_t first, size_t end, char *na
     }
 }
 
-/* The ordinate, and where there is no title their root mean square. */
+/* The name of the ordinate, and a title with the rms, if there is none. */
 static bool name_residuals(panel_job *job, dim d, char name[TITLE]) {
     const comparison *c = &job->residuals;
     char rms[NUMBER_TEXT + COLUMN_UNIT], title[200];
@@ -300,8 +299,8 @@ static bool name_residuals(panel_job *job, dim d, char name[TITLE]) {
     return job->p->title || calc_no_memory(job->error);
 }
 
-/* Of the expressions from `first` on the one whose dimension is the axis': there may be no value that tells
- * of the others. False: two differ. */
+/* *known: the first of these expressions whose dimension is known (one without any value has none), which is
+ * that of the axis. False with an error: two dimensions differ. */
 static bool share_axis(const panel_job *job, const found *f, size_t first, size_t end, size_t *known) {
     const column *c = job->columns;
     while (first + 1 < end && !f->known[first])
@@ -347,12 +346,12 @@ static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
 
 /* ---- motion ------------------------------------------------------------------------------------ */
 
-/* Does the sweep make scenes of its own, which know nothing of the instant? */
+/* Does the sweep set inputs or a load? Then it starts from the user's scene, not from that of a frame. */
 static bool is_still(const sweep *s) {
     return s->along || s->var.is_input || (s->at && s->at->names > 1) || (s->curves && s->with.is_input);
 }
 
-/* Does a range go over an input, as figures over a place move? */
+/* Does the which-th range of an animated figure go over an input? Then its values are the frames. */
 static bool is_moving(const panel_job *job, const lexer *lx, said *all, size_t which) {
     const heard *by = job->m ? said_of(all, "for", which) : NULL;
     const lexer name = by ? hole_lexer(lx, &by->hole[0]) : *lx;
@@ -360,7 +359,7 @@ static bool is_moving(const panel_job *job, const lexer *lx, said *all, size_t w
     return q && quantity_is_input(q);
 }
 
-/* All figures move by one input. */
+/* Makes the range of an input that of the animation; an error if another figure follows something else. */
 static bool move_by(panel_job *job, lexer *lx, said *all, size_t which) {
     const heard *by = said_of(all, "for", which);
     motion *m = job->m;
@@ -378,8 +377,8 @@ static bool move_by(panel_job *job, lexer *lx, said *all, size_t which) {
     return true;
 }
 
-/* All figures follow one load; at each value of an input they show all of it. */
-static bool follow(motion *m, const range *r) {
+/* Makes a load that of the animation; an error if another figure follows another load. */
+static bool follow_load(motion *m, const range *r) {
     const lexer *own = &r->own, *other = m ? &m->over.own : NULL;
     if (!m || m->at || !r->sweep.along)
         return true;
@@ -397,14 +396,14 @@ static bool follow(motion *m, const range *r) {
 
 static bool run_sweep(panel_job *job, sweep_job *sweeping, const sweep *s) {
     calc *c = &job->sh->calc;
-    scene *seen = c->now;
+    scene *before = c->now;
     const bool still = job->m && job->m->at && is_still(s);
     if (s->along && s->what == ALONG_PROGRAM && c->scene.end.steps == 1)
         return calc_fail(job->error, 0, 0, "there is no loop yet: use step or cycle first");
     if (still)
         c->now = job->m->at->outer;
     const bool ok = sweep_run(s, sweeping);
-    c->now = seen;
+    c->now = before;
     return ok && mark_now(job);
 }
 
@@ -416,7 +415,7 @@ static bool no_second_range(panel_job *job, lexer *lx, said *all) {
                                 "two ranges make a map: plot map EXPR for A = ... for B = ...");
 }
 
-/* Curves and axes of what has been read. */
+/* Runs the sweep, and makes its curves and axes. */
 static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
     const size_t count = job->count + job->against;
     job->s = s;
@@ -438,7 +437,7 @@ static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
     return true;
 }
 
-/* Clauses, and the text that they stand in. */
+/* The clauses of a statement, or of a row of the table of figures, and a lexer over its text. */
 typedef struct written {
     lexer lx;
     said *all;
@@ -449,7 +448,7 @@ static const heard *range_of(said *all) {
     return by ? by : along ? along : said_of(all, "at", 0);
 }
 
-/* In place of the range of a curve, the rows of the file that it is compared with. */
+/* For `residuals`: replaces the range of the curve by the rows of the file. */
 static bool take_residuals(panel_job *job, const lexer *lx, range *r, file_rows *from) {
     const looks *l = job->looks;
     if (!l->residuals)
@@ -461,7 +460,7 @@ static bool take_residuals(panel_job *job, const lexer *lx, range *r, file_rows 
     return rows_over(lx, l->all, l->over[0], &r->sweep, from);
 }
 
-/* EXPR, ... against EXPR, and such again behind commas: what is drawn, then the abscissas. */
+/* Reads EXPR, ... [against EXPR], ...: the ordinates, then the abscissas, kept at PLOTTED and on at first. */
 static bool read_curves(panel_job *job, const written *of, column columns[2 * PLOTTED]) {
     shell *sh = job->sh;
     const heard *h = &of->all->list[0];
@@ -499,7 +498,7 @@ static bool read_curves(panel_job *job, const written *of, column columns[2 * PL
     return true;
 }
 
-/* of: where the expressions stand, and the range unless the statement has one; all else stands there. */
+/* Draws curves. of: has the expressions, and the range, unless the user's statement (lx, all) has one. */
 static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     shell *sh = job->sh;
     column columns[2 * PLOTTED] = {{.name = NULL}};
@@ -516,7 +515,7 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
         ok = ok && (job->moved || no_second_range(job, lx, all)) &&
              range_read(sh, &over->lx, over->all, 0, &r) &&
              ((job->moved && job->figure) || range_options(sh, lx, all, 0, &r, 0));
-    ok = ok && take_residuals(job, lx, &r, &at) && follow(job->m, &r) && make_curves(job, lx, &r.sweep);
+    ok = ok && take_residuals(job, lx, &r, &at) && follow_load(job->m, &r) && make_curves(job, lx, &r.sweep);
     if (!ok && job->measured)
         heard_place(lx->error, job->looks->over[0]);
     if (ok && at.given && !(job->m && job->m->at))
@@ -526,13 +525,13 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     return ok;
 }
 
-/* ---- figures of the table ---------------------------------------------------------------------- */
+/* ---- named figures ----------------------------------------------------------------------------- */
 
 static const char *statement_of(const shell *sh, const figure *f, said *all) {
     return f->when && f->when(&sh->calc.now->in, said_of(all, "with", 0)) ? f->instead : f->statement;
 }
 
-/* A figure over a place moves with that load. */
+/* `along LOAD` behind a figure over a place (`pressure`): the load of the animation; an error in a plot. */
 static bool take_load(panel_job *job, const lexer *lx, const heard *along, const char *place, size_t len) {
     const char *name = job->figure->name;
     range r;
@@ -540,11 +539,11 @@ static bool take_load(panel_job *job, const lexer *lx, const heard *along, const
         return calc_fail(lx->error, along->at, along->len,
                          "%s goes over %.*s, not along a load: animate %s along ... shows it move", name,
                          (int)len, place, name);
-    return range_read_along(job->sh, lx, &along->hole[0], &r) && follow(job->m, &r);
+    return range_read_along(job->sh, lx, &along->hole[0], &r) && follow_load(job->m, &r);
 }
 
-/* The row of the figure. Another range takes the place of its own, and of the looks that suit that; but a
- * load does not take that of a place, unless it is one of the user's, which goes along as anything else. */
+/* Draws the statement of the row. A range in the user's statement replaces the row's and the looks behind
+ * that; but if the row has a `for`, the animation just follows a load, or the range of an input. */
 static bool draw_row(panel_job *job, lexer *lx, said *all, written *row) {
     const heard *over = range_of(row->all), *along = said_of(all, "along", 0);
     const span *place = &over->hole[0];
@@ -574,7 +573,7 @@ static bool draw_named(panel_job *job, lexer *lx, said *all) {
         ok = draw_row(job, lx, all, &row);
         said_drop(job->sh, &own);
     }
-    if (mine.raised) { /* places in the row mean nothing in the statement */
+    if (mine.raised) { /* its place is one in the row's text */
         *lx->error = mine;
         lx->error->at = lx->error->len = 0;
     }
@@ -583,8 +582,7 @@ static bool draw_named(panel_job *job, lexer *lx, said *all) {
 
 /* ---- figures ----------------------------------------------------------------------------------- */
 
-/* The name of a figure is an expression where one goes on behind it; a range may follow one that has no
- * value. */
+/* Is the first word the name of a figure, not part of an expression, nor a value's name before a range? */
 static bool is_named(const shell *sh, const figure *f, said *all) {
     const size_t len = strlen(f->name);
     size_t own;
@@ -601,7 +599,7 @@ bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
     out->figure = ok && f && (f->build || is_named(sh, f, &out->said)) ? f : NULL;
     if (!ok)
         said_drop(sh, &out->said);
-    said_sleep(sh, &out->said); /* its names are none of other panels */
+    said_sleep(sh, &out->said); /* other panels must not know its names */
     return ok;
 }
 

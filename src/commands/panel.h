@@ -1,37 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One figure at the cursor into one panel: expressions over a range, a figure of the table, or a map. */
+/* Reads a figure and draws it in a panel: expressions over a range, a named figure, or a map. */
 #ifndef COMMANDS_PANEL_H
 #define COMMANDS_PANEL_H
 
 #include "commands/looks.h"
 #include "commands/range.h"
 
-/* Figures in motion. They are drawn once whole, which tells their units and the load that they follow, or the
- * input; then for each instant, states along the load up to it, and what is no state along a load as it
- * stands then. */
+/* An animation. All figures are drawn once as a whole, which finds their units and the load or input that
+ * they follow, then for each frame: a curve along a load up to then, others in the scene at that time. */
 typedef struct motion {
-    bool found;                     /* what to follow: */
-    range over;                     /* a load, or an input over its range; it must stay where it is */
-    trial *at;                      /* in the scene at an instant; NULL: the figures as a whole */
-    double until;                   /* that instant */
-    axis_unit unit[PLOT_PANELS][2]; /* the same in all frames */
+    bool found;                     /* `over` has been found: */
+    range over;                     /* a load, or the range of an input; do not copy */
+    trial *at;                      /* the scene of a frame; NULL: the figures are drawn as a whole */
+    double until;                   /* the time of that frame */
+    axis_unit unit[PLOT_PANELS][2]; /* of the ordinate and abscissa of each panel, in all frames */
 } motion;
 
-/* A figure as it has been said. */
+/* A figure as the statement gives it. */
 typedef struct panel {
-    const struct figure *figure; /* of the table; NULL: what has been said is all of it */
+    const struct figure *figure; /* the named figure; NULL: `said` has expressions */
     said said;
-    size_t at; /* in the statement */
+    size_t at; /* its place in the statement */
 } panel;
 
-/* At the cursor, to the `|` or the end. */
+/* Reads a figure from the cursor to the `|` or the end. */
 bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out);
-/* Does it say what it goes over? One of the table need not. */
+/* Has it a range? A named figure need not give one. */
 bool panel_is_whole(panel *p);
-/* A map: its values can be rows too, of which a share is run. */
+/* Is it a map? panel_list writes its values as a table, of which a share can be run. */
 bool panel_is_map(const lexer *lx, const panel *p);
 bool panel_list(shell *sh, lexer *lx, panel *as);
-/* Appends a panel; m: NULL where nothing moves. */
+/* Appends the figure to f as a panel; m: of an animation, else NULL. */
 bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m);
 
 #endif

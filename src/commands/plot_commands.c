@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* `plot` and `animate`: reads figures and gives them to gnuplot. */
+/* plot and animate: read figures, and draw them in files, in the terminal, or on the page being recorded. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@
 #include "statement/text.h"
 #include "text/typeset.h"
 
-/* Of pictures: 16:9 with texts for the last row; 8.5 cm with texts of 9 points. */
+/* Sizes of pictures: slide, 16:9 with large text; column of a paper, 8.5 cm wide with text of 9 points. */
 static const struct {
     int width, height;
     double text;
@@ -36,7 +36,7 @@ static void terminal_size(const shell *sh, int *w, int *h) {
     }
 }
 
-/* Braille at terminals that have it, which the console of Linux does not. */
+/* Braille characters where the terminal has them; the Linux console does not. */
 static plot_terminal terminal_kind(const shell *sh, bool on_terminal) {
     const char *term = getenv("TERM");
     if (sh->set.plot_terminal != PLOT_AUTO)
@@ -44,8 +44,7 @@ static plot_terminal terminal_kind(const shell *sh, bool on_terminal) {
     return on_terminal && typeset_unicode() && term && strcmp(term, "linux") != 0 ? PLOT_BLOCK : PLOT_DUMB;
 }
 
-/* The scene and the program that drew it, in lines of so many characters; NULL: out of memory. To be freed.
- */
+/* The scene and the program's version, wrapped at so many columns. To be freed; NULL: out of memory. */
 static char *caption_of(shell *sh, int columns) {
     file_text kept, wrapped;
     if (!file_text_open(&kept))
@@ -72,7 +71,7 @@ static char *caption_of(shell *sh, int columns) {
     return file_text_close(&wrapped) ? wrapped.text : NULL;
 }
 
-/* The figure, of a movie the last frame, on the page that is recorded. */
+/* Draws the figure on the page that is being recorded. */
 static bool draw_on_page(shell *sh, plot_figure *f, calc_error *error) {
     file_text svg;
     if (!file_text_open(&svg))
@@ -87,7 +86,7 @@ static bool draw_on_page(shell *sh, plot_figure *f, calc_error *error) {
     return ok;
 }
 
-/* To a file, or to the terminal. */
+/* Draws one figure, or several frames, into a file (or NULL: to the session's output). */
 static bool draw_off_page(shell *sh, lexer *lx, plot_figure *frame, size_t frames, const char *file) {
     file_report written;
     text_out text;
@@ -125,11 +124,11 @@ static bool draw_off_page(shell *sh, lexer *lx, plot_figure *frame, size_t frame
     return true;
 }
 
-/* The figure, or frames of a movie. */
+/* Draws one figure, or several frames. A page gets the last frame. */
 static bool draw(shell *sh, lexer *lx, plot_figure *frame, size_t frames, const char *file) {
     const bool on_page = !file && record_on_page(sh);
     if (on_page && !draw_on_page(sh, &frame[frames - 1], lx->error)) {
-        lx->error->refused |= record_alone(sh); /* no page without its figures */
+        lx->error->refused |= record_alone(sh); /* a lesson ends: its page must not lack a figure */
         return false;
     }
     const bool ok = (on_page && record_alone(sh)) || draw_off_page(sh, lx, frame, frames, file);
@@ -140,7 +139,7 @@ static bool draw(shell *sh, lexer *lx, plot_figure *frame, size_t frames, const 
 
 /* ---- figures ----------------------------------------------------------------------------------- */
 
-/* FIGURE [| FIGURE ...] as they have been said. */
+/* FIGURE [| FIGURE ...] of a statement. */
 typedef struct panels {
     panel *list;
     size_t count, room;
@@ -152,6 +151,7 @@ static void panels_free(shell *sh, panels *p) {
     free(p->list);
 }
 
+/* A clause of the last figure, which alone may have `to` and `frames`. */
 static heard *last_said(panels *p, const char *word) {
     return said_of(&p->list[p->count - 1].said, word, 0);
 }
@@ -176,7 +176,7 @@ static bool draw_panels(shell *sh, lexer *lx, panels *p, plot_figure *f, motion 
     return true;
 }
 
-/* Neither a figure nor a range: a figure may have been misspelt. wants: what else may stand there. */
+/* The error of a statement with neither a figure nor a range. wants: what is expected. False. */
 static bool fail_figure(const calc *c, lexer *lx, const grammar *row, const char *wants) {
     char word[LEX_NAME], all[CALC_ERROR_TEXT / 2] = "";
     const token_kind next = lex_peek(lx);
@@ -204,7 +204,7 @@ static bool fail_figure(const calc *c, lexer *lx, const grammar *row, const char
                     row->command, all);
 }
 
-/* All figures, and the file, which is looked at before long work: empty where there is none. */
+/* Reads all figures and the file's name ("": none); checks before long work that it can be written. */
 static bool read_figures(shell *sh, lexer *lx, const grammar *row, const char *wants, panels *out,
                          char *file) {
     lexer begin = *lx;
@@ -219,7 +219,7 @@ static bool read_figures(shell *sh, lexer *lx, const grammar *row, const char *w
     return !to || plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to);
 }
 
-/* Of a map, under --part: rows, as of a table. */
+/* A map under --part: writes its values as the rows of a table. */
 static bool share_map(shell *sh, lexer *lx, panels *p) {
     const heard *to = last_said(p, "to");
     if (to)
@@ -228,7 +228,7 @@ static bool share_map(shell *sh, lexer *lx, panels *p) {
     return panel_list(sh, lx, &p->list[0]);
 }
 
-/* A replay compares no drawings. */
+/* Draws, but in a replay only into files: drawings in the terminal are not compared. */
 static bool draw_plot(shell *sh, lexer *lx, plot_figure *f, const char *file) {
     if (!sh->replaying || file)
         return draw(sh, lx, f, 1, file);
@@ -259,13 +259,13 @@ typedef struct movie {
     const lexer *lx;
     panels figures;
     motion motion;
-    sweep_job over; /* its frames */
+    sweep_job over; /* the sweep over the frames */
     plot_figure *frame;
-    size_t done, frames;
+    size_t done, frames; /* drawn so far, in all */
     calc_error *error;
 } movie;
 
-/* Titles tell the value of the input. */
+/* Adds the value of the input to the titles. */
 static bool title_frame(movie *m, plot_figure *f, long double v) {
     const knob *by = &m->motion.over.sweep.var;
     char number[160], title[600];
@@ -282,7 +282,7 @@ static bool title_frame(movie *m, plot_figure *f, long double v) {
     return true;
 }
 
-/* The figures at an instant, or at a value, of which the scratch scene is now. */
+/* Makes a frame, of the scratch scene, which is at an instant of the load or a value of the input. */
 static bool give_frame(void *context, const sweep *s, size_t curve, long double x,
                        const long double *values) {
     movie *m = context;
@@ -300,7 +300,7 @@ static bool give_frame(void *context, const sweep *s, size_t curve, long double 
     return draw_panels(m->sh, &lx, &m->figures, frame, &m->motion) && (s->along || title_frame(m, frame, x));
 }
 
-/* Instants of the load, of the program where the figures follow none, or values of an input. */
+/* Makes all frames: values of an input, or instants of a load, the program if the figures follow none. */
 static bool take_frames(movie *m) {
     static const char load[] = "program";
     sweep *s = &m->motion.over.sweep;
@@ -315,7 +315,7 @@ static bool take_frames(movie *m) {
     return sweep_run(s, &m->over);
 }
 
-/* Draws the figures once as they stand, then at every instant, then all of it. */
+/* Draws the figures once as a whole, see `motion`, then all frames, and gives these to gnuplot. */
 static bool run_movie(movie *m, lexer *lx, const char *file) {
     plot_figure whole;
     const size_t frames = m->frames;
@@ -331,7 +331,7 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
         ok = calc_fail(lx->error, 0, 0, "an animation takes 2 frames or more");
     ok = ok && take_frames(m);
     progress_wipe();
-    if (ok && file) { /* in the terminal frames would go behind it */
+    if (ok && file) { /* in the terminal the line would stand in the frames */
         char words[80];
         snprintf(words, sizeof words, "animate: gnuplot draws %zu frames (Ctrl-C stops it)", m->done);
         progress_words(words);

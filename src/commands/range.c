@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading ranges, and the files that they go over. Names become known; else touches nothing. */
+/* Reads ranges, and files whose rows are one. Changes nothing in the session but which names are known. */
 #include "commands/range.h"
 
 #include <math.h>
@@ -18,12 +18,12 @@ const char *range_line(size_t i) {
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
-/* What the ends of a range, or the values of a list, have in common. A bare 0 is of any dimension. */
+/* The common dimension of the ends of a range, or of the values of a list. A bare 0 has any dimension. */
 typedef struct bounds {
     dim d;
-    bool known; /* the dimension: of an input, or of a value before that is no bare 0 */
-    value v;    /* that one */
-    size_t at, len;
+    bool known;     /* a value with a dimension has been read (a bare 0 has none); not used for inputs */
+    value v;        /* the first such value */
+    size_t at, len; /* its place */
 } bounds;
 
 static bool is_plain(dim d) {
@@ -67,10 +67,10 @@ bool range_read_interval(shell *sh, const lexer *lx, const span *part, const kno
            read_other_end(&sh->calc, &own, var, word, &b, out) && at_end(&own);
 }
 
-/* The same, or v1, v2, ...: no `..` stands there then. */
+/* Reads LO .. HI, or a list v1, v2, ... */
 static bool read_interval_or_list(calc *c, lexer *lx, const knob *var, sweep_range *out) {
     bounds b = {.known = false};
-    lexer comma = *lx; /* the first, where there is one */
+    lexer comma = *lx; /* at the first comma, if there is one */
     lx->list = true;
     for (out->listed = 0; out->listed == 0 || lx->kind == T_COMMA;) {
         if (out->listed == SWEEP_LISTED)
@@ -87,13 +87,13 @@ static bool read_interval_or_list(calc *c, lexer *lx, const knob *var, sweep_ran
     out->lo = out->list[0];
     if (out->listed > 1 && lx->kind != T_RANGE)
         return true;
-    if (out->listed > 1) /* 1,5 .. 3 */
+    if (out->listed > 1) /* 1,5 .. 3: a decimal comma is an error */
         return lex_one_value(&comma) && read_other_end(c, &comma, var, NULL, &b, out);
     out->listed = 0;
     return read_other_end(c, lx, var, NULL, &b, out);
 }
 
-/* The range where a curve sees it. */
+/* Evaluates the range in the scene of a curve: its ends may depend on the name of `with`. */
 static bool evaluate_range(const sweep *s, sweep_range *out, calc_error *error) {
     const range *r = s->context;
     lexer lx = r->own;
@@ -126,7 +126,7 @@ bool range_read_along(shell *sh, const lexer *lx, const span *part, range *out) 
     if (lex_accept(&own, "program")) {
         s->what = ALONG_PROGRAM;
     } else if (lex_is(&own, "cycle") &&
-               own.at + own.len == own.end) { /* the last period; `cycle FA=..` is a load */
+               own.at + own.len == own.end) { /* `cycle` alone: the last period; `cycle FA=..` is a load */
         s->what = ALONG_CYCLE;
         lex_next(&own);
     }
@@ -159,8 +159,8 @@ bool range_read_values(shell *sh, const lexer *lx, const span *values, sweep *s)
     return at_end(&own);
 }
 
-/* Does the name stand anywhere else in the statement? */
-static bool stands_elsewhere(const char *text, size_t here, const char *name) {
+/* Does the name occur in the text other than at byte `here`? */
+static bool occurs_elsewhere(const char *text, size_t here, const char *name) {
     const size_t len = strlen(name);
     for (const char *p = text; (p = strstr(p, name)); p += len)
         if (p != text + here && !lex_in_name(p[len]) && (p == text || !lex_in_name(p[-1])))
@@ -174,7 +174,8 @@ static bool read_with(shell *sh, const lexer *lx, const said *all, const heard *
         return false;
     const bool fresh =
         !s->with.is_input && (sh->calc.names.row[s->with.name].woken || s->with.name >= all->names);
-    if (fresh && !stands_elsewhere(lx->text, h->hole[0].at, s->with.text)) /* no definition can know it */
+    if (fresh &&
+        !occurs_elsewhere(lx->text, h->hole[0].at, s->with.text)) /* no definition can use a new name */
         snprintf(sh->calc.note, sizeof sh->calc.note, "nothing here depends on %s", s->with.text);
     if (!s->along && !strcmp(s->with.text, s->var.text))
         return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
@@ -200,7 +201,7 @@ bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *o
             s->steps = h->count;
             s->refine = false;
             given = true;
-        } else if (!strcmp(word, "log") && !h->of->holes) { /* `log x` is of the axes */
+        } else if (!strcmp(word, "log") && !h->of->holes) { /* `log x` is a look of the axes */
             if (s->along)
                 return calc_fail(lx->error, h->at, h->len,
                                  "log goes with for NAME = LO .. HI, or as log x or log y");
@@ -283,13 +284,12 @@ void rows_close(file_rows *r) {
     r->given = false;
 }
 
-/* The range of the first `count` expressions in sh->list: the inputs in the file and the names that they use.
- */
+/* The sweep over the rows sets inputs, and names that the first `count` expressions mention. */
 static bool rows_range(shell *sh, const lexer *lx, said *all, file_rows *r, size_t count, sweep *out) {
     static const char *const others[] = {"for", "along", "steps", "log"};
     for (const heard *h = all->list; h < all->list + all->count; h++)
         for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-            if (!strcmp(h->of->name, others[i]) && !(i == 3 && h->of->holes))
+            if (!strcmp(h->of->name, others[i]) && !(i == 3 && h->of->holes)) /* `log x` is a look */
                 return calc_fail(lx->error, h->at, h->len,
                                  "the rows of the file are the range: %s does not go with at FILE",
                                  others[i]);
@@ -352,9 +352,9 @@ void rows_say(shell *sh, const file_rows *r) {
 }
 
 const csv_values *rows_compared(file_rows *r, const axis_of *expression, bool alone, calc_error *error) {
-    const csv_values *theirs = looks_column(&r->data, expression, alone, error);
-    for (size_t j = 0; theirs && j < r->at.names; j++)
-        if (theirs->v == r->at.column[j].v)
+    const csv_values *with = looks_column(&r->data, expression, alone, error);
+    for (size_t j = 0; with && j < r->at.names; j++)
+        if (with->v == r->at.column[j].v)
             return NULL;
-    return theirs;
+    return with;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ranges of tables and plots as they have been said: for NAME = LO .. HI, along a load, with NAME = v1, v2,
- * ...; the rows of a file, `at FILE` and `over FILE residuals`, and what they have to compare with. */
+/* Reads the ranges of tables and plots: for NAME = LO .. HI, along a load, with NAME = v1, v2, ..., and the
+ * rows of a file (`at FILE`, `over FILE residuals`) with the columns that results are compared with. */
 #ifndef COMMANDS_RANGE_H
 #define COMMANDS_RANGE_H
 
@@ -9,74 +9,73 @@
 #include "statement/output.h"
 #include "study/sweep.h"
 
-/* `a*for FN = ..`: an error, where the range has gone on what stands before it. */
+/* Has an expression swallowed the `for` or `along` of the range, as in `a*for FN = ..`? Then an error. */
 static inline bool range_hides(const lexer *lx, const said *all) {
     return said_hides(lx, all, "for") || said_hides(lx, all, "along");
 }
 
-/* Of `at FILE`; nothing where that has not been said. */
+/* The file of `at FILE` or `over FILE residuals`; given: the statement has such a clause. */
 typedef struct file_rows {
     bool given;
     csv data;
     named_columns names;
-    sweep_rows at;
+    sweep_rows at; /* the sweep over the rows, see sweep.h */
 } file_rows;
 
-/* Reads the file, and makes its columns known to what is parsed then, until said_drop. To be closed whatever
- * comes. */
+/* Reads the file of `at FILE`, if there is one, and makes its columns known to expressions until said_drop.
+ * Call rows_close afterwards, also after an error. */
 bool rows_open(shell *sh, const lexer *lx, said *all, file_rows *out);
 void rows_close(file_rows *r);
-/* The rows of a file over a range of one name, which it has a column for. */
+/* Of `over FILE residuals`: turns a sweep over one name into one over the file's values of that name. */
 bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over, file_rows *out);
-/* What was understood, behind what has been compared. */
+/* Notes how the file was understood; called when all columns have been read. */
 void rows_say(shell *sh, const file_rows *r);
 
-/* What an expression is to be compared with, or NULL: the column of its name, else, of an expression that is
- * alone in its dimension, the only one of that which is not used and has not the name of another quantity. */
+/* The column that an expression is compared with, or NULL: the one of its name; else, if no other expression
+ * has its dimension (alone), the only column of it that is not used and not named after a quantity. */
 const csv_values *rows_compared(file_rows *r, const axis_of *expression, bool alone, calc_error *error);
 
-/* What a load along which it goes begins with; NULL after the last. */
+/* First words of a LOAD; NULL after the last. */
 const char *load_name(size_t i);
-/* What may be said of a range, in one line; NULL after it. */
+/* The grammar of a range: one line; NULL after it. */
 const char *range_line(size_t i);
 
-/* A sweep and where in the statement its range stands: it is read again for each curve. */
+/* A sweep, and the text of its range, which is evaluated again for each curve. sweep.context points to it. */
 typedef struct range {
     sweep sweep;
     shell *sh;
-    lexer own; /* over LO .. HI, a list, or the load */
-    bool listed;
+    lexer own;   /* over the text of the interval, the list of values, or the load */
+    bool listed; /* it is a list */
 } range;
 
-/* LO .. HI of var, and no more; word: what stands between them instead of `..`, or NULL. */
+/* Reads LO .. HI for `var` from a part that holds nothing else; word: a word in place of `..`, or NULL. */
 bool range_read_interval(shell *sh, const lexer *lx, const span *part, const knob *var, const char *word,
                          sweep_range *out);
-/* As far as the load goes that stands there. */
+/* Reads the load of `along LOAD`. */
 bool range_read_along(shell *sh, const lexer *lx, const span *load, range *out);
-/* The range of the which-th `for`, or `along`. It must stay where it is, and the text of the statement too.
- */
+/* Reads the which-th `for`, or `along`. Do not copy `out`; the text of the statement must outlive it. */
 bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out);
-/* The same of a `for` that is there; takes: the scene must have a use for the name. */
+/* The same for a `for` that the statement has; takes: it is an error if the scene has no use for the name. */
 bool range_read_name(shell *sh, lexer *lx, said *all, size_t which, bool takes, range *out);
-/* The rows of `at FILE` and its `with`, for the first `count` expressions; `from` must stay where it is, too.
- */
+/* Makes a sweep over the rows of `at FILE`, with its `with`, for the first `count` expressions of sh->list.
+ * Neither `out` nor `from` may be copied. */
 bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t count, range *out);
-/* `steps`, `log` and `with` of that range, which stand before the next `for`; steps: where none are given. */
+/* Reads `steps`, `log` and `with` before the next `for`; steps: the number where the statement has none. */
 bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps);
-/* What a sweep finds of its expressions, or what their columns ask for. */
+/* Dimensions of the expressions of a sweep: known where the column has a unit, or from the first value on. */
 typedef struct found {
     dim d[COLUMNS];
     bool known[COLUMNS];
-    const char *units[COLUMNS];
+    const char *units[COLUMNS]; /* the unit asked for, for messages; or NULL */
 } found;
 
-/* The values of s->with: the curves of a sweep. */
+/* Reads the list of values of s->with, one for each curve. */
 bool range_read_values(shell *sh, const lexer *lx, const span *values, sweep *s);
 
-/* A sweep of the expressions in sh->list, which have these columns. */
+/* Sets up a sweep of the first `count` expressions in sh->list, whose results go to `row`. */
 sweep_job range_job(shell *sh, const column *columns, size_t count, found *f, sweep_row *row, void *context,
                     calc_error *error);
-/* Says on standard error why some values of a sweep are missing. */
+/* Notes why some values of a sweep are missing, if so. */
 void note_missing(shell *sh, const sweep_job *job);
 
 #endif

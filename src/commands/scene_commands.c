@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands that set material, second body, friction, rig, bulk stress, wear and geometry. Each reads
- * everything, then changes everything or nothing. */
+/* material, second, geometry, friction, rig, bulk, wear. Each reads all, then sets inputs or nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,15 +13,15 @@
 
 /* ---- gathering --------------------------------------------------------------------------------- */
 
-/* Changes to a scene gathered before any is made. */
+/* Changes of the inputs, gathered before any is made; `apply` makes them. */
 typedef struct edit {
-    bool has[INPUTS];
+    bool has[INPUTS]; /* has a value in v */
     double v[INPUTS];
-    counted *bound[INPUTS]; /* borrowed */
-    input_set clear;        /* before */
-    second_body second;
-    const geometry *geometry;
-    double radii[2];
+    counted *bound[INPUTS];   /* live definitions, borrowed; or NULL */
+    input_set clear;          /* inputs to unset first */
+    second_body second;       /* used if `clear` has inputs of the second body */
+    const geometry *geometry; /* or NULL: it stays; with: */
+    double radii[2];          /* R1 and R2; 0: not given */
     const fret_gap *sum;
     shared_table *table;
 } edit;
@@ -62,7 +61,7 @@ static bool has_second(const edit *e) {
     return has(e, IN_E0_2) || has(e, IN_G0_2) || has(e, IN_NU_2);
 }
 
-/* Of a body. */
+/* The values of a material, for the first body (0) or the second (1). */
 static void put_preset(edit *e, const preset *p, int body) {
     edit_put(e, body ? IN_E0_2 : IN_E0, p->E0);
     edit_put(e, body ? IN_NU_2 : IN_NU, p->nu);
@@ -70,7 +69,7 @@ static void put_preset(edit *e, const preset *p, int body) {
         edit_put(e, body ? IN_YIELD_2 : IN_YIELD, p->yield);
 }
 
-/* What was given for inputs. */
+/* Takes all arguments of a statement that are inputs. */
 static void gather(edit *e, const said *s) {
     for (const heard *h = s->list; h < s->list + s->count; h++) {
         if (!h->of->in)
@@ -104,12 +103,12 @@ bool do_material(shell *sh, lexer *lx, said *all) {
     return scene_edit(&sh->calc.scene, apply, &e, lx->error);
 }
 
-/* Inputs of the first body, and of the second: the same behind `second`. */
+/* Inputs of the first and of the second body; behind `second` both names mean the second. */
 static const input bodies[][2] = {{IN_E0, IN_E0_2}, {IN_G0, IN_G0_2}, {IN_NU, IN_NU_2}};
 enum { OF_BODY = sizeof bodies / sizeof *bodies };
 
-/* None is given twice; a rigid body has none. */
-static bool second_holds(lexer *lx, const said *s, bool rigid) {
+/* Is no input of the second body given twice, nor any of a rigid one? Else an error. */
+static bool second_is_valid(lexer *lx, const said *s, bool rigid) {
     bool given[INPUTS] = {false};
     for (const heard *h = s->list; h < s->list + s->count; h++) {
         const int of = h->of->in;
@@ -133,7 +132,7 @@ bool do_second(shell *sh, lexer *lx, said *all) {
     edit e = {.clear = OF_SECOND, .second = SECOND_GIVEN};
     const heard *named = said_of(all, "", 0);
     gather(&e, all);
-    if (!second_holds(lx, all, named && named->choice == SECOND_WORDS - 1))
+    if (!second_is_valid(lx, all, named && named->choice == SECOND_WORDS - 1))
         return false;
     if (named && named->choice < SECOND_WORDS) {
         e.second = named->choice ? SECOND_RIGID : SECOND_SAME;
@@ -160,7 +159,7 @@ bool do_friction(shell *sh, lexer *lx, said *all) {
     return scene_edit(&sh->calc.scene, apply, &e, lx->error) || heard_place(lx->error, &all->list[0]);
 }
 
-/* Of a rig that is taken off nothing is left, its offsets neither. */
+/* Clears all inputs of the rig first: stiffness and offsets that are not given go. */
 bool do_rig(shell *sh, lexer *lx, said *all) {
     edit e = {.clear = INPUT_RIG};
     const heard *none = said_of(all, "none", 0);
@@ -180,7 +179,7 @@ bool do_bulk(shell *sh, lexer *lx, said *all) {
 
 /* ---- wear -------------------------------------------------------------------------------------- */
 
-/* K/(mu*H) with numbers for K and H, to follow mu. */
+/* Archard's alpha_w = K/(mu*H) as a live definition, so that it follows mu. */
 static counted *archard(shell *sh, const heard *K, const heard *H, calc_error *error) {
     char text[100];
     counted *out = NULL;
@@ -191,8 +190,8 @@ static counted *archard(shell *sh, const heard *K, const heard *H, calc_error *e
     return out;
 }
 
-/* What is left in the end, which changes nothing. */
-static bool tell_limit(shell *sh, calc_error *error) {
+/* Reports the worn state after infinitely many cycles. */
+static bool report_limit(shell *sh, calc_error *error) {
     scene *s = &sh->calc.scene;
     fret_wear *limit;
     fret_real c, b;
@@ -214,7 +213,7 @@ static bool tell_limit(shell *sh, calc_error *error) {
     return true;
 }
 
-/* The cycles behind those so far. */
+/* Adds to Nw, the number of cycles so far. */
 static bool add_cycles(shell *sh, edit *e, const heard *cycles, calc_error *error) {
     long double Nw = 0;
     if (!calc_takes(&sh->calc, IN_NW, error) || !scene_get(&sh->calc.scene, IN_NW, &Nw, error))
@@ -231,7 +230,7 @@ bool do_wear(shell *sh, lexer *lx, said *all) {
     if (!all->count)
         return lex_fail(lx, "wear by what law?") || add_usage(lx->error, all->by);
     if (said_of(all, "limit", 0))
-        return tell_limit(sh, lx->error);
+        return report_limit(sh, lx->error);
     if (!K != !H)
         return lex_fail(lx, "%s is missing: wear K=1e-4 H=2 GPa", K ? "H" : "K");
     gather(&e, all);
@@ -259,7 +258,7 @@ static bool read_term(shell *sh, lexer *lx, fret_gap *sum) {
         return lex_fail(lx, "expected `:` between exponent and coefficient, such as 2:50 m^-1");
     lex_next(lx);
     at = lx->at;
-    lx->list = true; /* another term may follow */
+    lx->list = true; /* a comma may follow */
     const dim d = {0, (double)(1 - n.v), 0, 0};
     const bool ok = expr_value_as(&sh->calc, lx, &d, &A);
     lx->list = false;
@@ -283,7 +282,7 @@ static bool read_sum(shell *sh, const lexer *of, const span *terms, fret_gap *su
     return at_end(lx);
 }
 
-/* `smooth`, `smooth 8`, `smooth 0.1 um`. */
+/* `smooth`, `smooth PIECES`, `smooth MISFIT`. */
 static bool read_smoothing(shell *sh, const lexer *of, const span *part, smoothing *how) {
     value v;
     how->by = SMOOTH_FREELY;
@@ -304,7 +303,7 @@ static bool read_smoothing(shell *sh, const lexer *of, const span *part, smoothi
     return true;
 }
 
-/* Columns r and f; where neither has its name, of two lengths the first is r. height: f = -z. */
+/* The columns r and f; of two lengths without these names the first is r. height: the other is z = -f. */
 static bool profile_columns(csv *data, bool height, csv_values **r, csv_values **f, calc_error *error) {
     csv_values *length[2] = {NULL, NULL};
     size_t count = 0;
@@ -324,7 +323,7 @@ static bool profile_columns(csv *data, bool height, csv_values **r, csv_values *
     return true;
 }
 
-/* The bodies touch at r = 0 before they are pressed, and nowhere overlap. */
+/* Is the gap nowhere negative? Else the bodies would overlap before they are pressed. */
 static bool is_open(const csv *data, const double *f, calc_error *error) {
     char text[CALC_VALUE_TEXT];
     size_t i = 0;
@@ -339,8 +338,8 @@ static bool is_open(const csv *data, const double *f, calc_error *error) {
                      data->path, data->row[i].line, text);
 }
 
-/* Where the rows of a gap are none. */
-static void out_of_order(const csv *data, const double *r, calc_error *error) {
+/* Raises the error of a table whose radii do not start at 0 and grow, or that has a single row. */
+static void fail_order(const csv *data, const double *r, calc_error *error) {
     char text[CALC_VALUE_TEXT];
     size_t i = 0;
     if (data->rows == 1) {
@@ -355,6 +354,7 @@ static void out_of_order(const csv *data, const double *r, calc_error *error) {
               data->path, data->row[i].line, text);
 }
 
+/* Makes the gap from the columns; smoothed about the apex `top`, if how.by says so. NULL with an error. */
 static struct fret_table *table_of(csv *data, smoothing how, smooth_answer *smoothed, apex *top,
                                    calc_error *error) {
     struct fret_table *gap = NULL;
@@ -381,14 +381,14 @@ static struct fret_table *table_of(csv *data, smoothing how, smooth_answer *smoo
     } else {
         st = fret_table_make(r->v, f->v, data->rows, &shell_stop, &gap);
         if (st.code == FRET_BAD_TABLE) {
-            out_of_order(data, r->v, error);
+            fail_order(data, r->v, error);
             return NULL;
         }
     }
     return calc_status(error, st) ? gap : NULL;
 }
 
-/* What smoothing has changed is never silent. */
+/* Whatever differs from the file is reported: here what smoothing has changed. */
 static void report_misfit(shell *sh, const smooth_answer *a) {
     enum { MISFITS = 4 };
     const double v[MISFITS] = {a->rms, a->worst, a->at, a->offset};
@@ -410,7 +410,7 @@ static void report_misfit(shell *sh, const smooth_answer *a) {
                a->pieces, a->pieces == 1 ? "" : "s", text[0], text[1], text[2], text[3]);
 }
 
-/* Nor is what is left of many rows. */
+/* Reports that a long table has been thinned to fewer pieces. */
 static void report_thinning(shell *sh, size_t rows, const struct fret_table *gap) {
     const size_t pieces = fret_table_count(gap) - 1;
     const double within = fret_table_within(gap);
@@ -424,7 +424,7 @@ static void report_thinning(shell *sh, size_t rows, const struct fret_table *gap
     shell_note(sh, "of %zu rows %zu pieces are made, within %.0e of the largest gap", rows, pieces, within);
 }
 
-/* Nor is where the apex is, and how the profile was tilted. */
+/* Reports where the apex was found, and the tilt that has been taken off. */
 static void report_apex(shell *sh, const apex *top) {
     char at[CALC_VALUE_TEXT], tilt[CALC_VALUE_TEXT];
     answer event;
@@ -440,8 +440,8 @@ static void report_apex(shell *sh, const apex *top) {
                top->tilted ? " is taken off" : "");
 }
 
-/* As `show` writes the columns again. */
-static bool write_choices(const lexer *lx, said *all, char text[CHOSEN], calc_error *error) {
+/* Writes ` using NAME=COLUMN, ...`, for `show` to repeat. */
+static bool write_using(const lexer *lx, said *all, char text[CHOSEN], calc_error *error) {
     const heard *h;
     bool fits = true;
     *text = 0;
@@ -460,7 +460,7 @@ static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
     csv data;
     how.height = said_of(s, "height", 0) != NULL;
     hole_file(lx, &s->list[0].hole[0], name);
-    if (!write_choices(lx, s, how.columns, lx->error) ||
+    if (!write_using(lx, s, how.columns, lx->error) ||
         (smoothly && !read_smoothing(sh, lx, &smoothly->hole[0], &how)))
         return false;
     bool ok = columns_read(lx, s, &s->list[0], &data);
@@ -469,7 +469,7 @@ static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
         e->table = gap ? shared_table_make(gap, name, how) : NULL;
         if (gap && !e->table)
             calc_no_memory(lx->error);
-        ok = e->table && scene_edit(&sh->calc.scene, apply, e, lx->error); /* which takes the table over */
+        ok = e->table && scene_edit(&sh->calc.scene, apply, e, lx->error); /* takes over the table */
     }
     if (ok)
         columns_say(sh, &data, how.height ? "f = -z" : "");
@@ -484,7 +484,7 @@ static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
     return ok || heard_place(lx->error, &s->list[0]);
 }
 
-/* 1/R = 1/R1 + 1/R2; a negative radius is a hollow. */
+/* 1/R = 1/R1 + 1/R2; a negative radius is that of a concave body. */
 static bool put_radii(lexer *lx, edit *e, const heard *R1, const heard *R2) {
     if (!R1 || !R2)
         return lex_fail(lx, "give both R1 and R2, or R");
@@ -497,7 +497,7 @@ static bool put_radii(lexer *lx, edit *e, const heard *R1, const heard *R2) {
     return true;
 }
 
-/* From the base plane, or from the axis. */
+/* The slope of a cone from its angle to the base plane, or to the axis (half). */
 static bool put_angle(lexer *lx, edit *e, const heard *angle, bool half) {
     if (!(angle->v.v > 0 && angle->v.v < 1.5707963267948966 /* 90 deg as a double */))
         return calc_fail(lx->error, angle->hole[0].at, angle->hole[0].len, "%s must lie between 0 and 90 deg",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Questions that go backwards: solve, maximize, minimize, uncertainty. They leave the scene as it is. */
+/* Inverse questions: solve, maximize, minimize, uncertainty. They do not change the scene. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,9 +14,9 @@
 #include "study/solve.h"
 #include "study/uncertainty.h"
 
-/* ---- what they share --------------------------------------------------------------------------- */
+/* ---- answers ----------------------------------------------------------------------------------- */
 
-/* Answers as printed values are, and remembered as `ans`. */
+/* Answers with these values; the last becomes `ans`. */
 static bool print_answers(shell *sh, column *columns, const long double *si, size_t count,
                           calc_error *error) {
     if (!answer_values(&sh->set, sh->out, columns, si, count))
@@ -25,7 +25,7 @@ static bool print_answers(shell *sh, column *columns, const long double *si, siz
     return true;
 }
 
-/* A knob where it was found, as a column. */
+/* Sets up the column of a name's value. */
 static bool knob_column(column *c, const knob *k, calc_error *error) {
     return column_si(c, k->text, k->d) || calc_no_memory(error);
 }
@@ -174,7 +174,7 @@ bool do_minimize(shell *sh, lexer *lx, said *all) {
 
 /* ---- uncertainty ------------------------------------------------------------------------------- */
 
-/* `+- 0.02`, `+- 5 %`: a percentage is a part of the value. */
+/* Reads `0.02` or `5 %` behind +-; a percentage is one of the present value. */
 static bool read_deviation(shell *sh, const lexer *of, const span *part, const knob *k, double *out) {
     lexer own = hole_lexer(of, part), *lx = &own;
     value v;
@@ -192,7 +192,7 @@ static bool read_deviation(shell *sh, const lexer *of, const span *part, const k
            (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "a deviation must be positive")) && at_end(lx);
 }
 
-/* How far it is. */
+/* Shows the progress. */
 static bool count_sample(void *context, size_t sample, const value v[]) {
     const uncertainty_question *q = context;
     (void)v;
@@ -218,7 +218,7 @@ static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_qu
     return true;
 }
 
-/* ---- uncertainty: samples of a share, and of a file that has them all -------------------------- */
+/* ---- uncertainty: writing the samples of a share, reading those of all shares ------------------ */
 
 enum { SAMPLES_COLUMNS = UNCERTAIN_VALUES + 1 };
 
@@ -230,8 +230,8 @@ typedef struct samples_job {
     calc_error *error;
 } samples_job;
 
-/* Values are in SI, whatever unit they are asked in: what is read again is the same. Their names are of a
- * kind that a file of columns can have, and their number comes last: what has been cut off lacks it. */
+/* Values are in SI, so that they are read back the same; columns are called v1, v2, ..., which a file may
+ * have; the number of the sample comes last, so that a row cut off lacks it. */
 static bool begin_samples(samples_job *job) {
     char name[CSV_NAME];
     for (size_t k = 0; k < job->count; k++) {
@@ -252,7 +252,7 @@ static bool give_sample(void *context, size_t sample, const value v[]) {
     row[job->count] = (long double)(sample + 1);
     answer_row(&job->t.a, row);
     progress_part((double)++job->rows / (double)job->all);
-    return !ferror(job->t.to.to); /* the end tells of it */
+    return !ferror(job->t.to.to); /* table_close reports it */
 }
 
 static bool share_samples(shell *sh, lexer *lx, said *all, uncertainty_question *q, uncertainty_answer *a) {
@@ -269,7 +269,7 @@ static bool share_samples(shell *sh, lexer *lx, said *all, uncertainty_question 
     return table_close(sh, lx, &job.t, ok);
 }
 
-/* All samples are there, in their order, and every value, or that there is none. */
+/* Takes the samples from the file, which must have all of them in order; values may be missing. */
 static bool take_given(csv *file, uncertainty_question *q, const csv_values *given[], const double *values[],
                        calc_error *error) {
     const csv_values *number = csv_column(file, "sample", error);
@@ -315,7 +315,7 @@ static bool sum_given(const lexer *lx, const said *all, uncertainty_question *q,
     return ok;
 }
 
-/* ---- uncertainty: what is said ----------------------------------------------------------------- */
+/* ---- uncertainty: reporting -------------------------------------------------------------------- */
 
 static void report_uncertain(answer *out, const uncertainty_question *q, const uncertain *u,
                              const column *c) {
@@ -336,7 +336,7 @@ static void report_uncertain(answer *out, const uncertainty_question *q, const u
     answer_done(out);
 }
 
-/* Where samples say something else, and where they say nothing. */
+/* Notes that the Monte Carlo differs from the linear estimate, and that samples have no value. */
 static void remark_uncertain(shell *sh, answer *out, const uncertainty_question *q, const uncertain *u,
                              const column *c, const char *missing) {
     column sampled = *c;
@@ -378,7 +378,7 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
     return true;
 }
 
-/* A swinging normal force takes a thousand times as long. */
+/* The number of samples by default: a swinging normal force takes a thousand times as long. */
 static unsigned usual_samples(shell *sh) {
     const load_reach *reach = &(load_reach){.swings = false};
     scene_reach(&sh->calc.scene, &reach, error_quiet());

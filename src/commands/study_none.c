@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where GSL is left out, in place of fit_command.c, optimise.c, uncertainty.c and smooth.c. */
+/* Replaces fit_command, optimise, uncertainty and smooth in a program without GSL: an error each. */
 #include "commands/figures.h"
 #include "statement/command.h"
 #include "study/optimise.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writing tables. */
+/* Opens, begins and closes tables in SI. Writes the file or the session's output. */
 #include "commands/tables.h"
 
 #include "statement/progress.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands that show what follows from the scene as a table, and leave it as it is. */
+/* history and table, which write tables and do not change the scene; compare, for the full-screen mode. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 /* ---- history ----------------------------------------------------------------------------------- */
 
-/* The last of them with a rig alone. */
+/* Columns; drig only if there is a rig. */
 static const char *const history_names[] = {"FN", "dz", "Fx", "dx", "W", "drig"};
 enum { HISTORY = sizeof history_names / sizeof *history_names };
 
@@ -49,17 +49,17 @@ bool do_history(shell *sh, lexer *lx, said *all) {
 
 typedef struct table_job {
     shell *sh;
-    si_table t;   /* the sweep's own columns, those of the expressions, and of comparisons */
-    size_t first; /* of the expressions */
-    size_t count; /* of them */
+    si_table t;   /* columns: the sweep's own, those of the expressions, those of comparisons */
+    size_t first; /* column of the first expression */
+    size_t count; /* of expressions */
     found found;
-    size_t curve;
-    file_rows *at; /* those of a file, or NULL */
+    size_t curve;  /* of the last row */
+    file_rows *at; /* `at FILE`, or NULL */
     comparison compared[COLUMNS];
     size_t comparisons;
-    const char *name;         /* where it goes, for messages */
-    bool screen;              /* rows that go there are progress enough */
-    size_t before, rows, all; /* of other shares, that there have been, that are wanted */
+    const char *name;         /* of the destination, for messages */
+    bool screen;              /* the rows go to a terminal: they show the progress themselves */
+    size_t before, rows, all; /* rows of earlier shares, written so far, of this share */
     calc_error *error;
 } table_job;
 
@@ -72,7 +72,7 @@ static void begin_columns(table_job *job) {
     }
 }
 
-/* Two columns behind those of the expressions for each that the file has something to compare with. */
+/* Adds two columns, the file's value and the difference, for each expression that has one in the file. */
 static bool compare_columns(table_job *job) {
     for (size_t i = 0; job->at && i < job->count; i++) {
         const column *own = &job->t.column[job->first + i];
@@ -105,8 +105,8 @@ static bool begin_table(table_job *job) {
     return compare_columns(job) && table_begin(job->sh, &job->t, "table", job->error);
 }
 
-/* The names' values in a row of the file, and what is compared there; values: of the expressions. */
-static void give_compared(table_job *job, const long double *values, long double *row) {
+/* Fills in the file's names and comparisons of a row; values: those of the expressions. */
+static void put_file_columns(table_job *job, const long double *values, long double *row) {
     const sweep_rows *at = &job->at->at;
     const size_t r = (job->before + job->rows) % job->at->data.rows;
     for (size_t i = 0; i < at->names; i++)
@@ -133,7 +133,7 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     if (s->curves)
         row[job->first - 1] = sweep_with(s, curve);
     if (job->at)
-        give_compared(job, values, row);
+        put_file_columns(job, values, row);
     memcpy(row + job->first, values, job->count * sizeof *row);
     job->rows++;
     if (job->screen && answer_shows_next(a))
@@ -141,7 +141,7 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     else
         progress_part((double)job->rows / (double)job->all);
     answer_row(a, row);
-    /* a reader that has gone, or a full disk: no use in going on */
+    /* the reader of a pipe has gone, or the disk is full: stop the sweep */
     return !ferror(a->to) || calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
 }
 
@@ -154,8 +154,8 @@ static void own_columns(si_table *t, const sweep *s) {
         table_column(t, s->with.text, s->with.d);
 }
 
-/* A line each: rms and worst, with its row. */
-static void say_compared(shell *sh, const table_job *job) {
+/* Reports each comparison: rms, largest difference, and its row. */
+static void report_compared(shell *sh, const table_job *job) {
     answer a;
     answer_begin(&a, &sh->set, sh->out);
     for (const comparison *c = job->compared; c < job->compared + job->comparisons; c++) {
@@ -185,7 +185,7 @@ static void say_compared(shell *sh, const table_job *job) {
 
 /* ---- a grid as text: a matrix of each expression ----------------------------------------------- */
 
-/* One expression: the first name downward, the second across. */
+/* Writes the matrix of one expression: the first name runs downward, the second across. */
 static bool print_matrix(shell *sh, FILE *to, const sweep *s, const grid_values *m, size_t i, column *c) {
     column columns[COLUMNS] = {{.name = NULL}};
     char head[200], number[120];
@@ -196,7 +196,7 @@ static bool print_matrix(shell *sh, FILE *to, const sweep *s, const grid_values 
         snprintf(head, sizeof head, "%s = %s", s->with.text, number);
         ok = column_si(&columns[j + 1], head, DIM_NONE);
         columns[j + 1].scale = c->scale;
-        columns[j + 1].chosen = true; /* the heading tells the unit */
+        columns[j + 1].chosen = true; /* keep this scale: the heading has the unit */
     }
     answer a;
     answer_begin_as(&a, &sh->set, to, FORMAT_TEXT);
@@ -232,7 +232,7 @@ static bool run_matrix(shell *sh, table_job *job, const sweep *s, sweep_job *swe
 
 /* ---- the command ------------------------------------------------------------------------------- */
 
-/* at: the rows of a file; or NULL. */
+/* Runs the sweep and writes its table. at: the sweep goes over the rows of this file; or NULL. */
 static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, file_rows *at, column *columns,
                       size_t count) {
     const size_t first = (at ? at->at.names : 1) + (s->curves > 0);
@@ -271,7 +271,7 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, file_rows
         note_missing(sh, &sweeping);
     ok = target_close(sh, lx, &t->to, ok);
     if (ok && job->all == rows) /* a share has not seen all of them */
-        say_compared(sh, job);
+        report_compared(sh, job);
     if (ok && at)
         rows_say(sh, at);
     columns_free(t->column, t->count);
