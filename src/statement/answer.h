@@ -90,12 +90,12 @@ void answer_open(answer *a, int layout, const char *kind, const char *text);
 /* Closes the event, report, page or message. */
 void answer_done(answer *a);
 
-/* A number that is not finite becomes null. */
+/* Members of the event. JSON has all (null if not finite); text has only quantities and facts. */
 void answer_number(answer *a, const char *name, double v);
 void answer_string(answer *a, const char *name, const char *text);
 void answer_flag(answer *a, const char *name, bool v);
 void answer_quantity(answer *a, const char *name, value v);
-/* A string; on a page in text also a line `name: text`. */
+/* A string in JSON; on a page of text a line `name: text`. */
 void answer_fact(answer *a, const char *name, const char *text);
 /* The part (0 to 1) of the last estimate's variance that comes from `name`; within an answer_group. */
 void answer_share(answer *a, const char *name, double part);

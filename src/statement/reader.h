@@ -30,9 +30,9 @@ typedef struct heard {
     span hole[CLAUSE_HOLES]; /* place of the text in each hole */
     bool increment;          /* an argument given by += */
     value v;                 /* of an argument, HOLE_VALUE or HOLE_SECONDS */
-    counted *live;  /* definition of an argument given by :=; the command takes it over, or said_drop */
-    unsigned count; /* of HOLE_COUNT */
-    size_t choice;  /* index of the word of HOLE_CHOICE */
+    counted *live;           /* definition of an argument given by :=; said_drop releases it */
+    unsigned count;          /* of HOLE_COUNT */
+    size_t choice;           /* index of the word of HOLE_CHOICE */
 } heard;
 
 /* What is still missing, or may follow, where the text of a hole ends: for completion. */
@@ -54,7 +54,7 @@ typedef struct said {
     size_t names;      /* how many names the session had before them */
     unsigned count;    /* of `list` */
     heard list[HEARD]; /* in the order of the statement */
-    const heard *open; /* the clause of the hole that was read last; NULL: its last token was no hole */
+    const heard *open; /* the clause of the hole read last; NULL: none, or a clause without one came after */
     unsigned hole;     /* index of that hole */
     part_end end;      /* how its text ends */
     span changed;      /* the NAME, where its text ends within the value of `NAME =`; len 0: it does not */
@@ -78,7 +78,7 @@ bool said_cut(const lexer *lx);
 bool said_may_come(const lexer *lx, const said *s, const clause *a);
 /* Does the statement end at the cursor? Else an error: a misspelt word, an argument without its name, ... */
 bool said_end(lexer *lx, const said *s);
-/* Releases live definitions that no command has taken over, and forgets the statement's own names. */
+/* Releases live definitions (a command that keeps one holds it), and forgets the statement's own names. */
 void said_drop(shell *sh, said *s);
 /* The statement's own names (`for NAME = ...`), which the session may not know: said_wake makes them known,
  * so that its expressions can be parsed, said_sleep forgets them. False: out of memory. */

@@ -11,11 +11,10 @@
 struct recorder {
     shell *sh;
     file_log log;
-    FILE *out, *err; /* the session's own streams; NULL: the page alone is written */
-    FILE *both_out,
-        *both_err;          /* shell.out and shell.err meanwhile: pass on to `out` or `err` and to `kept` */
-    FILE *kept;             /* writes to the page or the transcript; without colours */
-    handout page;           /* page.to is NULL: a transcript is written */
+    FILE *out, *err;           /* the session's own streams; NULL: the page alone is written */
+    FILE *both_out, *both_err; /* shell.out and shell.err: write to `out` or `err`, and to `kept` */
+    FILE *kept;                /* writes to the page or the transcript; without colours */
+    handout page;              /* page.to is NULL: a transcript is written */
     FILE *to_log;           /* page.to of a recording, writes to `log`; NULL: transcript or lesson's page */
     bool apart;             /* output is not recorded: the page has it in another way (record_apart) */
     struct recorder *outer; /* of a lesson's page: the recorder that goes on after it, or NULL */

@@ -59,7 +59,8 @@ static void arguments(void) {
 
 static void ways(void) {
     CHECK(parses("R:=10 mm | R1=20 mm R2=20 mm"));
-    CHECK(parsed.clause[1].way == parsed.clause[2].way && parsed.clause[0].way != parsed.clause[1].way);
+    CHECK(parsed.clause[1].alternative == parsed.clause[2].alternative &&
+          parsed.clause[0].alternative != parsed.clause[1].alternative);
     CHECK(parsed.clause[0].group == parsed.clause[2].group && parsed.clause[2].must == CURVED);
     CHECK(parses("n:=3 [A:=50 m^-2 | h:=1 um r0:=1 mm] [all]"));
     CHECK(parsed.clause[0].group == 0 && parsed.clause[4].group == 0);
