@@ -81,7 +81,7 @@ bool columns_load(const shell *sh, csv *data, size_t expressions, named_columns 
 bool columns_missed(const shell *sh, const lexer *lx, csv *data);
 
 /* Notes how the file was understood: "loop.csv: 800 rows from line 21, dx from "Weg [um]", ...", then `more`
- * (may be empty). No note if header and rows say it all. */
+ * (may be empty). No note if all columns have their own names, all rows were used, and `more` is empty. */
 void columns_say(shell *sh, const csv *c, const char *more);
 
 #endif

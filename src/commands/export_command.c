@@ -15,21 +15,21 @@
 
 typedef struct export_table {
     si_table t;
-    size_t rows, all; /* written so far, in all */
+    size_t rows, total; /* written so far, and in all */
     const volatile sig_atomic_t *stop;
     calc_error *error;
 } export_table;
 
 static bool put_row(export_table *t, const long double *si) {
     answer_row(&t->t.a, si);
-    progress_part((double)++t->rows / (double)t->all);
+    progress_part((double)++t->rows / (double)t->total);
     return !calc_stopped(t->stop, t->error);
 }
 
 /* Writes the table of `to FILE` with columns of these names, ended by NULL; `write` writes the rows. */
 static bool write_table(shell *sh, lexer *lx, said *all, const char *const *names, size_t rows,
                         bool (*write)(export_table *t, void *context), void *context) {
-    export_table t = {.all = rows, .stop = sh->calc.scene.stop, .error = lx->error};
+    export_table t = {.total = rows, .stop = sh->calc.scene.stop, .error = lx->error};
     if (!table_open(sh, lx, all, &t.t))
         return false;
     for (; *names; names++) {
@@ -72,7 +72,7 @@ static bool read_amplitudes(shell *sh, const lexer *lx, said *all, amplitudes *o
 
 static bool write_harmonic(export_table *t, void *context) {
     const amplitudes *by = context;
-    for (size_t i = 0; i < t->all; i++) {
+    for (size_t i = 0; i < t->total; i++) {
         const long double part = (long double)i / (long double)by->steps;
         long double row[3] = {(double)points_place(by->ends.lo, by->ends.hi, by->log, part)};
         const value d = {row[0], DIM_LENGTH};
@@ -95,7 +95,7 @@ static bool export_harmonic(shell *sh, lexer *lx, said *all) {
 /* The last period goes from one peak to the other and back; both branches have the turning point. */
 static bool write_loop(export_table *t, void *context) {
     trial_along *a = context;
-    const size_t turn = t->all / 2 - 1;
+    const size_t turn = t->total / 2 - 1;
     for (size_t i = 0; trial_along_next(a, t->error); i++) {
         sight now;
         run_sight(a->trace.run, a->trace.levels, &now);

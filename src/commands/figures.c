@@ -144,7 +144,7 @@ enum { REGIONS = sizeof regions / sizeof *regions };
 typedef struct regimes {
     plot_panel *p;
     sweep_range ends;         /* of the amplitude */
-    bool rig, across, log;    /* the amplitude is drigA; is the ordinate; its axis is logarithmic */
+    bool rig, on_y, log;      /* the amplitude is drigA; is the ordinate; its axis is logarithmic */
     size_t count;             /* values of the other name so far */
     double other[PLACES + 1]; /* values of the other name */
     double amplitude[BORDERS][PLACES + 1]; /* the borders there */
@@ -169,7 +169,7 @@ static double amplitude_at(const regimes *r, int border, size_t i) {
 }
 
 static bool add_point(const regimes *r, plot_series *s, double amplitude, size_t i) {
-    return plot_point(s, r->across ? r->other[i] : amplitude, r->across ? amplitude : r->other[i]) ||
+    return plot_point(s, r->on_y ? r->other[i] : amplitude, r->on_y ? amplitude : r->other[i]) ||
            calc_no_memory(r->error);
 }
 
@@ -188,8 +188,8 @@ static bool add_region(const regimes *r, int region) {
         if (!(hi - lo > 1.001 * widest))
             continue;
         widest = hi - lo;
-        at[r->across] = (lo + hi) / 2;
-        at[!r->across] = (double)i / (double)PLACES;
+        at[r->on_y] = (lo + hi) / 2;
+        at[!r->on_y] = (double)i / (double)PLACES;
     }
     if (widest <= 0.01)
         return true;
@@ -276,8 +276,8 @@ static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const
     p->logx = p->logx || r[0].sweep.log;
     p->logy = p->logy || r[1].sweep.log;
     regimes drawn = {
-        .rig = rig, .p = p, .ends = ends[amplitude[1]], .across = amplitude[1], .error = lx->error};
-    drawn.log = drawn.across ? p->logy : p->logx;
+        .rig = rig, .p = p, .ends = ends[amplitude[1]], .on_y = amplitude[1], .error = lx->error};
+    drawn.log = drawn.on_y ? p->logy : p->logx;
     p->title = p->title ? p->title : strdup("running conditions");
     if (!p->title)
         return calc_no_memory(lx->error);

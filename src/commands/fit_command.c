@@ -359,7 +359,7 @@ struct fitted {
     named_columns columns;
     fit_answer a;
     fit_points points;
-    char up[COLUMN_UNIT]; /* name of the ordinate: the left side of the equation, or Fx */
+    char ordinate[COLUMN_UNIT]; /* name of the ordinate: the left side of the equation, or Fx */
 };
 
 static void fitted_free(struct fitted *f) {
@@ -454,7 +454,8 @@ bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) 
         ok = s && (i || add_curve(f, s, lx->error));
     }
     p->airy = true;
-    return ok && finish_axes(lx, f, l, p, &(axis_of){.name = f->up, .d = f->q.sides ? f->a.d : DIM_FORCE});
+    return ok &&
+           finish_axes(lx, f, l, p, &(axis_of){.name = f->ordinate, .d = f->q.sides ? f->a.d : DIM_FORCE});
 }
 
 bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
@@ -483,7 +484,7 @@ bool do_fit(shell *sh, lexer *lx, said *all) {
         ok = !lx->error->raised && fit_by_cycle(sh, lx, all, &f->q, &f->data);
     } else if (ok) {
         const expr *left = f->q.sides;
-        snprintf(f->up, sizeof f->up, "%.*s", left ? LEX_SHOWN(left->len) : 2,
+        snprintf(f->ordinate, sizeof f->ordinate, "%.*s", left ? LEX_SHOWN(left->len) : 2,
                  left ? left->text + left->at : "Fx");
         f->q.points = &f->points;
         ok = fit(&f->q, &f->a, lx->error) && print_fit(sh, &f->q, &f->a, lx->error);

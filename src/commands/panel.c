@@ -26,16 +26,16 @@ typedef struct panel_job {
     const figure *figure; /* or NULL */
     const sweep *s;
     motion *m;
-    size_t index;         /* of the panel in the figure */
-    size_t count;         /* expressions that are drawn (ordinates) */
-    size_t against;       /* expressions behind them that are abscissas; 0: the range is the abscissa */
-    size_t over[PLOTTED]; /* index of the abscissa of each ordinate */
+    size_t index;     /* of the panel in the figure */
+    size_t count;     /* expressions that are drawn (ordinates) */
+    size_t abscissas; /* expressions behind them that are abscissas; 0: the range is the abscissa */
+    size_t abscissa_of[PLOTTED]; /* index of the abscissa of each ordinate */
     const column *columns;
     const char *statement;
     calc_error *error;
     bool lost;                                   /* out of memory for a point */
     bool moved;                                  /* the statement's range is that of the animation */
-    size_t each;                                 /* series for each value of `with` */
+    size_t per_curve;                            /* series for each value of `with` */
     bool slips[PLOT_CURVES], begun[PLOT_CURVES]; /* of series of role s: the last point slips; there is one */
     double last[PLOTTED][2];                     /* that point */
     found found;
@@ -87,9 +87,9 @@ static const char *title_of(const panel_job *job, size_t curve, size_t i, const 
         return NULL;
     if (job->s->curves)
         value_text(job, curve, number, sizeof number);
-    if (job->against > 1)
+    if (job->abscissas > 1)
         snprintf(name, sizeof name, PLOT_EXPR "%.110s" PLOT_END " against " PLOT_EXPR "%.110s" PLOT_END,
-                 c->name, job->columns[job->count + job->over[i]].name);
+                 c->name, job->columns[job->count + job->abscissa_of[i]].name);
     else
         snprintf(name, sizeof name, PLOT_EXPR "%.220s" PLOT_END, c->name);
     if (!own)
@@ -136,7 +136,7 @@ static bool add_curve(panel_job *job, size_t curve) {
         i += role == 'b';
     }
     if (curve == 0)
-        job->each = job->p->count;
+        job->per_curve = job->p->count;
     return true;
 }
 
@@ -168,7 +168,7 @@ static void add_stick_slip(panel_job *job, size_t j, size_t i, double x, const l
 
 /* Is it after the time of this frame? */
 static bool is_later(const panel_job *job, const sweep *s, long double time) {
-    return job->m && job->m->at && s->along && time > (long double)job->m->until + 1e-9L;
+    return job->m && job->m->trial && s->along && time > (long double)job->m->until + 1e-9L;
 }
 
 /* The residuals of a row: the file's value less those of the expressions. */
@@ -191,7 +191,7 @@ static bool subtract(panel_job *job, const long double *values, long double *lef
 static bool give_point(void *context, const sweep *s, size_t curve, long double x,
                        const long double *values) {
     panel_job *job = context;
-    const size_t at = curve * job->each;
+    const size_t at = curve * job->per_curve;
     long double left[PLOTTED];
     progress_pulse();
     if (job->measured && !subtract(job, values, left))
@@ -204,7 +204,7 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
     for (size_t i = 0, j = at; i < job->count; i++, j++) {
         const char role = role_of(job, i);
         plot_series *to = job->p->series[j];
-        const double abscissa = (double)(job->against ? values[job->count + job->over[i]] : x);
+        const double abscissa = (double)(job->abscissas ? values[job->count + job->abscissa_of[i]] : x);
         if (role == 'b')
             job->lost = !plot_band(to, abscissa, (double)values[i], (double)values[i + 1]) || job->lost;
         else if (role == 's')
@@ -220,7 +220,7 @@ static bool give_point(void *context, const sweep *s, size_t curve, long double 
 /* In a frame along a load, marks the last point of every main curve. */
 static bool mark_now(panel_job *job) {
     const size_t series = job->p->count;
-    if (!job->m || !job->m->at || !job->s->along)
+    if (!job->m || !job->m->trial || !job->s->along)
         return true;
     plot_series *now = add_series(job, PLOT_NOW, NULL, false);
     for (size_t i = 0; now && i < series; i++) {
@@ -315,18 +315,18 @@ static bool share_axis(const panel_job *job, const found *f, size_t first, size_
 
 static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
     const sweep *s = job->s;
-    char name[40], abscissas[40], residuals[TITLE];
-    const size_t count = job->count, all = count + job->against;
-    const column *c = job->columns, *x = job->against ? &c[count] : NULL;
+    char name[40], x_names[40], residuals[TITLE];
+    const size_t count = job->count, all = count + job->abscissas;
+    const column *c = job->columns, *x = job->abscissas ? &c[count] : NULL;
     size_t first, across;
     if (!share_axis(job, f, 0, count, &first) || !share_axis(job, f, count, all, &across))
         return false;
     shared_name(job, 0, count, name, sizeof name);
-    shared_name(job, count, all, abscissas, sizeof abscissas);
+    shared_name(job, count, all, x_names, sizeof x_names);
     axis_unit own[2] = {{.scale = 0}, {.scale = 0}}, *kept = job->m ? job->m->unit[job->index] : own;
-    const axis_of ax = {.name = !x                 ? s->var.text
-                                : job->against > 1 ? abscissas
-                                                   : x->name,
+    const axis_of ax = {.name = !x                   ? s->var.text
+                                : job->abscissas > 1 ? x_names
+                                                     : x->name,
                         .d = x ? f->d[across] : s->var.d,
                         .like = x,
                         .unit = &kept[1]};
@@ -365,7 +365,7 @@ static bool move_by(panel_job *job, lexer *lx, said *all, size_t which) {
     motion *m = job->m;
     range r;
     job->moved = true;
-    if (m->at)
+    if (m->trial)
         return true;
     if (!range_read_name(job->sh, lx, all, which, true, &r) || !range_options(job->sh, lx, all, which, &r, 0))
         return false;
@@ -380,7 +380,7 @@ static bool move_by(panel_job *job, lexer *lx, said *all, size_t which) {
 /* Makes a load that of the animation; an error if another figure follows another load. */
 static bool follow_load(motion *m, const range *r) {
     const lexer *own = &r->own, *other = m ? &m->over.own : NULL;
-    if (!m || m->at || !r->sweep.along)
+    if (!m || m->trial || !r->sweep.along)
         return true;
     if (!m->found)
         m->over = *r;
@@ -397,11 +397,11 @@ static bool follow_load(motion *m, const range *r) {
 static bool run_sweep(panel_job *job, sweep_job *sweeping, const sweep *s) {
     calc *c = &job->sh->calc;
     scene *before = c->now;
-    const bool still = job->m && job->m->at && is_still(s);
+    const bool still = job->m && job->m->trial && is_still(s);
     if (s->along && s->what == ALONG_PROGRAM && c->scene.end.steps == 1)
         return calc_fail(job->error, 0, 0, "there is no loop yet: use step or cycle first");
     if (still)
-        c->now = job->m->at->outer;
+        c->now = job->m->trial->outer;
     const bool ok = sweep_run(s, sweeping);
     c->now = before;
     return ok && mark_now(job);
@@ -417,7 +417,7 @@ static bool no_second_range(panel_job *job, lexer *lx, said *all) {
 
 /* Runs the sweep, and makes its curves and axes. */
 static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
-    const size_t count = job->count + job->against;
+    const size_t count = job->count + job->abscissas;
     job->s = s;
     s->turns = true;
     if (s->at) {
@@ -430,7 +430,7 @@ static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
     if (!run_sweep(job, &sweeping, s) || !mark_places(job) || !finish_axes(job, lx, &job->found))
         return false;
     name_marks(job->p);
-    if (!job->m || !job->m->at) {
+    if (!job->m || !job->m->trial) {
         note_missing(job->sh, &sweeping);
         note_logarithms(job->sh, job->p);
     }
@@ -453,7 +453,7 @@ static bool take_residuals(panel_job *job, const lexer *lx, range *r, file_rows 
     const looks *l = job->looks;
     if (!l->residuals)
         return true;
-    if (l->files != 1 || r->sweep.along || r->sweep.at || job->against)
+    if (l->files != 1 || r->sweep.along || r->sweep.at || job->abscissas)
         return calc_fail(lx->error, l->over[0]->hole[0].at, l->over[0]->hole[0].len,
                          "residuals are of EXPR, ... for NAME = LO .. HI over one FILE.csv");
     job->measured = from;
@@ -467,13 +467,13 @@ static bool read_curves(panel_job *job, const written *of, column columns[2 * PL
     lexer own = hole_lexer(&of->lx, &h->hole[0]);
     size_t drawn = 0;
     bool ok = read_expressions(sh, &own, columns, PLOTTED, &job->count);
-    while (ok && at_end(&own) && (h = said_of(of->all, "against", job->against))) {
-        const size_t i = PLOTTED + job->against;
+    while (ok && at_end(&own) && (h = said_of(of->all, "against", job->abscissas))) {
+        const size_t i = PLOTTED + job->abscissas;
         if (drawn == job->count)
             return calc_fail(own.error, h->at, h->len, "expected EXPR before against");
         while (drawn < job->count)
-            job->over[drawn++] = job->against;
-        job->against++;
+            job->abscissa_of[drawn++] = job->abscissas;
+        job->abscissas++;
         own = hole_lexer(&of->lx, &h->hole[0]);
         ok = read_expression(sh, &own, i, &columns[i]);
         if (ok && own.kind == T_COMMA) {
@@ -483,10 +483,10 @@ static bool read_curves(panel_job *job, const written *of, column columns[2 * PL
     }
     if (!ok || own.error->raised)
         return false;
-    if (job->against && drawn < job->count)
+    if (job->abscissas && drawn < job->count)
         return calc_fail(own.error, sh->list[drawn].at, sh->list[drawn].len, "expected %s against EXPR",
                          columns[drawn].name);
-    for (size_t i = job->count, from = PLOTTED; i < job->count + job->against; i++, from++) {
+    for (size_t i = job->count, from = PLOTTED; i < job->count + job->abscissas; i++, from++) {
         const expr e = sh->list[i];
         const column c = columns[i];
         sh->list[i] = sh->list[from];
@@ -494,7 +494,7 @@ static bool read_curves(panel_job *job, const written *of, column columns[2 * PL
         columns[i] = columns[from];
         columns[from] = c;
     }
-    job->p->airy = job->p->airy || job->against;
+    job->p->airy = job->p->airy || job->abscissas;
     return true;
 }
 
@@ -510,7 +510,7 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     if (!ok && at.given)
         columns_missed(sh, lx, &at.data);
     else if (ok && at.given)
-        ok = range_read_rows(sh, &over->lx, over->all, &at, job->count + job->against, &r);
+        ok = range_read_rows(sh, &over->lx, over->all, &at, job->count + job->abscissas, &r);
     else
         ok = ok && (job->moved || no_second_range(job, lx, all)) &&
              range_read(sh, &over->lx, over->all, 0, &r) &&
@@ -518,7 +518,7 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
     ok = ok && take_residuals(job, lx, &r, &at) && follow_load(job->m, &r) && make_curves(job, lx, &r.sweep);
     if (!ok && job->measured)
         heard_place(lx->error, job->looks->over[0]);
-    if (ok && at.given && !(job->m && job->m->at))
+    if (ok && at.given && !(job->m && job->m->trial))
         rows_say(sh, &at);
     rows_close(&at);
     columns_free(columns, 2 * PLOTTED);

@@ -11,7 +11,7 @@
 typedef struct motion {
     bool found;                     /* `over` has been found: */
     range over;                     /* a load, or the range of an input; do not copy */
-    trial *at;                      /* the scene of a frame; NULL: the figures are drawn as a whole */
+    trial *trial;                   /* the scene of the frame; NULL: the figures are drawn as a whole */
     double until;                   /* the time of that frame */
     axis_unit unit[PLOT_PANELS][2]; /* of the ordinate and abscissa of each panel, in all frames */
 } motion;

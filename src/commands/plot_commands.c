@@ -294,7 +294,7 @@ static bool give_frame(void *context, const sweep *s, size_t curve, long double 
         return false;
     }
     lx.error = m->error;
-    m->motion.at = m->over.p.t;
+    m->motion.trial = m->over.p.t;
     m->motion.until = s->along ? (double)x : INFINITY;
     progress_part((double)m->done++ / (double)m->frames);
     return draw_panels(m->sh, &lx, &m->figures, frame, &m->motion) && (s->along || title_frame(m, frame, x));

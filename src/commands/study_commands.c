@@ -192,7 +192,6 @@ static bool read_deviation(shell *sh, const lexer *of, const span *part, const k
            (v.v > 0 || calc_fail(lx->error, at, lx->last - at, "a deviation must be positive")) && at_end(lx);
 }
 
-/* Shows the progress. */
 static bool count_sample(void *context, size_t sample, const value v[]) {
     const uncertainty_question *q = context;
     (void)v;
@@ -226,7 +225,7 @@ typedef struct samples_job {
     shell *sh;
     si_table t;
     const uncertainty_answer *of;
-    size_t count, rows, all;
+    size_t count, rows, total;
     calc_error *error;
 } samples_job;
 
@@ -251,7 +250,7 @@ static bool give_sample(void *context, size_t sample, const value v[]) {
         row[k] = v[k].v;
     row[job->count] = (long double)(sample + 1);
     answer_row(&job->t.a, row);
-    progress_part((double)++job->rows / (double)job->all);
+    progress_part((double)++job->rows / (double)job->total);
     return !ferror(job->t.to.to); /* table_close reports it */
 }
 
@@ -262,7 +261,7 @@ static bool share_samples(shell *sh, lexer *lx, said *all, uncertainty_question 
         return false;
     q->take = give_sample;
     q->context = &job;
-    job.all = q->to - q->from;
+    job.total = q->to - q->from;
     const bool ok = uncertainty(q, a, lx->error) && !lx->error->raised;
     if (ok && a->missing.raised)
         shell_note(sh, "some samples lack a value: %s", a->missing.text);

@@ -57,9 +57,9 @@ typedef struct table_job {
     file_rows *at; /* `at FILE`, or NULL */
     comparison compared[COLUMNS];
     size_t comparisons;
-    const char *name;         /* of the destination, for messages */
-    bool screen;              /* the rows go to a terminal: they show the progress themselves */
-    size_t before, rows, all; /* rows of earlier shares, written so far, of this share */
+    const char *name;           /* of the destination, for messages */
+    bool screen;                /* the rows go to a terminal: they show the progress themselves */
+    size_t before, rows, total; /* rows of earlier shares, written so far, of this share */
     calc_error *error;
 } table_job;
 
@@ -139,7 +139,7 @@ static bool give_row(void *context, const sweep *s, size_t curve, long double x,
     if (job->screen && answer_shows_next(a))
         progress_wipe();
     else
-        progress_part((double)job->rows / (double)job->all);
+        progress_part((double)job->rows / (double)job->total);
     answer_row(a, row);
     /* the reader of a pipe has gone, or the disk is full: stop the sweep */
     return !ferror(a->to) || calc_fail(job->error, 0, 0, "cannot write %s: %s", job->name, strerror(errno));
@@ -262,7 +262,7 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, file_rows
     bool ok = (!t->lost || calc_no_memory(lx->error)) &&
               target_share(sh, &t->to, rows, &sweeping.from, &sweeping.to, lx->error);
     job->before = sweeping.from;
-    job->all = sweeping.to - sweeping.from;
+    job->total = sweeping.to - sweeping.from;
     job->screen = t->to.to == sh->out && shell_on_terminal(sh);
     const bool square = s->across && t->to.format == FORMAT_TEXT && !t->to.blocks;
     ok = ok && (square ? run_matrix(sh, job, s, &sweeping) : sweep_run(s, &sweeping));
@@ -270,7 +270,7 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, file_rows
     if (ok)
         note_missing(sh, &sweeping);
     ok = target_close(sh, lx, &t->to, ok);
-    if (ok && job->all == rows) /* a share has not seen all of them */
+    if (ok && job->total == rows) /* a share has not seen all of them */
         report_compared(sh, job);
     if (ok && at)
         rows_say(sh, at);

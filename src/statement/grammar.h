@@ -16,13 +16,13 @@
 #include "scene/scene.h"
 
 typedef enum hole_kind {
-    HOLE_EXPR,    /* an expression, or a list of them */
-    HOLE_MAYBE,   /* an expression, or nothing */
-    HOLE_SPAN,    /* LO .. HI */
-    HOLE_NAME,    /* the NAME of a range; it may be new, and is known to the expressions before it too */
-    HOLE_INPUT,   /* a name that has a value, or a list of such names */
-    HOLE_VALUE,   /* an expression of the dimension of a quantity; `mu=` may stand before it: mu=0.3 */
-    HOLE_COUNT,   /* a whole number from 1 on */
+    HOLE_EXPR,  /* an expression, or a list of them */
+    HOLE_MAYBE, /* an expression, or nothing */
+    HOLE_SPAN,  /* LO .. HI */
+    HOLE_NAME,  /* a name that the statement sets; it may be new, and is known to what stands before it too */
+    HOLE_INPUT, /* a name that has a value, or a list of such names */
+    HOLE_VALUE, /* an expression of the dimension of a quantity; `mu=` may stand before it: mu=0.3 */
+    HOLE_COUNT, /* a whole number from 1 on */
     HOLE_SECONDS, /* a positive number */
     HOLE_TEXT,    /* "..." */
     HOLE_FILE,    /* a file name: all up to a blank, or "..." */

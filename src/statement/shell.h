@@ -18,12 +18,12 @@ typedef struct source {
     bool keep_going;  /* after an error */
 } source;
 
-/* The share `--part number/of` of a run computes only some rows of the one table or map; of == 0: no share.
- * The first share also writes the output before those rows, the last share the output after them, so that
- * all shares joined in order are the output of the whole run. */
+/* The share `--part number/of` of a run computes only some rows of the one table or map, or some samples of
+ * the one uncertainty; of == 0: no share. The first share also writes the output before those rows, the last
+ * the output after them, so that all shares joined in order are the output of the whole run. */
 typedef struct run_share {
     unsigned number, of;
-    bool met;  /* the table or map whose rows are shared has been reached */
+    bool met;  /* that table, map or uncertainty has been reached */
     FILE *out; /* the session's output; shell.out discards everything outside the share */
 } run_share;
 
@@ -83,7 +83,7 @@ enum { MARK_ASIDE = 1, MARK_DRAWING };
 #define PASTED "pasted: "
 /* Is the session's output shown on a terminal (standard output)? */
 bool shell_on_terminal(const shell *sh);
-/* Does the terminal named by TERM obey escape sequences such as colours? False for "dumb" and unset. */
+/* Does the terminal named by TERM obey escape sequences such as colours? Not "dumb", "unknown" or unset. */
 bool shell_escapes(void);
 
 /* ---- warnings.c ---- */
