@@ -44,7 +44,7 @@ static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *e
     return ok;
 }
 
-/* ---- words ------------------------------------------------------------------------------------- */
+/* ---- texts -------------------------------------------------------------------------------------- */
 
 /* The cycle in words: "FA = 20 N at FN = 100 N, the last cycle". */
 static void load_text(const shell *sh, const accuracy_study *study, char *buf, size_t size) {

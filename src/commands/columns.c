@@ -103,7 +103,7 @@ bool columns_read(const lexer *lx, const said *all, const heard *file, csv *out)
     return true;
 }
 
-/* ---- by dimension ------------------------------------------------------------------------------ */
+/* ---- columns by dimension ----------------------------------------------------------------------- */
 
 bool same_dim(dim a, dim b) {
     return dim_equal(a, b) && (a.rad != 0) == (b.rad != 0);

@@ -344,7 +344,7 @@ static bool finish_axes(panel_job *job, lexer *lx, const found *f) {
     return looks_axis(lx, job->looks, job->p, true, &ax) && looks_axis(lx, job->looks, job->p, false, &ay);
 }
 
-/* ---- motion ------------------------------------------------------------------------------------ */
+/* ---- animations --------------------------------------------------------------------------------- */
 
 /* Does the sweep set inputs or a load? Then it starts from the user's scene, not from that of a frame. */
 static bool is_still(const sweep *s) {

@@ -23,7 +23,7 @@ static const struct {
     double text;
 } papers[] = {[PAPER_USUAL] = {0, 0, 1}, [PAPER_SLIDE] = {1280, 720, 1.35}, [PAPER_COLUMN] = {640, 480, 1.3}};
 
-/* ---- where it goes ----------------------------------------------------------------------------- */
+/* ---- output ------------------------------------------------------------------------------------- */
 
 static void terminal_size(const shell *sh, int *w, int *h) {
     struct winsize size = {0};
@@ -252,7 +252,7 @@ bool do_plot(shell *sh, lexer *lx, said *all) {
     return ok;
 }
 
-/* ---- motion ------------------------------------------------------------------------------------ */
+/* ---- animations --------------------------------------------------------------------------------- */
 
 typedef struct movie {
     shell *sh;

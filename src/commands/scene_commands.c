@@ -11,7 +11,7 @@
 #include "statement/command.h"
 #include "study/smooth.h"
 
-/* ---- gathering --------------------------------------------------------------------------------- */
+/* ---- gathering changes -------------------------------------------------------------------------- */
 
 /* Changes of the inputs, gathered before any is made; `apply` makes them. */
 typedef struct edit {

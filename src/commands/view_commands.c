@@ -230,7 +230,7 @@ static bool run_matrix(shell *sh, table_job *job, const sweep *s, sweep_job *swe
     return ok;
 }
 
-/* ---- the command ------------------------------------------------------------------------------- */
+/* ---- table: the command ------------------------------------------------------------------------- */
 
 /* Runs the sweep and writes its table. at: the sweep goes over the rows of this file; or NULL. */
 static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, file_rows *at, column *columns,
@@ -317,7 +317,7 @@ bool do_table(shell *sh, lexer *lx, said *all) {
     return ok;
 }
 
-/* ---- two scenes --------------------------------------------------------------------------------- */
+/* ---- compare ------------------------------------------------------------------------------------ */
 
 bool do_compare(shell *sh, lexer *lx, said *all) {
     sweep two = {.along = true};

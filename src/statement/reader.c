@@ -7,7 +7,7 @@
 
 #include "text/unit.h"
 
-/* ---- at the cursor ----------------------------------------------------------------------------- */
+/* ---- the end of a statement --------------------------------------------------------------------- */
 
 bool at_end(lexer *lx) {
     if (lx->kind == T_END)
@@ -326,7 +326,7 @@ static const clause *clause_named(const lexer *lx, const grammar *f) {
     return NULL;
 }
 
-/* ---- holes whose text is only found ------------------------------------------------------------ */
+/* ---- holes that the command reads --------------------------------------------------------------- */
 
 /* Is the cursor on an `=`, or on what was typed in its place: == (no token), :=, +=? */
 static bool is_equals(const lexer *lx) {

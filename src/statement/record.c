@@ -9,7 +9,7 @@
 #include "statement/target.h"
 #include "text/lines.h"
 
-/* ---- two places -------------------------------------------------------------------------------- */
+/* ---- streams ------------------------------------------------------------------------------------ */
 
 /* The recorder in use, for record_aside; one session at a time records. */
 static struct recorder *recording;
@@ -127,7 +127,7 @@ static void take_over(shell *sh, struct recorder *r) {
     sh->err = r->both_err;
 }
 
-/* ---- what comes first -------------------------------------------------------------------------- */
+/* ---- the beginning ------------------------------------------------------------------------------ */
 
 static void put_statements(struct recorder *r, const char *text) {
     while (*text) {
@@ -140,7 +140,7 @@ static void put_statements(struct recorder *r, const char *text) {
     }
 }
 
-/* ---- a recording ------------------------------------------------------------------------------- */
+/* ---- recording ---------------------------------------------------------------------------------- */
 
 bool record_as_page(const char *path) {
     return file_ends(path, ".html");
@@ -319,7 +319,7 @@ void record_together(shell *sh) {
     set_apart(sh, false);
 }
 
-/* ---- what is typed ----------------------------------------------------------------------------- */
+/* ---- typed lines -------------------------------------------------------------------------------- */
 
 /* Ends the physical lines of a continued line in \ again. */
 void typed_keep(shell *sh, const char *line) {

@@ -76,7 +76,7 @@ bool target_share(shell *sh, target *t, size_t rows, size_t *from, size_t *to, c
     return true;
 }
 
-/* ---- the end ----------------------------------------------------------------------------------- */
+/* ---- closing ------------------------------------------------------------------------------------ */
 
 void target_report(shell *sh, const char *name, const file_report *r) {
     char size[16];
