@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of figures, and the map of running conditions, which is no plot of a sweep. */
+/* The table of figures, and the map of running conditions, which is drawn as areas. */
 #include "commands/figures.h"
 
 #include <math.h>

@@ -10,7 +10,7 @@
  * they follow, then for each frame: a curve along a load up to then, others in the scene at that time. */
 typedef struct motion {
     bool found;                     /* `over` has been found: */
-    range over;                     /* a load, or the range of an input; do not copy */
+    range over;                     /* a load, or the range of an input; take_frames sets its context */
     trial *trial;                   /* the scene of the frame; NULL: the figures are drawn as a whole */
     double until;                   /* the time of that frame */
     axis_unit unit[PLOT_PANELS][2]; /* of the ordinate and abscissa of each panel, in all frames */

@@ -315,7 +315,7 @@ static bool take_frames(movie *m) {
     return sweep_run(s, &m->over);
 }
 
-/* Draws the figures once as a whole, see `motion`, then all frames, and gives these to gnuplot. */
+/* Draws the figures once as a whole, see `motion`, then all frames, and plays or writes these. */
 static bool run_movie(movie *m, lexer *lx, const char *file) {
     plot_figure whole;
     const size_t frames = m->frames;
