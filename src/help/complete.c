@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The reader reads the statement as far as it has been typed, and tells where it ends; what may come there is
- * in the tables of commands, settings, geometries, quantities and units. Changes nothing. */
+/* Completion: parses the statement up to the cursor and offers the words that the tables of commands,
+ * settings, geometries, quantities and units allow there. Changes nothing. */
 #include "help/complete.h"
 
 #include <stdio.h>
@@ -16,13 +16,13 @@
 
 /* ---- candidates -------------------------------------------------------------------------------- */
 
-/* The word at the cursor, and the statement before it. */
+/* One attempt to complete a word. */
 typedef struct place {
     shell *sh;
     const char *line;
-    size_t start, cursor; /* of the word */
+    size_t start, cursor; /* beginning and end of the word */
     candidates *out;
-    bool whole; /* one may come that need not be made of tokens, as the name of a file or of a shape */
+    bool whole; /* back to the last blank it is one word, such as exact-sphere or a file name */
 } place;
 
 static void add_word(place *p, const char *word, const char *ending) {
@@ -61,7 +61,7 @@ static void add_all(place *p, const char *(*name)(size_t i)) {
         add_word(p, name(i), "");
 }
 
-/* What may begin a value. */
+/* Adds the names that may begin an expression. */
 static void add_values(place *p) {
     const quantity *q;
     for (size_t i = 0; (q = quantity_row(i)); i++)
@@ -77,7 +77,7 @@ static void add_values(place *p) {
         add_word(p, "ans", "");
 }
 
-/* Inputs that the scene takes, and names of the user's. */
+/* Adds the inputs that the scene takes and the user's variables, each followed by `end`. */
 static void add_knobs(place *p, const char *end) {
     for (input in = 0; in < INPUTS; in++)
         if (calc_takes(&p->sh->calc, in, error_quiet()))
@@ -87,7 +87,7 @@ static void add_knobs(place *p, const char *end) {
             add_word(p, p->sh->calc.names.row[i].text, end);
 }
 
-/* Units of the dimension; any: of all. Where no unit alone has the dimension, all again. */
+/* Adds the units of dimension d; all units if `any`, or if no single unit has that dimension. */
 static void add_units(place *p, bool any, dim d) {
     static const char *const prefixes[] = {"", "n", "u", "m", "c", "k", "M", "G"};
     enum { PREFIXES = sizeof prefixes / sizeof *prefixes };
@@ -104,9 +104,9 @@ static void add_units(place *p, bool any, dim d) {
         }
 }
 
-/* ---- what may come ----------------------------------------------------------------------------- */
+/* ---- what the grammar allows ------------------------------------------------------------------- */
 
-/* What may stand in the hole. A file, where a word may stand too: only what has begun as one. */
+/* Adds what may stand in the hole; files beside words only once a `.` or `/` has been typed. */
 static void add_hole(place *p, const clause *a, unsigned i) {
     const hole_row *row = a->hole[i].row;
     const hole_kind kind = row->kind;
@@ -122,11 +122,10 @@ static void add_hole(place *p, const clause *a, unsigned i) {
         p->out->files = true;
 }
 
-/* Clauses and arguments that may still come; first: right behind what chooses the row, and what stands first.
- */
+/* Adds the clauses and arguments that may still follow; first: the row's nameless leading holes as well. */
 static void add_clauses(place *p, const lexer *lx, const said *s, bool first) {
     const grammar *f = s->by;
-    const clause *awaited = NULL; /* must stand first */
+    const clause *awaited = NULL; /* a leading hole that must not be left out */
     for (const clause *a = f->clause; a < f->clause + f->count; a++) {
         lexer quiet = *lx;
         quiet.error = error_quiet();
@@ -144,7 +143,7 @@ static hole_kind kind_of(const said *s) {
     return s->open->of->hole[s->hole].row->kind;
 }
 
-/* The dimension of the last expression of a part. */
+/* Gets the dimension of the last expression of a list. */
 static bool dim_in(place *p, lexer own, dim *d) {
     column columns[EXPRESSIONS];
     size_t count = 0;
@@ -156,7 +155,8 @@ static bool dim_in(place *p, lexer own, dim *d) {
     return ok;
 }
 
-/* The dimension of a number at the end: of the name, or the other side, that it is the value of. */
+/* Gets the dimension of the number before the cursor: of what it is assigned to, or of the left side of `=`.
+ */
 static bool wanted_dim(place *p, const lexer *lx, const said *s, dim *d) {
     const clause *a = s->open->of;
     const bool own = kind_of(s) == HOLE_VALUE && !s->changed.len;
@@ -168,7 +168,8 @@ static bool wanted_dim(place *p, const lexer *lx, const said *s, dim *d) {
             dim_in(p, hole_lexer(lx, &s->open->hole[s->hole - 1]), d));
 }
 
-/* Units of the number at the end. No blank between, and there is one alone: the number stays what it is. */
+/* Adds the units for the number before the cursor. Without a blank between them a single candidate is
+ * dropped, for the editor would insert it unasked. */
 static void add_units_of_number(place *p, const lexer *lx, const said *s) {
     dim d = DIM_NONE;
     const bool known = wanted_dim(p, lx, s, &d);
@@ -179,7 +180,7 @@ static void add_units_of_number(place *p, const lexer *lx, const said *s) {
 
 static void add_next(place *p, const lexer *lx, const said *s);
 
-/* `along cycle ...`: its arguments may follow. False: it takes none. */
+/* In `along cycle ...`, adds the arguments of the load command; false if there is no such command. */
 static bool add_load(place *p, lexer own) {
     said load;
     const command *c = command_find(own.text + own.at, own.len);
@@ -193,7 +194,7 @@ static bool add_load(place *p, lexer own) {
     return true;
 }
 
-/* Behind what may end there. */
+/* Adds what may follow a part that is complete. */
 static void add_further(place *p, const lexer *lx, const said *s) {
     const clause *a = s->open->of;
     const hole_kind kind = kind_of(s);
@@ -201,7 +202,7 @@ static void add_further(place *p, const lexer *lx, const said *s) {
     const bool loaded = kind == HOLE_LOAD && add_load(p, hole_lexer(lx, &s->open->hole[s->hole]));
     if (s->end == PART_NUMBER && !loaded && kind != HOLE_COUNT && kind != HOLE_SECONDS)
         add_units_of_number(p, lx, s);
-    if (!strchr(" \t\n", p->line[p->start - 1])) /* of a number */
+    if (!strchr(" \t\n", p->line[p->start - 1])) /* no blank after the number: only its unit may follow */
         return;
     if (a->again && !*a->name)
         add_hole(p, a, 0);
@@ -215,7 +216,7 @@ static void add_further(place *p, const lexer *lx, const said *s) {
     }
 }
 
-/* What may come where the statement has been cut off. */
+/* Adds what may come at the point where the statement was cut off. */
 static void add_next(place *p, const lexer *lx, const said *s) {
     if (!s->open) {
         add_clauses(p, lx, s, s->count == 0);
@@ -225,7 +226,7 @@ static void add_next(place *p, const lexer *lx, const said *s) {
         add_values(p);
     } else if (s->end == PART_NAME) {
         add_knobs(p, "=");
-        if (lx->text[lx->at - 1] == ',') /* or what is next in the list */
+        if (lx->text[lx->at - 1] == ',') /* another change, or the next expression of the list */
             add_values(p);
     } else if (s->end == PART_UNIT) {
         dim d = DIM_NONE;
@@ -240,10 +241,10 @@ static void add_next(place *p, const lexer *lx, const said *s) {
 
 /* ---- where the cursor is ----------------------------------------------------------------------- */
 
-/* Reads the statement up to the word that begins at `start`, and adds what may come there. */
+/* Parses the statement from `begin` up to the word that begins at `start`, and adds what may stand there. */
 static void complete_at(place *p, size_t begin, size_t start) {
     calc_error error = ERROR_NONE;
-    static const char values[] = "EXPR, ..."; /* printed, or given to names */
+    static const char values[] = "EXPR, ..."; /* a statement without a command: a print or an assignment */
     said s = {.by = grammar_made("", NULL, values, "")};
     lexer lx;
     lex_start(&lx, p->line + begin, start - begin, &error);
@@ -256,7 +257,7 @@ static void complete_at(place *p, size_t begin, size_t start) {
     }
     const command *c = lx.kind == T_NAME ? command_find(lx.text + lx.at, lx.len) : NULL;
     const grammar *row = c ? command_form(c) : s.by;
-    do { /* figures stand side by side */
+    do { /* figures separated by | have arguments of their own */
         if (c)
             lex_next(&lx);
         if (c && lex_is(&lx, "map")) /* an expression follows */
@@ -268,7 +269,7 @@ static void complete_at(place *p, size_t begin, size_t start) {
         add_next(p, &lx, &s);
 }
 
-/* Of the statement at the cursor; quote: of an open one, else the cursor. False: it is a comment. */
+/* Finds the statement at the cursor and its open quotation mark (none: `cursor`); false in a comment. */
 static bool find_statement(const char *line, size_t cursor, size_t *begin, size_t *quote) {
     *begin = 0;
     *quote = cursor;
@@ -291,7 +292,7 @@ void complete(shell *sh, const char *line, size_t cursor, candidates *out) {
         return;
     while (start > begin && !strchr(" \t\n", line[start - 1]))
         start--;
-    if (begin < cursor && line[begin] == '?') { /* of the prompt: help */
+    if (begin < cursor && line[begin] == '?') { /* ?WORD at the prompt is help */
         p.start = out->start = start > begin ? start : begin + 1;
         add_all(&p, help_name);
         return;
@@ -299,7 +300,7 @@ void complete(shell *sh, const char *line, size_t cursor, candidates *out) {
     const bool quoted = quote < cursor;
     complete_at(&p, begin, quoted ? quote : start);
     p.start = out->start += quoted;
-    /* the editor completes either words or files */
+    /* words that replace all back to the last blank: only where `whole`; and words or files, not both */
     if (!p.whole || quoted || (out->files && cursor == p.start))
         candidates_none(out);
     out->files = out->files && out->count == 0;

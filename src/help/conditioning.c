@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conditioning in words: what study/influence finds, for `explain`. */
+/* Writes the result of study/influence (conditioning) for `explain`, to readers and to programs. */
 #include "help/conditioning.h"
 
 #include "statement/output.h"
@@ -24,7 +24,7 @@ static void put_shown(answer *out, const cause *c, const char *name) {
     answer_flag(out, "at the end of its range", c->refused);
 }
 
-/* For readers: the causes of a kind in a line. */
+/* For readers: one line with all causes of this kind. */
 static void put_others(answer *out, const influence_study *study, influence kind) {
     const char *before = "";
     for (size_t i = 0; i < study->count; i++) {

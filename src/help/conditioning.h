@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far the last digit of each input moves a value, on a page of `explain`. */
+/* The part of an `explain` page that says how far a change in the last digit of each input moves a value. */
 #ifndef HELP_CONDITIONING_H
 #define HELP_CONDITIONING_H
 
 #include "statement/answer.h"
 #include "study/influence.h"
 
-/* name: what is moved. */
+/* Writes the result of `study` for the value called `name`. */
 void conditioning_tell(answer *out, const char *name, const influence_study *study);
 
 #endif

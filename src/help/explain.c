@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command `explain`: the quantities that an expression is made of, a page each: formula, the numbers put
- * in, the model that answered, the error. Each is said once, to readers and to programs. Changes nothing. */
+/* The command `explain`: a page for each quantity of an expression: formula, inputs, model and error, written
+ * once for both readers and programs (statement/answer). Changes nothing. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,27 +15,27 @@
 #include "study/influence.h"
 #include "text/typeset.h"
 
-/* Who explains where to. */
+/* What all functions that write pages need. */
 typedef struct page {
     shell *sh;
     answer *out;
-    bool conditioning; /* it is wanted */
-    calc_error *error; /* raised: the page is not to be shown */
+    bool conditioning; /* the user wants it */
+    calc_error *error; /* if raised, nothing is shown */
 } page;
 
-/* One quantity of an expression, as it stands there. */
+/* One occurrence of a quantity in an expression. */
 typedef struct part {
     const quantity *q;
     bool call;
     const char *text; /* "dW(20 N)" */
     size_t len;
-    size_t argument, argument_len; /* in text, of a call */
-    const definition *in;          /* whose body it stands in, or NULL */
-    bool whole;                    /* it is all that has been asked for */
-    bool told;
+    size_t argument, argument_len; /* of a call: where its argument stands in text */
+    const definition *in;          /* the definition whose body it stands in, or NULL */
+    bool whole;                    /* the user asked for this quantity alone */
+    bool told;                     /* its page has been written */
 } part;
 
-/* What may be missing, unless it is because memory is out or the user has stopped it. */
+/* Returns `ok`. What fails is left out of the page, but no memory and Ctrl-C are errors of the page. */
 static bool explain_had(const page *p, bool ok, const calc_error *why) {
     if (!ok && why->stop)
         *p->error = *why;
@@ -44,9 +44,7 @@ static bool explain_had(const page *p, bool ok, const calc_error *why) {
 
 /* ---- lines ------------------------------------------------------------------------------------- */
 
-/* An expression and its value, in the scene as it stands; row: the unit that readers are shown it in, or
- * NULL.
- */
+/* Writes "name = value"; row: the unit for readers, or NULL for the unit that suits the value. */
 static void explain_value(const page *p, const char *name, size_t len, value v, const char *row) {
     char text[160], unit_text[COLUMN_UNIT], *whole = column_name(name, len);
     if (!whole) {
@@ -68,7 +66,7 @@ static void explain_title(const page *p, const quantity *q) {
     answer_string(p->out, "title", q->title);
 }
 
-/* As a terminal shows it, where it can. */
+/* The formula in Unicode, or as it is where the locale has none. */
 static const char *set_in(const char *plain, char *buf, size_t size) {
     if (!typeset_unicode())
         return plain;
@@ -76,7 +74,7 @@ static const char *set_in(const char *plain, char *buf, size_t size) {
     return buf;
 }
 
-/* With the title. */
+/* Writes title and formula. */
 static void explain_formula(const page *p, const quantity *q, bool call) {
     const formula *f = quantity_formula(q, p->sh->calc.now, call);
     char set[512], line[600];
@@ -89,7 +87,7 @@ static void explain_formula(const page *p, const quantity *q, bool call) {
         answer_string(p->out, "equation", f->equation);
 }
 
-/* Where a step mixes force and displacement, its path is a choice. */
+/* A step by one force and one displacement leaves its path open: write which one fret takes. */
 static void put_paths(const page *p) {
     static const struct {
         load_by normal, tangential;
@@ -119,7 +117,7 @@ static void put_paths(const page *p) {
 
 /* ---- the model --------------------------------------------------------------------------------- */
 
-/* Of the results, those that are taken to the limit of chords. */
+/* Is it a result that is extrapolated to infinitely many chords per period of a sine? */
 static bool is_extrapolated(const quantity *q, bool call) {
     static const char *const names[] = {"Fx", "dx", "W", "U", "dW"};
     for (size_t i = 0; !call && i < sizeof names / sizeof *names; i++)
@@ -128,7 +126,7 @@ static bool is_extrapolated(const quantity *q, bool call) {
     return false;
 }
 
-/* The value of e where a run of the load stands, or runs at all levels. */
+/* Gets the value of e at the instant that `run` has reached, or the limit of `levels` runs there. */
 static bool value_on(const page *p, const expr *e, const runner *run, unsigned levels, value *v) {
     const instant now = {.run = run, .levels = levels};
     calc_error *why = error_quiet();
@@ -137,12 +135,12 @@ static bool value_on(const page *p, const expr *e, const runner *run, unsigned l
         t->scene.now = &now;
     const bool ok = t && expr_eval(&p->sh->calc, e, v, why);
     if (t)
-        t->scene.used = 0; /* it has not answered */
+        t->scene.used = 0; /* models used here did not compute the value that the page shows */
     trial_close(t);
     return explain_had(p, ok, why);
 }
 
-/* The value after each number of chords, where that tells all that it is good to. */
+/* Gets the value for each number of chords; false if these do not tell the whole error. */
 static bool by_chords(const page *p, model_id model, const expr *e, long double at[LEVELS]) {
     const answers *a = &p->sh->calc.now->answers;
     bool ok = e && model == MODEL_MEMORY && a->levels == LEVELS;
@@ -163,8 +161,8 @@ static void name_model(const page *p, model_id model, char text[MODEL_TEXT]) {
         snprintf(text, MODEL_TEXT, "%s", models[model].title);
 }
 
-/* How a swinging load has been run is added to `text`. e: what is explained; NULL: it has no value. What that
- * is good to; 0: nobody knows. */
+/* Adds to `text` how a load whose F_N swings was computed. e: NULL if there is no value. Returns the relative
+ * error of the value that this causes; 0 if it is unknown. */
 static double describe_sine(const page *p, const quantity *q, bool call, model_id model, const expr *e,
                             char text[MODEL_TEXT]) {
     const answers *a = &p->sh->calc.now->answers;
@@ -172,7 +170,7 @@ static double describe_sine(const page *p, const quantity *q, bool call, model_i
     const bool limit = is_extrapolated(q, call);
     const double least = 1e-15;
     long double at[LEVELS];
-    if (model == MODEL_MEMORY && a->levels == 1) { /* all that it answers: no function of another load */
+    if (model == MODEL_MEMORY && a->levels == 1) { /* no chords: the sine is followed by its events */
         text_add(text, MODEL_TEXT, ", the sine itself, event by event (exact)");
         return least;
     }
@@ -195,7 +193,7 @@ static double describe_sine(const page *p, const quantity *q, bool call, model_i
     return good;
 }
 
-/* Of a scene that has been run. */
+/* Does F_N swing in a cycle of the load? The scene has been run. */
 static bool swings(scene *s) {
     const load_reach *reach = &(load_reach){.swings = false};
     scene_reach(s, &reach, error_quiet());
@@ -223,7 +221,7 @@ static void put_repeated(const page *p, unsigned periods) {
     answer_fact(p->out, "cycle", text);
 }
 
-/* Of a load that swings *sine tells what that is good to; 0: nobody knows. */
+/* Writes the model. *sine gets the relative error by the chords of a swinging load; 0: none, or unknown. */
 static model_id put_model(const page *p, const quantity *q, bool call, const expr *e, double *sine) {
     scene *s = p->sh->calc.now;
     const model_id model = quantity_model(q, s, call);
@@ -251,18 +249,18 @@ static model_id put_model(const page *p, const quantity *q, bool call, const exp
 
 /* ---- the error --------------------------------------------------------------------------------- */
 
-/* A value at a place under a load: near the rim a small one is a difference of larger ones. */
+/* Is it a local field under a load? Near the rim a small value is the difference of larger ones. */
 static bool is_local(const quantity *q, bool call) {
     return call && q->load && (*q->argument == 'x' || *q->argument == 'r');
 }
 
-/* For programs: a part of what. */
+/* For programs: the error relative to what `of` names. */
 static void say_error(const page *p, double error, const char *of) {
     answer_number(p->out, "error", error);
     answer_string(p->out, "error of", of);
 }
 
-/* Of springs, which are an approximation; the scene has run the memory diagram beside them. */
+/* The error of springs: the difference to the memory diagram, which the scene runs as well. */
 static void put_difference(const page *p, const expr *e, value v) {
     const answers *a = &p->sh->calc.now->answers;
     char text[160];
@@ -280,14 +278,14 @@ static void put_difference(const page *p, const expr *e, value v) {
     }
 }
 
-/* What the value is good to, as a part of what. */
+/* Writes the bound `good` of the error, relative to what `of` names. */
 static void explain_error(const page *p, double good, const char *of) {
     answer_words(p->out, "    error: %s %.0e of the %s\n", scene_is_worn(p->sh->calc.now) ? "some" : "below",
                  round_up(good), of);
     say_error(p, round_up(good), of);
 }
 
-/* What the value is good to, as `help exactness` says. */
+/* Writes the error bound that `help exactness` documents. */
 static void put_error(const page *p, const quantity *q, bool call, model_id model, double sine) {
     const scene *s = p->sh->calc.now;
     const bool power = scene_is_power(s), local = is_local(q, call);
@@ -302,7 +300,7 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
     explain_error(p, good, of);
 }
 
-/* ---- inputs --------------------------------------------------------------------------------------- */
+/* ---- inputs ------------------------------------------------------------------------------------ */
 
 static bool has_effect(const influence_study *study, input in) {
     for (size_t i = 0; i < study->count; i++)
@@ -311,7 +309,7 @@ static bool has_effect(const influence_study *study, input in) {
     return true;
 }
 
-/* The inputs that the result was made of. */
+/* Writes the inputs that the value depends on. */
 static void put_numbers(const page *p, const quantity *q, const influence_study *study) {
     const input_set of_load = INPUT_PRESS | (INPUT_CYCLE & ~INPUT_BIT(IN_NW));
     scene *s = p->sh->calc.now;
@@ -327,7 +325,7 @@ static void put_numbers(const page *p, const quantity *q, const influence_study 
     }
 }
 
-/* Does it matter what pushes sideways? */
+/* Does the value depend on the tangential load? */
 static bool is_pushed(const influence_study *study) {
     for (size_t i = 0; i < study->count; i++) {
         const cause *c = &study->cause[i];
@@ -339,7 +337,7 @@ static bool is_pushed(const influence_study *study) {
     return false;
 }
 
-/* Is its formula one of the amplitude? */
+/* Is the quantity a function of the amplitude of a cycle, such as dW(FA)? */
 static bool is_of_cycle(const quantity *q) {
     return q->argument && quantity_find(q->argument, strlen(q->argument));
 }
@@ -352,7 +350,7 @@ static void put_cycle(const page *p, const influence_study *study) {
     }
 }
 
-/* Where the load matters. */
+/* Writes the load, if the value depends on it. */
 static void put_load(const page *p, const quantity *q, const influence_study *study) {
     scene *s = p->sh->calc.now;
     const fret_press *press;
@@ -372,7 +370,7 @@ static void put_load(const page *p, const quantity *q, const influence_study *st
 
 /* ---- the page ---------------------------------------------------------------------------------- */
 
-/* Of a number that no formula made. */
+/* The page of an input: a number that was given, not computed. */
 static void explain_input(const page *p, const quantity *q) {
     calc *c = &p->sh->calc;
     value v = {0, quantity_dim(q, c->now)};
@@ -380,13 +378,13 @@ static void explain_input(const page *p, const quantity *q) {
     answer_page(p->out, "explain");
     explain_formula(p, q, false);
     const bool got = explain_had(p, quantity_get(q, c->now, &v.v, why), why);
-    v.d = quantity_dim(q, c->now); /* which may follow from what is live */
+    v.d = quantity_dim(q, c->now); /* again: quantity_get may have computed bound inputs that it depends on */
     if (got)
         explain_value(p, q->name, strlen(q->name), v, q->unit);
     answer_done(p->out);
 }
 
-/* Of a function without an argument: no value. */
+/* The page of a function named without an argument: it has no value. */
 static void explain_function(const page *p, const quantity *q) {
     answer_page(p->out, "explain");
     explain_formula(p, q, true);
@@ -396,7 +394,7 @@ static void explain_function(const page *p, const quantity *q) {
     answer_done(p->out);
 }
 
-/* e: the part by itself, of value v; NULL: it has none here. */
+/* The page of a result. e: the part as an expression, v its value; NULL: it has no value here. */
 static void explain_quantity(const page *p, const part *of, const expr *e, value v,
                              const influence_study *study, bool conditioning) {
     const quantity *q = of->q;
@@ -427,7 +425,7 @@ typedef struct parts {
     size_t count, room;
 } parts;
 
-/* The i-th quantity of e, as it stands there; a call to its end. */
+/* Gets the i-th quantity of e as it stands in the text, a call with its argument; false after the last. */
 static bool part_at(const expr *e, size_t i, part *out) {
     bool call;
     size_t at, end;
@@ -450,7 +448,7 @@ static bool same_formula(const part *a, const part *b) {
     return a->q == b->q && a->call == b->call;
 }
 
-/* Is there one before with this formula? text: and the same argument. */
+/* Has one of the first `count` parts the same formula? text: and the same text, argument included. */
 static bool is_before(const parts *all, size_t count, const part *of, bool text) {
     for (size_t i = 0; i < count; i++)
         if (same_formula(&all->of[i], of) &&
@@ -459,8 +457,8 @@ static bool is_before(const parts *all, size_t count, const part *of, bool text)
     return false;
 }
 
-/* Those of e, which stands in a definition or not, and of the definitions that it names, each once. What has
- * been asked for is none of them where its formula belongs to a call within: it is told at the end. */
+/* Adds the parts of e, the body of `in` (or NULL), and of the definitions that it names, each once. If all of
+ * e is a call whose formula an inner call has shown, it is left out: explain_whole shows its value. */
 static bool add_parts(const page *p, const expr *e, const definition *in, const expr *asked, parts *all) {
     part one;
     const definition *d;
@@ -479,7 +477,7 @@ static bool add_parts(const page *p, const expr *e, const definition *in, const 
     return true;
 }
 
-/* The part of a statement as an expression of its own, and its value. */
+/* Parses and evaluates a piece of a statement. */
 static bool text_value(const page *p, const char *text, size_t len, expr *e, value *v) {
     calc *c = &p->sh->calc;
     calc_error *why = error_quiet();
@@ -488,7 +486,7 @@ static bool text_value(const page *p, const char *text, size_t len, expr *e, val
     return explain_had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, why), why);
 }
 
-/* An input, and F_N as it was given: no formula made the number. */
+/* Was the value given: an input, or an input of the load that no step has changed? */
 static bool is_given(const page *p, const quantity *q) {
     scene *s = p->sh->calc.now;
     const load_reach *reach;
@@ -497,7 +495,7 @@ static bool is_given(const page *p, const quantity *q) {
                                  explain_had(p, scene_reach(s, &reach, why), why) && !reach->normal_varies);
 }
 
-/* Does it stand for many values: within a function, of what that is given? */
+/* Does the part contain a parameter of the definition `in`, so that it has no one value? */
 static bool is_free(const part *of, const definition *in) {
     lexer lx;
     bool found = false;
@@ -507,7 +505,7 @@ static bool is_free(const part *of, const definition *in) {
     return found;
 }
 
-/* The part by itself, where it has a value there. */
+/* Evaluates the part by itself; false if it has no value. */
 static bool part_value(const page *p, const part *of, expr *e, value *v) {
     return !(of->in && is_free(of, of->in)) && text_value(p, of->text, of->len, e, v);
 }
@@ -519,7 +517,7 @@ static bool explain_part(const page *p, const part *of) {
     influence_study study = {.count = 0};
     value v = {0}, argument = {0};
     const bool has = part_value(p, of, &e, &v);
-    const quantity *call = of->call && quantity_arguments(of->q) == 1 ? of->q : NULL; /* of one argument */
+    const quantity *call = of->call && quantity_arguments(of->q) == 1 ? of->q : NULL;
     if (has && call)
         text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
     const bool ok = !has || influences(&p->sh->calc, &e, v.v, call, argument, &study, p->error);
@@ -530,7 +528,7 @@ static bool explain_part(const page *p, const part *of) {
     return ok;
 }
 
-/* The value of a call whose formula has been told. */
+/* Writes the value of a call whose formula has been shown. */
 static void explain_call(const page *p, const part *of, bool title) {
     expr e = {0};
     value v;
@@ -544,7 +542,7 @@ static void explain_call(const page *p, const part *of, bool title) {
     expr_free(&e);
 }
 
-/* Calls follow the first of their kind. */
+/* Writes all parts; further calls of a quantity follow its first call, values only. */
 static bool explain_parts(const page *p, parts *all) {
     for (size_t i = 0; i < all->count; i++) {
         const part *one = &all->of[i];
@@ -579,7 +577,7 @@ static bool explain_whole(const page *p, const expr *e, value v) {
     return true;
 }
 
-/* Its parts, and at the end what was asked for, where it is more than one of them. */
+/* Writes the parts of e, and at the end the value of all of it, unless a part was that. */
 static bool explain_expression(const page *p, const expr *e, const expr *asked, value v) {
     parts all = {.count = 0};
     bool ok = add_parts(p, e, NULL, asked, &all) && explain_parts(p, &all), told = false;
@@ -592,13 +590,14 @@ static bool explain_expression(const page *p, const expr *e, const expr *asked, 
 
 /* ---- the statement ----------------------------------------------------------------------------- */
 
-/* An input or a function by its name alone may be without a value. */
+/* The input or function that is named alone: its page needs no value; else NULL. */
 static const quantity *bare_name(const lexer *lx) {
     const quantity *q = lx->kind == T_NAME ? quantity_find(lx->text + lx->at, lx->len) : NULL;
     return q && (q->of == OF_INPUT || q->of == OF_FUNCTION) ? q : NULL;
 }
 
-/* What is to be explained, `e`, in the scene as it is, or as `at` changes it: a trial, then. */
+/* Reads the expression `asked`, its value, and `e`, the body of what it names. If `at` changes the scene, *t
+ * is a trial with these changes, for the caller to close. */
 static bool read_explained(shell *sh, lexer *lx, const expr **e, const expr **asked, trial **t, value *v) {
     bool call;
     size_t first;

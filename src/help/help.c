@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* help and apropos: one table of all that has help. Changes nothing. */
+/* The commands help, apropos and cite: one table of everything that has help. Changes nothing. */
 #include "help/help.h"
 
 #include <string.h>
@@ -15,15 +15,15 @@
 
 enum { LINE_LABEL = 64, HELP_TEXT = 1024 };
 
-/* A row of any table, for lists and searches: "geometry sphere  a sphere ...". */
+/* A row of any table as lists and searches see it: "geometry sphere  a sphere ...". NULL: none. */
 typedef struct entry {
-    const char *command;         /* that takes the name, or NULL */
-    const char *name, *argument; /* NULL: none */
-    const char *kind;            /* before its summary, or NULL */
-    char numbers[LINE_LABEL];    /* the summary, where there is no other */
+    const char *command;         /* printed before the name: the command that takes it */
+    const char *name, *argument; /* argument: printed in parentheses */
+    const char *kind;            /* printed before the summary, such as "a unit: " */
+    char numbers[LINE_LABEL];    /* printed if summary is NULL */
     const char *summary;
-    const char *keywords;            /* searched too; or NULL */
-    const char *text, *const *lines; /* only where nothing else is found */
+    const char *keywords;            /* searched too */
+    const char *text, *const *lines; /* searched only if a search of the rest finds nothing */
 } entry;
 
 /* ---- quantities -------------------------------------------------------------------------------- */
@@ -37,7 +37,7 @@ static entry quantity_entry(size_t i) {
                    .text = q->formulas[0].text};
 }
 
-/* When the formula is used, in words; empty: whatever the scene is. */
+/* Writes when the formula is used, in words; nothing if always. others: other rows come before it. */
 static void when_text(const formula *f, bool others, char *buf, size_t size) {
     static const struct {
         unsigned when;
@@ -55,7 +55,7 @@ static void when_text(const formula *f, bool others, char *buf, size_t size) {
         snprintf(buf, size, "else");
 }
 
-/* Is the formula that of an earlier row, too? */
+/* Has an earlier row the same formula? */
 static bool is_repeated(const quantity *q, size_t row) {
     for (size_t i = 0; i < row; i++)
         if (!strcmp(q->formulas[i].text, q->formulas[row].text))
@@ -63,7 +63,7 @@ static bool is_repeated(const quantity *q, size_t row) {
     return false;
 }
 
-/* Does it hold whatever the scene is: where its row says so, and elsewhere? */
+/* Has a later, unconditional row the same formula, so that it holds in any case? */
 static bool holds_else(const quantity *q, size_t row) {
     for (size_t i = row + 1; i < FORMULAS && q->formulas[i].text; i++)
         if (q->formulas[i].when == WHEN_ALWAYS && !strcmp(q->formulas[i].text, q->formulas[row].text))
@@ -71,7 +71,7 @@ static bool holds_else(const quantity *q, size_t row) {
     return false;
 }
 
-/* What values it takes, where they have a unit. */
+/* Writes dimension and unit; nothing for a pure number. row: the unit, or NULL for the SI unit. */
 static void dim_line(FILE *to, const char *what, dim d, const char *row) {
     char unit_text[128], described[128];
     if (dim_equal(d, DIM_NONE)) {
@@ -120,7 +120,7 @@ static entry command_entry(size_t i) {
     return (entry){.name = c->name, .summary = c->summary, .keywords = c->keywords, .text = c->help};
 }
 
-/* What a row takes, with the clauses that it has in common with others, and what it is. */
+/* Writes the usage line of a row, the clauses that its holes such as RANGE stand for, and the summary. */
 static void usage_help(FILE *to, const grammar *f) {
     const hole_row *row;
     char usage[GRAMMAR_USAGE], text[GRAMMAR_USAGE + 16];
@@ -138,7 +138,7 @@ static void usage_help(FILE *to, const grammar *f) {
     help_wrapped(to, f->summary, 2, 2);
 }
 
-/* What may follow the words that choose a row of their own. */
+/* If the first argument is a word with a grammar of its own (`set`, `export`), writes these usages. */
 static void choices_help(FILE *to, const grammar *f) {
     const hole_row *row = grammar_first(f, HOLE_CHOICE);
     char usage[GRAMMAR_USAGE];
@@ -149,7 +149,7 @@ static void choices_help(FILE *to, const grammar *f) {
     }
 }
 
-/* Ends with the example: the command's own text, else what its table prints. */
+/* Usage, then what the command's table prints, then its own text, which ends with the example. */
 static void command_help(FILE *to, size_t i) {
     const command *c = command_row(i);
     usage_help(to, command_form(c));
@@ -246,7 +246,7 @@ static entry unit_entry(size_t i) {
     return (entry){.name = unit_name(i), .kind = "a unit: ", .summary = unit_meaning(i), .keywords = "unit"};
 }
 
-/* With a prefix too. */
+/* Help on a unit; the word may have a prefix. */
 static void unit_help(FILE *to, const char *word, const unit *u) {
     char si[128], described[128];
     dim_unit(u->d, si, sizeof si);
@@ -285,9 +285,9 @@ static entry topic_entry(size_t i) {
 /* ---- the table --------------------------------------------------------------------------------- */
 
 typedef struct subject {
-    const char *(*name)(size_t i); /* ended by NULL */
+    const char *(*name)(size_t i); /* of row i; NULL after the last */
     entry (*entry)(size_t i);
-    void (*help)(FILE *to, size_t i); /* NULL: by its word, see help_on */
+    void (*help)(FILE *to, size_t i); /* NULL: units, which help_on looks up by the word */
 } subject;
 
 /* clang-format off */
@@ -318,8 +318,8 @@ const char *help_name(size_t i) {
 
 /* ---- help -------------------------------------------------------------------------------------- */
 
-/* The commands of the group that begins at row i on one line, broken where it is full. Returns where the next
- * begins. */
+/* Writes the group of commands that begins at row i as one wrapped line; returns the row of the next group.
+ */
 static size_t group_line(FILE *to, size_t i) {
     enum { GROUP = 18 };
     char names[HELP_TEXT] = "";
@@ -333,7 +333,7 @@ static size_t group_line(FILE *to, size_t i) {
     return i;
 }
 
-/* On one screen of 80 by 24. */
+/* `help` alone: fits on a screen of 80 x 24. */
 static void overview(FILE *to) {
     char names[HELP_TEXT] = "";
     fputs("fret: partial-slip contact of power-law graded elastic solids.\n\n"
@@ -356,7 +356,7 @@ static void overview(FILE *to) {
           to);
 }
 
-/* All that have this name; how many. */
+/* Writes the help of everything with this name and returns how many there are. to: NULL only counts. */
 static size_t help_on(FILE *to, const char *word) {
     size_t count = 0;
     const char *name;
@@ -370,7 +370,7 @@ static size_t help_on(FILE *to, const char *word) {
                     subjects[s].help(to, i);
                 count++;
             }
-    if (*word && unit_lookup(word, strlen(word), &u)) { /* a name of nothing else */
+    if (*word && unit_lookup(word, strlen(word), &u)) {
         if (to)
             unit_help(to, word, &u);
         count++;
@@ -378,7 +378,7 @@ static size_t help_on(FILE *to, const char *word) {
     return count;
 }
 
-/* ---- by what it is about ------------------------------------------------------------------------ */
+/* ---- search ------------------------------------------------------------------------------------ */
 
 static bool contains(const char *text, const char *word) {
     const size_t n = strlen(word);
@@ -387,6 +387,7 @@ static bool contains(const char *text, const char *word) {
     return text && *text;
 }
 
+/* Does the help text itself contain the word? */
 static bool is_within(const entry *e, const char *word) {
     const char *const *line = e->lines;
     while (line && *line && !contains(*line, word))
@@ -399,14 +400,14 @@ static bool is_about(const entry *e, const char *word, bool deep) {
            contains(e->summary, word) || contains(e->keywords, word) || (deep && is_within(e, word));
 }
 
-/* About each of the words, ended by an empty one. */
+/* Does the entry match every word of the list, which ends with an empty one? */
 static bool is_about_all(const entry *e, char (*words)[LEX_NAME], bool deep) {
     while (**words && is_about(e, *words, deep))
         words++;
     return !**words;
 }
 
-/* One line each; deep: by their texts too. */
+/* Writes a line for each match, and counts them. to: NULL only counts; deep: searches the texts, too. */
 static size_t list_about(FILE *to, char (*words)[LEX_NAME], bool deep) {
     enum { LABELS = 10 };
     size_t count = 0;
@@ -427,17 +428,17 @@ static size_t list_about(FILE *to, char (*words)[LEX_NAME], bool deep) {
 }
 
 const char *help_where(const char *word) {
-    enum { LEAST = 3 }; /* letters: less are in every text */
+    enum { LEAST = 3 }; /* letters: one or two are found in nearly every entry */
     char words[2][LEX_NAME] = {"", ""};
     snprintf(words[0], LEX_NAME, "%s", word);
-    if (!figure_find(word, strlen(word)) && help_on(NULL, word)) /* who looks for a figure types `plot` */
+    if (!figure_find(word, strlen(word)) && help_on(NULL, word)) /* figures are found by `plot` */
         return "help";
     return strlen(word) >= LEAST && list_about(NULL, words, false) ? "apropos" : NULL;
 }
 
 /* ---- the commands ------------------------------------------------------------------------------- */
 
-/* Is it a word of what the row takes, of a clause or of a table? */
+/* Is the word part of the grammar: a clause without an argument, or a word of a table? */
 static bool has_word(const grammar *f, const char *word) {
     const clause *known = grammar_clause(f, word);
     size_t row;
@@ -447,7 +448,7 @@ static bool has_word(const grammar *f, const char *word) {
     return known && !known->argument;
 }
 
-/* The help that tells of a word within statements, or NULL. */
+/* The name of the help page that explains a word used inside statements, or NULL. */
 static const char *told_in(const char *word) {
     static const char *const words[][2] = {{"at", "expressions"},
                                            {"in", "expressions"},
@@ -475,8 +476,7 @@ static bool no_help(lexer *lx, const char *word) {
                     about ? word : "");
 }
 
-/* The word that help is wanted on, of those that have been said: behind a command it is the second, as in
- * `geometry cone`, and p(r) is one of a list, FN=100 N of a statement. */
+/* Gets the word that help is wanted on: the second of `geometry cone`, the name in p(r) and FN=100 N. */
 static bool read_word(lexer *lx, const said *all, char word[LEX_NAME]) {
     unsigned i = 0;
     hole_word(lx, &all->list[0], word);
@@ -522,7 +522,7 @@ bool do_cite(shell *sh, lexer *lx, said *all) {
 
 bool do_apropos(shell *sh, lexer *lx, said *all) {
     char words[HEARD + 1][LEX_NAME] = {""};
-    bool known = true; /* no word is longer than any name */
+    bool known = true; /* false: a word is too long to be in the name buffers, and so is nothing's name */
     text_out t;
     if (!all->list[0].hole[0].len)
         return lex_fail(lx, "apropos what? such as: apropos radius");

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Help from the tables. */
+/* Names that have help, from the tables of commands, topics, settings, models, quantities and units. */
 #ifndef HELP_HELP_H
 #define HELP_HELP_H
 
 #include <stddef.h>
 
-/* All that has help, one table after the other: i = 0, 1, ... until NULL. For completion and suggestions. */
+/* Name i of everything that has help, one table after the other; NULL after the last. */
 const char *help_name(size_t i);
 
-/* The command that tells of a word, `help` or `apropos`; NULL: none does. */
+/* The command that has something on a word, "help" or "apropos"; NULL if neither has. */
 const char *help_where(const char *word);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What help takes from tables for its topics, and what it tells of models. Touches nothing. */
+/* Help topics with the tables inserted into them, citations, and help on models. Changes nothing. */
 #include "help/topics.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "text/characters.h"
 #include "text/lines.h"
 
-/* ---- from tables ------------------------------------------------------------------------------- */
+/* ---- tables ------------------------------------------------------------------------------------ */
 
 void help_units(FILE *to) {
     fputs("After a number, with or without a space (210 GPa, 0.3N/mm^2), and after `in`.\n"
@@ -53,7 +53,7 @@ static void quantities(FILE *to) {
 
 /* ---- the paper --------------------------------------------------------------------------------- */
 
-/* Its equations are (1) to (28), then (A1) to (A3): of some, what no formula of a quantity says. */
+/* The paper's equations are (1) to (28) and (A1) to (A3); text for those that no quantity's formula cites. */
 enum { EQUATIONS = 28, APPENDIX = 3 };
 static const char *const equations[EQUATIONS + 1] = {
     [2] = "no quantity is computed by it",
@@ -64,6 +64,7 @@ static const char *const equations[EQUATIONS + 1] = {
     [25] = "the energy dissipated per cycle, the same as by (21), (22), (26) and (27)",
     [28] = "(27) for a sphere and k = 0, by Mindlin and Deresiewicz: dW there"};
 
+/* Does a formula of q cite this equation? */
 static bool quotes(const quantity *q, const char *number) {
     for (size_t j = 0; j < FORMULAS && q->formulas[j].text; j++)
         if (q->formulas[j].equation && strstr(q->formulas[j].equation, number))
@@ -71,7 +72,7 @@ static bool quotes(const quantity *q, const char *number) {
     return false;
 }
 
-/* The first formula of a result with this number alone, else the first that mentions it. */
+/* The formula of an equation: of the first result that cites it alone, else of the first that cites it. */
 static const char *formula_of(const char *number) {
     const quantity *q;
     const char *mentions = NULL;
@@ -86,11 +87,12 @@ static const char *formula_of(const char *number) {
     return mentions;
 }
 
+/* Writes one equation and the quantities that cite it. text: NULL takes it from the quantities. */
 static void equation(FILE *to, const char *number, const char *text) {
     char names[512] = "";
     const quantity *q;
     fprintf(to, "%-5s ", number);
-    char own[512]; /* the equation alone */
+    char own[512]; /* text up to the first `;` */
     if (!text)
         text = formula_of(number);
     snprintf(own, sizeof own, "%.*s", (int)strcspn(text, ";"), text);
@@ -148,7 +150,7 @@ static void equation_lines(FILE *to) {
 
 /* ---- lessons ----------------------------------------------------------------------------------- */
 
-/* What is said of the paper, to the end of the step. */
+/* Writes the lesson's remark that begins "The paper:". */
 static void paper_line(FILE *to, const script *s) {
     static const char word[] = "# The paper:";
     char text[512] = "";
@@ -188,7 +190,7 @@ static void lessons(FILE *to) {
 /* ---- topics ------------------------------------------------------------------------------------ */
 
 static const struct {
-    const char *line; /* of a topic: the table stands there */
+    const char *line; /* a line of a topic in whose place the table is printed */
     void (*print)(FILE *to);
 } tables[] = {{"[functions]", functions},      {"[units]", help_units},         {"[quantities]", quantities},
               {"[reference]", reference_line}, {"[equations]", equation_lines}, {"[lessons]", lessons}};
@@ -211,7 +213,7 @@ void help_topic(FILE *to, size_t i) {
 
 /* ---- models ------------------------------------------------------------------------------------ */
 
-/* Begins a transcript. */
+/* How each example begins. */
 #define EXAMPLE "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; "
 
 const char *model_text(size_t id) {

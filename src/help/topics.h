@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What help tells beyond the tables of commands, quantities and units: topics, a file of scripts/help each.
- */
+/* Help that is no table row's: topics (a file of scripts/help each), the list of units, citations, models. */
 #ifndef HELP_TOPICS_H
 #define HELP_TOPICS_H
 
@@ -8,20 +7,19 @@
 
 #include "statement/scripts.h"
 
-/* Of the lines of a topic the first tells other words to find it by, the second is empty. */
+/* Line numbers of a topic: the first line holds search words, the second is empty, the text follows. */
 enum { TOPIC_KEYWORDS, TOPIC_TEXT = 2 };
 
 const char *topic_name(size_t i); /* NULL after the last */
-/* Its text, in which tables stand in place of their names, and its example. */
+/* Writes the text of topic i; a line such as [units] is replaced by that table. */
 void help_topic(FILE *to, size_t i);
 
-/* The table of units, for `show` too. */
+/* Writes the table of units, for `show` too. */
 void help_units(FILE *to);
 
-/* How to cite the paper and the program, as text and as BibTeX. */
+/* Writes how to cite the paper and the program, as text and as BibTeX. */
 void help_cite(FILE *to);
 
-/* Help on a model: a text by its number in models[]. */
-const char *model_text(size_t id);
+const char *model_text(size_t id); /* help on models[id] */
 
 #endif
