@@ -155,8 +155,7 @@ static bool dim_in(place *p, lexer own, dim *d) {
     return ok;
 }
 
-/* Gets the dimension of the number before the cursor: of what it is assigned to, or of the left side of `=`.
- */
+/* Gets the dimension of the number before the cursor: of what it is assigned to, or of what `=` follows. */
 static bool wanted_dim(place *p, const lexer *lx, const said *s, dim *d) {
     const clause *a = s->open->of;
     const bool own = kind_of(s) == HOLE_VALUE && !s->changed.len;

@@ -318,8 +318,7 @@ const char *help_name(size_t i) {
 
 /* ---- help -------------------------------------------------------------------------------------- */
 
-/* Writes the group of commands that begins at row i as one wrapped line; returns the row of the next group.
- */
+/* Writes the group of commands that begins at row i as one wrapped line; returns where the next begins. */
 static size_t group_line(FILE *to, size_t i) {
     enum { GROUP = 18 };
     char names[HELP_TEXT] = "";

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of commands and the rows of their arguments: the one file that knows all handlers. main hands it
- * down, command.c looks it up. */
+/* The table of commands and of the holes in their grammar: the one file that names all handlers. main.c gives
+ * it to statement/command.c, which looks commands up in it. */
 #include "statement/command.h"
 
 #include "commands/figures.h"

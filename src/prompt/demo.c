@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Plays scripted sessions: straight through, or a key per step at a terminal. A scene that one makes stays;
- * it is one change, for undo. */
+/* The command demo: plays a scripted session, at a terminal a step per key. The scene that it makes stays;
+ * undo takes it as one change. */
 #include <stdio.h>
 #include <string.h>
 #include <termios.h>
@@ -29,10 +29,9 @@ bool show_demos(shell *sh, FILE *to) {
 
 /* ---- keys -------------------------------------------------------------------------------------- */
 
-typedef enum wish { ON, BACK, LEAVE } wish;
+typedef enum wish { GO_ON, GO_BACK, LEAVE } wish;
 
-/* One key, as it is typed. */
-static wish key(void) {
+static wish read_key(void) {
     struct termios before, raw;
     unsigned char c = 0;
     if (tcgetattr(STDIN_FILENO, &before))
@@ -43,39 +42,39 @@ static wish key(void) {
     raw.c_cc[VMIN] = 1;
     raw.c_cc[VTIME] = 0;
     tcsetattr(STDIN_FILENO, TCSADRAIN, &raw);
-    const ssize_t n = read(STDIN_FILENO, &c, 1); /* Ctrl-C ends it */
+    const ssize_t n = read(STDIN_FILENO, &c, 1); /* Ctrl-C interrupts it */
     tcsetattr(STDIN_FILENO, TCSADRAIN, &before);
     file_unguard(guard);
     enum { CTRL_D = 4 };
-    return n != 1 || c == 'q' || c == 'Q' || c == CTRL_D ? LEAVE : c == 'b' || c == 'B' ? BACK : ON;
+    return n != 1 || c == 'q' || c == 'Q' || c == CTRL_D ? LEAVE : c == 'b' || c == 'B' ? GO_BACK : GO_ON;
 }
 
-/* The question goes past the session's output: a transcript must not have it. */
+/* Asks on the terminal, not on the session's output: the question must not get into a transcript. */
 static wish ask_key(const shell *sh) {
     static const char question[] = "(any key: go on, b: back, q: leave)";
     fflush(sh->out);
     fputs(question, stdout);
     fflush(stdout);
-    const wish w = key();
+    const wish w = read_key();
     printf("\r%*s\r", (int)sizeof question - 1, "");
     fflush(stdout);
-    if (w == BACK)
+    if (w == GO_BACK)
         fputs("(back)\n", sh->out);
     return shell_stop ? LEAVE : w;
 }
 
 /* ---- playing ----------------------------------------------------------------------------------- */
 
-/* In the user's session, whose settings come back when it ends. */
+/* A lesson being played in the user's session. */
 typedef struct lesson {
     shell *sh;
     const script *s;
-    bool keys;
-    settings set; /* the user's, and the model */
+    bool keys;    /* wait for a key at each step */
+    settings set; /* of the user, restored at the end, as are model and springs */
     model_id model;
     unsigned springs;
-    unsigned long group; /* of what was done before, for undo */
-    scene_mark *before;  /* the user's scene; NULL: nothing has been run */
+    unsigned long group; /* number of the user's last change, for undo */
+    scene_mark *before;  /* the user's scene; NULL: no statement has been run */
     calc_error *error;
 } lesson;
 
@@ -83,12 +82,12 @@ static bool is_comment(const char *line) {
     return *line == '#' || !*line;
 }
 
-/* It shows its question itself; the statement would show the answer. */
+/* Is it an `ask` statement? It prints its question itself; its text, which holds the answer, is not shown. */
 static bool is_question(const char *line) {
     return line && !strncmp(line, "ask ", 4);
 }
 
-/* A step is comments, then statements. Where the statements begin: */
+/* Where the statements begin in the step at line i: a step is comments, then statements. */
 static size_t statements_of(const script *s, size_t i) {
     while (s->line[i] && is_comment(s->line[i]))
         i++;
@@ -103,11 +102,10 @@ static size_t end_of(const script *s, size_t i) {
 }
 
 static void run_in_lesson(lesson *l, const char *line) {
-    static const source from = {NULL, true}; /* an error may be what the lesson is about */
+    static const source from = {NULL, true}; /* goes on after an error: the lesson may be about it */
     shell_line(l->sh, &from, line, strlen(line), 1);
 }
 
-/* From an empty scene. */
 static void begin_lesson(lesson *l) {
     l->sh->set = l->set;
     l->sh->set.report = REPORT_OFF;
@@ -115,7 +113,7 @@ static void begin_lesson(lesson *l) {
     run_in_lesson(l, "reset all");
 }
 
-/* Again from the beginning as far as before line `to`, unseen. */
+/* Runs the lesson again, without output, from its beginning to before line `to`. */
 static bool rewind_to(lesson *l, size_t to) {
     FILE *out = l->sh->out, *err = l->sh->err, *nowhere = shell_nowhere(l->error);
     if (!nowhere)
@@ -139,14 +137,14 @@ static size_t step_before(const script *s, size_t to) {
     return i;
 }
 
-/* An error of a statement may be what the lesson shows; these are not. */
+/* Must the lesson end: Ctrl-C, no memory, a refused file, an error in l? Other errors are part of it. */
 static bool ended(const lesson *l) {
     return l->sh->stopped || l->sh->refused || l->error->raised || shell_stop;
 }
 
-/* A line of the lesson, as text or as an object of JSON; CSV has no place for it. */
+/* Writes a line of the lesson as text, to the page, or as a JSON object; CSV leaves it out. */
 static void tell_line(const lesson *l, page_part part, const char *line) {
-    enum { LINE = 420 }; /* bytes: a line of a script is one of a terminal */
+    enum { LINE = 420 }; /* bytes: LESSON_LINE of lesson.c, and a prompt */
     answer a;
     char text[LINE], on_page[LINE + 1];
     snprintf(text, sizeof text, "%s%s", part == PAGE_STATEMENT ? "fret> " : "", line);
@@ -180,7 +178,7 @@ static void run_step(lesson *l, size_t i, size_t end) {
     }
 }
 
-/* False: it is over. *i: on to the next step, or back to one before. */
+/* Plays the step at line *i, then moves *i to the next step or the one before; false: the lesson is over. */
 static bool play_step(lesson *l, size_t *i) {
     const script *s = l->s;
     const size_t statements = statements_of(s, *i), end = end_of(s, *i);
@@ -188,18 +186,18 @@ static bool play_step(lesson *l, size_t *i) {
         tell_remark(l, "");
     for (size_t j = *i; j < statements; j++)
         tell_remark(l, s->line[j]);
-    const wish w = l->keys && s->line[statements] ? ask_key(l->sh) : ON;
-    if (w == ON) {
+    const wish w = l->keys && s->line[statements] ? ask_key(l->sh) : GO_ON;
+    if (w == GO_ON) {
         run_step(l, statements, end);
         *i = end;
-    } else if (w == BACK && l->before) {
+    } else if (w == GO_BACK && l->before) {
         *i = step_before(s, *i);
         rewind_to(l, *i);
     }
     return w != LEAVE && !ended(l);
 }
 
-/* What comes next, of lessons. */
+/* After a lesson, names the next one. */
 static void tell_next(const lesson *l) {
     enum { NEXT = 200 };
     char text[NEXT];
@@ -215,12 +213,12 @@ static void tell_next(const lesson *l) {
     tell_remark(l, text);
 }
 
-/* False: it could not go on, and the scene is as before. Without an error a statement has reported why. */
+/* False: broken off, and the scene is as before; l->error, or a statement's report, says why. */
 static bool play_lesson(lesson *l) {
     shell *sh = l->sh;
     const bool stopped = sh->stopped, refused = sh->refused, interactive = sh->interactive, waits = sh->waits;
     const int depth = progress_apart();
-    sh->stopped = sh->refused = sh->interactive = false; /* an error is one line */
+    sh->stopped = sh->refused = sh->interactive = false; /* not interactive: an error is one line */
     sh->waits = l->keys;
     tell_line(l, PAGE_TITLE, l->s->title);
     for (size_t i = 0; l->s->line[i] && play_step(l, &i);)
@@ -244,7 +242,7 @@ static bool play_lesson(lesson *l) {
     return ok;
 }
 
-/* On a page alone, which leaves the scene as it was. */
+/* Plays the lesson onto an HTML page, without keys; the scene stays as it was. */
 static bool write_lesson(lesson *l, FILE *to) {
     shell *sh = l->sh;
     const settings set = sh->set;
@@ -258,7 +256,7 @@ static bool write_lesson(lesson *l, FILE *to) {
     return played && whole;
 }
 
-/* NULL with the error, which is at the place. */
+/* Finds a built-in lesson; NULL with an error that points at its name in the statement. */
 static const script *built_in(const char *name, const span *at, calc_error *error) {
     size_t row;
     if (word_among(script_name, name, strlen(name), &row))
@@ -271,7 +269,7 @@ static const script *built_in(const char *name, const span *at, calc_error *erro
     return NULL;
 }
 
-/* The page is looked at before long work. */
+/* Opens the page before the lesson is played, so that a bad name is known at once. */
 static bool open_page(const lexer *lx, const heard *to, target *t) {
     char name[FILE_NAME];
     hole_file(lx, &to->hole[0], name);
@@ -304,7 +302,7 @@ static bool play(shell *sh, lexer *lx, const script *s, bool tour, target *page)
     return true;
 }
 
-/* A name with a `.` or a `/` is that of a file. */
+/* A name with a `.` or a `/` is a file, others are built-in lessons. */
 bool do_demo(shell *sh, lexer *lx, said *all) {
     lesson_text own = {.title = NULL};
     target page = {.to = NULL};

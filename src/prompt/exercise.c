@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* `ask`: a question to whoever learns, and its answer. Changes nothing. */
+/* The command ask: a question to a learner, guesses at a terminal, the answer. Changes nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,13 +15,13 @@ enum { CHOICES = 9 };
 
 typedef struct exercise {
     shell *sh;
-    char *text, *hint; /* hint: or NULL */
+    char *text, *hint; /* hint: NULL if there is none */
     char *choice[CHOICES];
-    unsigned choices; /* 0: the answer is a value */
-    unsigned right;   /* the choice, from 1 */
-    column column;
-    value value;
-    long double within; /* how far off the value a guess may be */
+    unsigned choices;   /* 0: the answer is a value */
+    unsigned right;     /* number of the right choice, from 1 */
+    column column;      /* how the value is printed */
+    value value;        /* the answer */
+    long double within; /* the largest difference to the value that counts as right */
 } exercise;
 
 /* ---- reading ----------------------------------------------------------------------------------- */
@@ -64,7 +64,7 @@ static bool read_choices(exercise *x, const lexer *lx, const heard *of) {
            calc_fail(lx->error, of->hole[1].at, of->hole[1].len, "there are %u choices", x->choices);
 }
 
-/* `5 %` is a part of the value. */
+/* Reads the tolerance; one that ends in % is relative to the value. */
 static bool read_within(exercise *x, const lexer *lx, const span *part) {
     lexer own = hole_lexer(lx, part);
     value v;
@@ -81,7 +81,7 @@ static bool read_within(exercise *x, const lexer *lx, const span *part) {
            (v.v > 0 || calc_fail(lx->error, part->at, part->len, "within must be positive")) && at_end(&own);
 }
 
-/* A mere number says nothing of itself. */
+/* Names the answer "answer", where its expression is a mere number. */
 static bool name_answer(exercise *x) {
     free(x->column.name);
     x->column.name = column_name("answer", 6);
@@ -116,7 +116,7 @@ static bool read_exercise(exercise *x, lexer *lx, said *all) {
 
 /* ---- guesses ----------------------------------------------------------------------------------- */
 
-/* Beside the session: no transcript has them, and a copy of a terminal may. */
+/* Replies go to the terminal, past transcripts; replays skip lines that begin so (in a terminal's copy). */
 #define SAYS "guess: "
 #define NUMBER_WANTED "the number of a choice is wanted"
 
@@ -126,13 +126,12 @@ static void say(const char *text) {
     putc('\n', stdout);
 }
 
-/* How far off, in words. */
 static void say_off(const exercise *x, long double guess) {
     static const long double far = 2;
-    const long double is = x->value.v, ratio = is != 0 ? guess / is : 0;
-    const char *way = fabsl(guess) > fabsl(is) ? "large" : "small";
+    const long double correct = x->value.v, ratio = correct != 0 ? guess / correct : 0;
+    const char *size = fabsl(guess) > fabsl(correct) ? "large" : "small";
     char text[80];
-    if (is == 0)
+    if (correct == 0)
         snprintf(text, sizeof text, "too %s", guess > 0 ? "large" : "small");
     else if (ratio < 0)
         snprintf(text, sizeof text, "of the wrong sign");
@@ -141,11 +140,11 @@ static void say_off(const exercise *x, long double guess) {
     else if (ratio > 0 && 1 / ratio > far)
         snprintf(text, sizeof text, "too small, the answer is %.3Lg times as much", 1 / ratio);
     else
-        snprintf(text, sizeof text, "%.2Lg %% too %s", 100 * fabsl(ratio - 1), way);
+        snprintf(text, sizeof text, "%.2Lg %% too %s", 100 * fabsl(ratio - 1), size);
     say(text);
 }
 
-/* The expression must be one of the dimension of the answer; without one a word says why. */
+/* Reads a guess: an expression with the dimension of the answer. Else says why not, and returns false. */
 static bool read_guess(exercise *x, const char *line, long double *guess) {
     calc_error *const error = error_quiet();
     lexer lx;
@@ -164,10 +163,11 @@ static bool read_guess(exercise *x, const char *line, long double *guess) {
 static bool is_right(const exercise *x, long double guess) {
     if (x->choices)
         return guess == x->right;
-    return fabsl(guess - x->value.v) <= x->within * (1 + 1e-12L); /* the end of the range is in it */
+    return fabsl(guess - x->value.v) <=
+           x->within * (1 + 1e-12L); /* rounding must not exclude the end of the range */
 }
 
-/* False: it was the last. */
+/* Replies to a line; false: no further guess is wanted. */
 static bool take_guess(exercise *x, const char *line) {
     long double guess;
     if (!*line)
@@ -191,7 +191,7 @@ static bool take_guess(exercise *x, const char *line) {
     return true;
 }
 
-/* Until a guess is right, or none is typed. */
+/* Takes guesses until one is right, or an empty line, the end of the input or Ctrl-C. */
 static void take_guesses(exercise *x) {
     const int depth = progress_apart();
     bool more = true;

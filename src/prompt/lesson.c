@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads lessons. What is wrong with one is said before it is played, as far as it can be told. */
+/* Reads lessons from files, and reports what is wrong with one before it is played. */
 #include "prompt/lesson.h"
 
 #include <stdlib.h>
@@ -10,18 +10,18 @@
 #include "text/lines.h"
 
 enum {
-    LESSON_LINE = 400, /* bytes, which a terminal still shows */
-    MISTAKES = 20      /* that are told */
+    LESSON_LINE = 400, /* most bytes of a line */
+    MISTAKES = 20      /* most mistakes that are reported */
 };
 
-/* A statement that ends so is about its error. */
+/* A statement that ends with this comment must fail. */
 #define REFUSED "# refused"
 
 typedef struct reading {
-    shell *sh, *trial; /* NULL: lines alone are wanted */
+    shell *sh, *trial; /* trial: the session that runs the statements; both NULL: lesson_lines */
     source from;
     lesson_text *out;
-    bool transcript; /* lines without a prompt are answers */
+    bool transcript; /* a prompt has been seen: lines without one are answers */
     size_t statements, mistakes;
     calc_error *error;
 } reading;
@@ -37,14 +37,14 @@ void lesson_free(lesson_text *t) {
     free(t->title);
 }
 
-/* A mistake in line `number`, which is text; its error has the place. */
+/* Reports a mistake in line `number`, which is `text`. Returns true: the reading goes on. */
 static bool tell_mistake(reading *r, const char *text, size_t number, calc_error *mistake) {
     shell_report(r->sh, &r->from, text, strlen(text), number, mistake->at, mistake);
     r->mistakes++;
     return true;
 }
 
-/* What a terminal shows, and the whole of it. */
+/* Is the line short enough, and does a terminal show each of its characters? Reports a mistake. */
 static bool check_line(reading *r, const char *text, size_t len, size_t number) {
     calc_error *const mistake = error_quiet();
     if (len > LESSON_LINE)
@@ -58,7 +58,7 @@ static bool check_line(reading *r, const char *text, size_t len, size_t number) 
     return !mistake->raised || !tell_mistake(r, text, number, mistake);
 }
 
-/* Runs it; false: the lesson cannot be read on. */
+/* Runs a line and reports a mistake; false: Ctrl-C or no memory. */
 static bool check_statements(reading *r, const char *text, size_t number) {
     calc_error *const mistake = error_quiet();
     const size_t len = strlen(text), end = sizeof REFUSED - 1;
@@ -72,7 +72,7 @@ static bool check_statements(reading *r, const char *text, size_t number) {
             return shell_stop ? calc_interrupted(r->error) : calc_no_memory(r->error);
         if (!ok && !meant) {
             calc_word(&r->trial->calc, mistake);
-            if (!mistake->raised) /* it has been told where it was */
+            if (!mistake->raised) /* a nested file has reported its own error */
                 calc_raise(mistake, 0, 0, "the file that it runs fails");
             mistake->at += i;
             return tell_mistake(r, text, number, mistake);
@@ -107,12 +107,12 @@ static bool take_title(reading *r, const char *text, size_t number) {
     return r->out->title || calc_no_memory(r->error);
 }
 
-/* Marks and line ends become blanks. False: the lesson cannot be read on. */
+/* Takes a logical line, newlines and tabs as blanks. False: the reading cannot go on. */
 static bool take_line(reading *r, file_in *in) {
     size_t len = in->length;
     const bool prompt = begins_with_prompt(in->line, len);
     const size_t before = prompt ? (size_t)(strip_prompt(in->line, &len) - in->line) : 0;
-    if (!r->trial && prompt && !r->transcript) /* what comes before is none of it */
+    if (!r->trial && prompt && !r->transcript) /* the first prompt: the lines before are no statements */
         drop_lines(r->out);
     r->transcript = r->transcript || prompt;
     if (r->transcript && !prompt && (r->out->title || !r->trial))
@@ -132,7 +132,7 @@ static bool take_line(reading *r, file_in *in) {
     const size_t number = (size_t)in->number;
     if (!check_line(r, line, len, number))
         return true;
-    if (!*line && !r->out->count) /* around the title */
+    if (!*line && !r->out->count) /* empty lines around the title */
         return true;
     if (!r->out->title && (!take_title(r, line, number) || !r->transcript))
         return r->out->title != NULL;
@@ -180,7 +180,7 @@ bool lesson_lines(const char *path, lesson_text *out, calc_error *error) {
 
 bool lesson_read(shell *sh, const char *path, lesson_text *out, calc_error *error) {
     enum { NESTING = 4 };
-    static int nesting; /* a lesson may play others */
+    static int nesting; /* a lesson may `demo` another */
     reading r = {.sh = sh, .out = out, .from = {path, true}, .error = error};
     FILE *nowhere = shell_nowhere(error);
     *out = (lesson_text){.title = NULL};
@@ -192,7 +192,7 @@ bool lesson_read(shell *sh, const char *path, lesson_text *out, calc_error *erro
     if (!r.trial)
         return calc_no_memory(error);
     shell_init(r.trial, nowhere, nowhere);
-    r.trial->replaying = true; /* nothing is drawn, asked or recorded */
+    r.trial->replaying = true; /* so that nothing is drawn, asked or recorded */
     nesting++;
     const bool ok = read_file(&r, path);
     nesting--;

@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A script to be stepped through: a lesson in a file of whoever teaches, or the script of the full-screen
- * mode. */
+/* Reads scripts to be stepped through: a lesson from a user's file, or a script of the full-screen mode. */
 #ifndef PROMPT_LESSON_H
 #define PROMPT_LESSON_H
 
 #include "statement/shell.h"
 
 typedef struct lesson_text {
-    char *title; /* NULL: lines alone */
+    char *title; /* NULL: read by lesson_lines */
     char **line; /* statements and comments, ended by NULL */
     size_t count, room;
 } lesson_text;
 
-/* Both read a script, or a transcript, of which what follows its prompts counts. False with the error; to be
- * freed whatever comes. */
+/* Reads a script, or the statements of a transcript. False with the error. Free `out` in any case. */
 bool lesson_lines(const char *path, lesson_text *out, calc_error *error);
-/* With its title, and run unseen in a session of its own: mistakes are told line by line. */
+/* The same for a lesson, whose first line is its title; also runs it, without output, in a session of its own
+ * and reports each mistake with its line. */
 bool lesson_read(shell *sh, const char *path, lesson_text *out, calc_error *error);
 void lesson_free(lesson_text *t);
 

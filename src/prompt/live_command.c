@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The full-screen mode as a command: what the shell does for it. */
+/* The command live: starts the full-screen mode, runs its statements and completes its lines. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,7 +22,7 @@ static bool run_for_live(void *self, const char *line, char **answer) {
     record_line(sh, line, strlen(line));
     record_swap(sh, &out, &err);
     const bool interactive = sh->interactive;
-    sh->interactive = false; /* an error is one line, a demo does not wait for keys */
+    sh->interactive = false; /* errors are one line, a demo does not wait for keys */
     const bool ok = shell_line(sh, &from, line, strlen(line), 1);
     sh->interactive = interactive;
     record_swap(sh, &out, &err); /* a recording may have begun or ended */
@@ -55,7 +55,7 @@ static void complete_line(void *self, char *line, size_t size, size_t *cursor) {
     candidates_free(&found);
 }
 
-/* Of a script played without a terminal. */
+/* Prints the last screen of a script played without a terminal. */
 static bool show_screen(shell *sh, const char *screen, calc_error *error) {
     text_out t;
     if (!text_begin(&t, sh, TEXT_PICTURE, error))
@@ -80,7 +80,7 @@ static bool run_live(shell *sh, const char *const *script, calc_error *error) {
     sh->set.color = sh->set.color_out = false;
     sh->set.pages = false; /* a pager would take the terminal */
     if (sh->set.report == REPORT_AUTO)
-        sh->set.report = REPORT_OFF; /* the screen shows it */
+        sh->set.report = REPORT_OFF; /* the screen shows the results */
     progress_hide();
     bool ok = live_run(&host, script, &work, &screen, error);
     sh->set.color = before.color;
@@ -99,7 +99,7 @@ static bool run_live(shell *sh, const char *const *script, calc_error *error) {
 bool shell_live(shell *sh, const char *path, calc_error *error) {
     lesson_text script = {.title = NULL};
     bool ok = !path || lesson_lines(path, &script, error);
-    if (!sh->replaying) /* else the transcript goes on with the statements that were run on the screen */
+    if (!sh->replaying) /* a transcript holds the statements that were run on the screen after `live` */
         ok = ok && run_live(sh, path ? (const char *const *)script.line : NULL, error);
     lesson_free(&script);
     return ok;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The program: options, signals, jobs, exit status. */
+/* main(): options, signals and exit status; runs scripts, replays, the prompt or the full-screen mode. */
 #include <errno.h>
 #include <fcntl.h>
 #include <getopt.h>
@@ -46,14 +46,14 @@ static void on_interrupt(int signal) {
     shell_stop = 1;
 }
 
-/* Puts the terminal right and removes unfinished files; then the signal ends the program. */
+/* Restores the terminal and removes unfinished files; then the signal ends the program. */
 static void on_end(int number) {
     file_emergency();
     signal(number, SIG_DFL);
     raise(number);
 } /* unreached: it has ended us */
 
-/* What nohup(1), or a shell that starts us in the background, has us ignore stays ignored. */
+/* A signal that is ignored (nohup, a background job) stays so, unless the standard input is a terminal. */
 static void handle(int number, void (*handler)(int)) {
     const struct sigaction act = {.sa_handler = handler}; /* no SA_RESTART: a blocked read must return */
     struct sigaction before = {.sa_handler = SIG_DFL};
@@ -67,7 +67,7 @@ static void set_signals(void) {
     for (int n = 1; n < FILE_SIGNALS; n++)
         if (file_signal_ends(n))
             handle(n, on_end);
-    signal(SIGCHLD, SIG_DFL); /* whoever started us may not have waited for children, but we do */
+    signal(SIGCHLD, SIG_DFL); /* if the parent ignored it, waitpid(2) would not work here */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a write that fails is an error like any other */
 }
@@ -75,7 +75,7 @@ static void set_signals(void) {
 /* ---- options ----------------------------------------------------------------------------------- */
 
 typedef struct job {
-    const char *path, *text; /* text: statements, or NULL */
+    const char *path, *text; /* text: the statements of -c; NULL: run the file `path` */
 } job;
 
 /* What the command line asks for. */
@@ -87,7 +87,7 @@ typedef struct wishes {
     size_t count;
 } wishes;
 
-static int keep_going, quiet, no_rc, live; /* getopt sets them */
+static int keep_going, quiet, no_rc, live; /* set by getopt_long */
 
 static int bad_usage(const char *what, const char *word) {
     fprintf(stderr, "fret: %s%s", what, word ? " " : "");
@@ -108,7 +108,7 @@ static int take_format(settings *set, const char *text) {
     return setting_format(set, text) ? EXIT_OK : bad_usage("--format is text, csv or json, not", text);
 }
 
-/* Shares are run side by side, each by one process, unless a script sets more cores. */
+/* Shares run side by side, a process each; so each uses one core unless its script sets more. */
 static int take_part(shell *sh, const char *text) {
     run_share *p = &sh->share;
     int used = 0;
@@ -142,7 +142,7 @@ static int out_of_memory(void) {
 }
 
 enum {
-    IN_ORDER = 1, /* a FILE: getopt gives it where it stands, as it does -f and -c */
+    IN_ORDER = 1, /* a FILE: the leading "-" of the option string makes getopt return these in order */
     OPT_REPLAY = 256,
     OPT_LIVE,
     OPT_TOLERANCE,
@@ -169,7 +169,7 @@ static const struct option options[] = {{"replay", required_argument, NULL, OPT_
                                         {"help", no_argument, NULL, OPT_HELP},
                                         {NULL, 0, NULL, 0}};
 
-/* The option getopt stopped at: C libraries differ in where argv stands then. */
+/* The option that getopt refused, as it was typed; C libraries differ in where optind points then. */
 static const char *option_word(char **argv) {
     static char word[32];
     const struct option *o = options;
@@ -251,7 +251,6 @@ static int run_jobs(shell *sh, const wishes *w) {
     return status;
 }
 
-/* One script, or none. */
 static int run_live(shell *sh, const wishes *w) {
     calc_error error = ERROR_NONE;
     if (w->count > 1 || (w->count && w->jobs[0].text))
@@ -262,7 +261,7 @@ static int run_live(shell *sh, const wishes *w) {
     return EXIT_ERROR;
 }
 
-/* Each in a session of its own; one that differs does not stop the others. */
+/* Replays each transcript in a session of its own; one that differs does not stop the others. */
 static int run_replays(shell *sh, const wishes *w) {
     int status = EXIT_OK;
     for (size_t i = 0; i < w->count; i++)
@@ -303,22 +302,22 @@ static int run_wishes(shell *sh, const wishes *w) {
     return shell_run(sh, "-", NULL);
 }
 
-/* What the starter has closed stays so: no file of ours may become a standard stream. */
+/* Opens closed standard streams so that using them still fails, but no later file gets their number. */
 static void keep_closed(void) {
     for (int fd = 0; fd <= STDERR_FILENO; fd++)
         if (fcntl(fd, F_GETFD) < 0)
             open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-/* A home that is relative is none: what lies in the current directory may be a stranger's. readline reads
- * settings at home, too, as other programs do that we start. */
+/* Unsets a relative HOME: what lies in the current directory may be another user's, and readline and the
+ * programs started here read settings from HOME, too. */
 static void check_home(void) {
     const char *home = getenv("HOME");
     if (home && *home != '/')
         unsetenv("HOME");
 }
 
-/* A lost write is an error. Where the reader has gone, SIGPIPE ends the program as it ends others. */
+/* Flushes the output: a lost write is an error. If the reader of a pipe is gone, ends by SIGPIPE as usual. */
 static int finish_output(shell *sh, int status) {
     record_end(sh, false);
     if (sh->share.out)
@@ -332,7 +331,7 @@ static int finish_output(shell *sh, int status) {
         raise(SIGPIPE);
     } /* unreached: it has ended us */
     if (bad || fclose(sh->out)) {
-        if (status == EXIT_OK) { /* else an error has been reported already */
+        if (status == EXIT_OK) { /* one error message is enough */
             fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno ? errno : EIO));
             status = EXIT_ERROR;
         }
@@ -349,7 +348,7 @@ int main(int argc, char **argv) {
     wishes w = {.color = "auto", .jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
     if (!w.jobs)
         return out_of_memory();
-    if (!isatty(STDOUT_FILENO)) /* musl writes the first line early: an error is forgotten by the end */
+    if (!isatty(STDOUT_FILENO)) /* musl would write the first line at once, and forget its error by the end */
         setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     command_use(commands, holes);
     shell_init(&sh, stdout, stderr);

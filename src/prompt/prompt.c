@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The interactive session: typed and pasted lines become statements. */
+/* The interactive session: reads typed and pasted lines and runs them. */
 #include "prompt/prompt.h"
 
 #include <errno.h>
@@ -10,7 +10,7 @@
 #include "statement/record.h"
 #include "text/lines.h"
 
-/* Nothing is said of a file that is not there. */
+/* Runs the start-up file; one that does not exist is no error. */
 static void read_startup(shell *sh) {
     char path[FILE_PATH];
     const bool before = sh->keep_going;
@@ -21,8 +21,7 @@ static void read_startup(shell *sh) {
     sh->keep_going = before;
 }
 
-/* ---- lines ------------------------------------------------------------------------------------- */
-
+/* The callback by which text/file_in gets a typed line. */
 static char *ask(void *self, bool continued) {
     char *text = prompt_line(continued ? "....> " : "fret> ", continued);
     (void)self;
@@ -35,9 +34,9 @@ static char *ask(void *self, bool continued) {
     return text;
 }
 
-/* ---- what is for the prompt alone -------------------------------------------------------------- */
+/* ---- lines for the prompt alone ---------------------------------------------------------------- */
 
-/* `!COMMAND`. */
+/* Runs `!COMMAND` by the system's shell. */
 static void run_system(shell *sh, const char *line) {
     fflush(sh->out);
     const int status = system(line);
@@ -53,7 +52,7 @@ bool shell_special(shell *sh, const source *from, const char *text) {
     record_line(sh, text, strlen(text));
     if (*text != '!' && *text != '?')
         return false;
-    if (*text == '!' && sh->replaying) { /* what it wrote went past the session */
+    if (*text == '!' && sh->replaying) { /* not run again; its output may stand in the transcript */
         fprintf(sh->out, "%c\n", MARK_DRAWING);
     } else if (*text == '!') {
         run_system(sh, text + 1);
@@ -99,7 +98,7 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
             run_line(sh, in.line);
         else if (got == FILE_GOT_ERROR)
             shell_error(sh, error.text);
-        if (got != FILE_GOT_LINE || shell_stop) /* Ctrl-C drops the line, and what was pasted behind it */
+        if (got != FILE_GOT_LINE || shell_stop) /* Ctrl-C drops the line and the rest of a paste */
             prompt_drop();
     }
     file_in_close(&in);

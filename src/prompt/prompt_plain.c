@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines as the terminal gives them: no editing but its own, no history. */
+/* Lines without readline: only the terminal's own editing, no history. */
 #include <stdlib.h>
 
 #include "prompt/prompt.h"
@@ -16,7 +16,7 @@ char *prompt_line(const char *text, bool continued) {
     fflush(stdout);
     ssize_t n = getline(&line, &room, stdin);
     if (n < 0) {
-        clearerr(stdin); /* Ctrl-C is no error of the stream */
+        clearerr(stdin); /* a read that Ctrl-C interrupted sets the error flag */
         fputc('\n', stdout);
         free(line);
         return NULL;

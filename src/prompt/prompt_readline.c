@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines by readline: editing, history, completion. */
+/* Lines by readline, with editing, history and completion. */
 #include <errno.h>
 #include <fcntl.h>
 #include <langinfo.h>
@@ -18,21 +18,19 @@
 #include "prompt/prompt.h"
 #include "text/lines.h"
 
-/* readline's callbacks carry no context */
-static shell *completing;
-static bool at_work;          /* readline is */
-static int history_file = -1; /* open for appending; -1: none is kept */
+static shell *completing;     /* readline passes no context to its callbacks */
+static bool in_readline;      /* a call of readline is running */
+static int history_file = -1; /* open for appending; -1: no history is kept */
 
 /* ---- signals ----------------------------------------------------------------------------------- */
 
-/* While a line is edited the terminal is not as the user left it: it is put right before the program is
- * stopped, and taken again when it goes on. What ends the program finds the terminal in the list of
- * text/file.h. */
-static struct stop {
+/* While a line is edited readline has changed the terminal's modes: they are restored before Ctrl-Z stops the
+ * program, and set again when it continues. For signals that end it file_guard_terminal does that. */
+static struct job_signal {
     int number;
     struct sigaction before;
-} stops[] = {{.number = SIGTSTP}, {.number = SIGCONT}};
-enum { STOPS = sizeof stops / sizeof *stops };
+} job_signals[] = {{.number = SIGTSTP}, {.number = SIGCONT}};
+enum { JOB_SIGNALS = sizeof job_signals / sizeof *job_signals };
 
 static volatile sig_atomic_t caught;
 
@@ -40,54 +38,56 @@ static void on_signal(int number) {
     caught = number;
 }
 
-static void take_stops(void) {
+static void take_job_signals(void) {
     const struct sigaction act = {.sa_handler = on_signal};
-    for (struct stop *s = stops; s < stops + STOPS; s++)
+    for (struct job_signal *s = job_signals; s < job_signals + JOB_SIGNALS; s++)
         if (!sigaction(s->number, NULL, &s->before) && s->before.sa_handler != SIG_IGN)
             sigaction(s->number, &act, NULL);
 }
 
-static void give_stops_back(void) {
-    for (struct stop *s = stops; s < stops + STOPS; s++)
+static void restore_job_signals(void) {
+    for (struct job_signal *s = job_signals; s < job_signals + JOB_SIGNALS; s++)
         sigaction(s->number, &s->before, NULL);
 }
 
-/* Lets the signal do what it would have done; whoever stopped us may have changed the terminal. */
+/* Lets the signal act as it does without a handler; the shell may change the terminal's modes meanwhile. */
 static void act_on_signal(void) {
     const int number = caught;
     caught = 0;
     rl_deprep_term_function();
-    give_stops_back();
+    restore_job_signals();
     if (number != SIGCONT)
         raise(number);
-    take_stops();
+    take_job_signals();
     rl_prep_term_function(1);
     rl_forced_update_display();
 }
 
-/* Where a paste is cut off readline does not end its text: read_key sends the end of a paste first, and
- * only then EOF. */
+/* If the input ends within a bracketed paste, readline would wait for the end mark for ever: read_key returns
+ * that mark first, and EOF only when readline has left the paste. */
 static bool pasting;
-static size_t ending; /* bytes of the end that it has got */
-static bool told_stop;
+static size_t end_sent; /* bytes of the end mark that readline has got */
+static bool echoed_stop;
 
 static int nothing_more(void) {
     static const char end[] = "\033[201~";
-    if (shell_stop && !told_stop) { /* a copy of the terminal tells that the line was dropped */
-        rl_point = rl_end;          /* the next prompt is to stand below all of its rows */
+    if (shell_stop && !echoed_stop) { /* ^C on the screen shows that the line was dropped */
+        rl_point = rl_end;            /* and the next prompt stands below all rows of the line */
         rl_redisplay();
         rl_echo_signal_char(SIGINT);
     }
-    told_stop = true;
-    return pasting ? end[ending++ % (sizeof end - 1)] : EOF;
+    echoed_stop = true;
+    return pasting ? end[end_sent++ % (sizeof end - 1)] : EOF;
 }
 
-/* Lines of a paste that are still to come, each at a prompt of its own, so that the screen holds a session as
- * if it had been typed; the last is left to be edited. */
+/* The lines of a paste. Each is shown at a prompt of its own and run, as if typed; the last one is left for
+ * the user to edit. */
 static char *pasted;
-static size_t pasted_at, left_out; /* answers of a pasted session */
-static bool goes_on;               /* the line being typed, with the one before */
+static size_t pasted_at; /* the next line */
+static size_t left_out;  /* lines of a pasted session that were dropped as answers */
+static bool continues;   /* the line being typed continues the one before */
 
+/* readline calls it when a prompt is on the screen: inserts the next pasted line. */
 static int next_pasted(void) {
     if (!pasted)
         return 0;
@@ -113,27 +113,27 @@ void prompt_drop(void) {
 
 static int paste(int count, int key) {
     pasting = true;
-    ending = 0;
+    end_sent = 0;
     const int status = rl_bracketed_paste_begin(count, key);
     pasting = false;
     if (shell_stop || !strchr(rl_line_buffer, '\n') || !(pasted = strdup(rl_line_buffer)))
         return status;
-    left_out = paste_lines(pasted, goes_on);
+    left_out = paste_lines(pasted, continues);
     rl_replace_line("", 1);
     rl_point = 0;
     return next_pasted();
 }
 
-/* readline's own getc restarts after a signal: Ctrl-C would not be seen before the next key. Signals are let
- * through while it waits and nowhere else, so that none comes between looking and waiting. */
+/* Replaces rl_getc, which reads on after a signal: Ctrl-C would act only at the next key. Signals are blocked
+ * except within pselect(2), so that none is lost between looking at the flags and waiting. */
 static int read_key(FILE *in) {
     const int fd = fileno(in);
     unsigned char c;
     sigset_t ours, before;
     sigemptyset(&ours);
     sigaddset(&ours, SIGINT);
-    for (size_t i = 0; i < STOPS; i++)
-        sigaddset(&ours, stops[i].number);
+    for (size_t i = 0; i < JOB_SIGNALS; i++)
+        sigaddset(&ours, job_signals[i].number);
     for (;;) {
         fd_set set;
         FD_ZERO(&set);
@@ -148,7 +148,7 @@ static int read_key(FILE *in) {
             act_on_signal();
             continue;
         }
-        if (ready <= 0) /* unreached: a signal that is none of these */
+        if (ready <= 0) /* unreached: no other signal has a handler that returns */
             continue;
         const ssize_t n = read(fd, &c, 1);
         if (n == 1)
@@ -158,10 +158,9 @@ static int read_key(FILE *in) {
     }
 }
 
-/* What is typed is UTF-8 whatever the locale says. Where that has another code, readline takes the first byte
- * of a character for a Meta key, and moves by bytes: it asks for the locale when it begins and again before
- * every line, and calls this behind it. Where C.UTF-8 is not installed the cursor moves by bytes all the
- * same. */
+/* Input is UTF-8 whatever the locale. In a locale with another code readline would take the first byte of a
+ * character for a Meta key, and move the cursor by bytes. It reads the locale at its start and before every
+ * line, then calls this hook. If C.UTF-8 is not installed, the cursor does move by bytes. */
 static int take_utf8(void) {
     rl_variable_bind("convert-meta", "off");
     rl_variable_bind("input-meta", "on");
@@ -175,7 +174,7 @@ static int take_utf8(void) {
 
 static candidates found;
 
-/* Tells readline where the word begins, by the one byte before it. */
+/* readline asks for the bytes that end a word; the one before our word makes it begin where we want. */
 static char *word_breaks(void) {
     static char breaks[2];
     candidates_free(&found);
@@ -194,8 +193,8 @@ static char *next_match(const char *text, int state) {
     return next < found.count ? strdup(found.word[next++]) : NULL;
 }
 
-/* Puts a name into quotation marks. The last mark is left to readline where the first was typed, and left out
- * after a directory, which goes on. A name that holds a mark stays as it is. */
+/* Puts a file name into quotation marks; a name that holds one stays as it is. The closing mark is missing if
+ * the user typed the opening one (readline adds it) and after a directory, whose path goes on. */
 static char *quote_name(char *name, int how_many, char *typed) {
     struct stat st = {.st_mode = 0};
     const size_t room = strlen(name) + 3;
@@ -208,13 +207,14 @@ static char *quote_name(char *name, int how_many, char *typed) {
     return quoted;
 }
 
+/* The matches for readline; NULL lets it complete file names. */
 static char **matches(const char *text, int start, int end) {
     (void)end;
     rl_attempted_completion_over = 1;
     if ((size_t)start != found.start)
         return NULL;
     if (found.files) {
-        rl_attempted_completion_over = 0; /* readline knows file names */
+        rl_attempted_completion_over = 0;
         return NULL;
     }
     if (found.count == 1) {
@@ -229,15 +229,15 @@ static char **matches(const char *text, int start, int end) {
 enum { HISTORY_READ = 16 << 20, HISTORY_LINES = 10000, HISTORY_LINE = 1 << 16 };
 
 static void remember(const char *line) {
-    at_work = true;
+    in_readline = true;
     add_history(line);
-    at_work = false;
+    in_readline = false;
 }
 
-/* The latest lines of the file, without bytes 0 and without lines that are too long to be kept. */
+/* Reads the last lines of the history file, without NUL bytes and without lines that are too long. */
 static void read_lines(int fd, const char *path, off_t size) {
     file_in in;
-    bool part = size > HISTORY_READ; /* of a line comes first */
+    bool part = size > HISTORY_READ; /* the first line read is only a part */
     if (part)
         lseek(fd, size - HISTORY_READ, SEEK_SET);
     if (!file_in_take(&in, fd, path, NULL, error_quiet()))
@@ -254,8 +254,8 @@ static void read_lines(int fd, const char *path, off_t size) {
     file_in_close(&in);
 }
 
-/* For the user alone, and a plain file: a pipe would block, and a link may lead anywhere. One that cannot be
- * written is read. */
+/* Opens and reads the history: readable by the user alone, and a regular file, for a pipe would block and a
+ * link may lead anywhere. A file that cannot be written is read. */
 static void open_history(shell *sh) {
     enum { FLAGS = O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | O_NOCTTY };
     char path[FILE_PATH];
@@ -288,13 +288,13 @@ static void open_history(shell *sh) {
     }
 }
 
-/* ---- what the session calls -------------------------------------------------------------------- */
+/* ---- prompt.h ---------------------------------------------------------------------------------- */
 
-/* readline ends the program where it finds no memory; the terminal must not stay as it had it. */
+/* readline calls exit(3) when it is out of memory: restores the terminal. */
 static void at_exit(void) {
-    if (!at_work)
+    if (!in_readline)
         return;
-    at_work = false;
+    in_readline = false;
     rl_deprep_term_function();
     fflush(NULL);
     _exit(EXIT_ERROR);
@@ -303,7 +303,7 @@ static void at_exit(void) {
 void prompt_begin(shell *sh) {
     completing = sh;
     atexit(at_exit);
-    at_work = true;
+    in_readline = true;
     rl_readline_name = "fret"; /* `$if fret` in inputrc */
     rl_getc_function = read_key;
     rl_startup_hook = take_utf8;
@@ -318,7 +318,7 @@ void prompt_begin(shell *sh) {
     rl_catch_signals = 0;
     using_history();
     stifle_history(HISTORY_LINES);
-    at_work = false;
+    in_readline = false;
     open_history(sh);
 }
 
@@ -331,26 +331,26 @@ char *prompt_line(const char *text, bool continued) {
     }
     tcgetattr(STDIN_FILENO, &modes);
     const int guard = file_guard_terminal(&modes, shell_escapes() ? "\033[?2004l\r" : "");
-    told_stop = false;
-    goes_on = continued;
-    take_stops();
-    at_work = true;
+    echoed_stop = false;
+    continues = continued;
+    take_job_signals();
+    in_readline = true;
     char *line = readline(text);
-    const char *bracketed = rl_variable_value("enable-bracketed-paste"); /* it ends the line itself then */
+    const char *bracketed = rl_variable_value("enable-bracketed-paste"); /* with it readline ends the line */
     if (!line && !(bracketed && !strcmp(bracketed, "on")))
         fputc('\n', stdout);
-    if (shell_stop) /* clears what the editor holds of the line */
+    if (shell_stop) /* clears the state of a search or an argument that Ctrl-C broke off */
         rl_callback_sigcleanup();
-    at_work = false;
-    give_stops_back();
+    in_readline = false;
+    restore_job_signals();
     file_unguard(guard);
-    if (caught) /* came when the line was done: it acts now */
+    if (caught) /* came after the last key: it acts now */
         raise(caught);
     caught = 0;
     return line;
 }
 
-/* One write at the end of the file: two sessions do not mix. */
+/* Appends by one write, so that the lines of two sessions do not mix. */
 void prompt_keep(const char *line) {
     const size_t n = strlen(line);
     char *copy = n <= HISTORY_LINE ? malloc(n + 2) : NULL;

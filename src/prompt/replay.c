@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A transcript is a test: lines after `fret> ` are run, what follows each must come out again. A copy of a
- * terminal is one too: what depends on who types, on the terminal and on the clock may be there or not. */
+/* Replays a transcript as a test: runs the lines after `fret> ` and compares the answers. Lines that depend
+ * on the user, the terminal or the clock may be missing, so a copy of a terminal will do as well. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ static bool starts_number(const char *s) {
     return (*s >= '0' && *s <= '9') || (*s == '.' && s[1] >= '0' && s[1] <= '9');
 }
 
-/* One unit in the last printed place of the number at s. */
+/* One unit in the last printed place of the number from s to end. */
 static double last_place(const char *s, const char *end) {
     int places = 0;
     bool point = false;
@@ -34,7 +34,7 @@ static double last_place(const char *s, const char *end) {
     return pow(10, (e < end ? strtod(e + 1, NULL) : 0) - places);
 }
 
-/* Equal, but for numbers that agree to the digits wanted, or within the tolerance. */
+/* Is the text equal, and does each number agree to the digits that `want` shows, or within the tolerance? */
 static bool same_plainly(const char *want, const char *got, double tolerance) {
     while (*want && *got) {
         if (starts_number(want) && starts_number(got)) {
@@ -51,7 +51,7 @@ static bool same_plainly(const char *want, const char *got, double tolerance) {
     return *want == *got;
 }
 
-/* Past `FILE:LINE:COLUMN: ` of an error: the same statement has another place in a replay. */
+/* The line without the `FILE:LINE:COLUMN: ` of an error: a replay has other places. */
 static const char *without_place(const char *line) {
     const char *error = strstr(line, ": error: ");
     const char *p = error;
@@ -63,7 +63,7 @@ static const char *without_place(const char *line) {
     return error && p > line ? error + 2 : line;
 }
 
-/* Formulas may have been typeset in another locale. */
+/* The same, also if a formula was typeset in one locale and not in the other, or the place differs. */
 static bool same(const char *want, const char *got, double tolerance) {
     enum { FORMULA = 600 };
     char set[2][FORMULA];
@@ -77,7 +77,7 @@ static bool same(const char *want, const char *got, double tolerance) {
     return same_plainly(set[0], set[1], tolerance);
 }
 
-/* The end of the line without what a terminal leaves there. */
+/* The length of the line without blanks and carriage returns at its end. */
 static size_t line_length(const char *line) {
     size_t n = strcspn(line, "\n");
     while (n > 0 && (line[n - 1] == ' ' || line[n - 1] == '\r'))
@@ -90,7 +90,7 @@ static char *line_after(char *line) {
     return line + (*line != 0);
 }
 
-/* Each ends in a NUL meanwhile. */
+/* Compares the first lines of two texts, each ended by a NUL meanwhile. */
 static bool same_lines(char *want, char *got, double tolerance) {
     char *const ends[] = {want + line_length(want), got + line_length(got)};
     const char were[] = {*ends[0], *ends[1]};
@@ -109,18 +109,18 @@ static bool begins(const char *line, const char *words) {
     return !strncmp(line, words, strlen(words));
 }
 
-/* What two runs tell differently: times, guesses, and whether a file was there before. */
-static bool is_passing(const char *line) {
+/* Does the line differ from run to run: a time, a guess, whether a file existed? */
+static bool varies(const char *line) {
     return begins(line, "time: ") || begins(line, "wrote ") || begins(line, "overwrote ") ||
            begins(line, PASTED) || begins(line, "guess> ") || begins(line, "guess: ");
 }
 
-/* Compares line by line; empty lines at the end do not count. */
+/* Compares line by line, but for optional lines (MARK_ASIDE), drawings and empty lines at the end. */
 static bool compare(char *want, char *got, double tolerance) {
     while (*want || *got) {
-        if (is_passing(want)) {
+        if (varies(want)) {
             want = line_after(want);
-        } else if (is_passing(got)) {
+        } else if (varies(got)) {
             got = line_after(got);
         } else if (*got == MARK_ASIDE) {
             if (*want && same_lines(want, got + 1, tolerance))
@@ -153,11 +153,11 @@ typedef struct replay {
     shell sh;
     char *statement;
     size_t length;
-    file_text want; /* open from a statement to the next */
-    size_t at;      /* line of the statement; 0: none yet */
-    bool waits;     /* not run yet: that depends on what follows */
-    size_t prompts; /* that it printed and that are still to come: those of a demo begin no statement */
-    char *got;
+    file_text want; /* the answer in the transcript; open from a statement to the next */
+    size_t at;      /* line number of the statement; 0: none yet */
+    bool waits;     /* not run yet: it is run if an answer follows */
+    size_t prompts; /* prompts in its output (of a demo) that are still to come: these begin no statement */
+    char *got;      /* the answer of this run */
 } replay;
 
 static void show(FILE *out, char mark, char *line, bool asides) {
@@ -171,11 +171,11 @@ static void show(FILE *out, char mark, char *line, bool asides) {
     }
 }
 
-/* Lines that a transcript must have: no asides, drawings or times. */
+/* Counts the lines that a transcript must have: no asides, drawings or times. */
 static size_t count_lines(char *line) {
     size_t count = 0;
     for (; *line; line = line_after(line))
-        count += *line != MARK_ASIDE && *line != MARK_DRAWING && line_length(line) > 0 && !is_passing(line);
+        count += *line != MARK_ASIDE && *line != MARK_DRAWING && line_length(line) > 0 && !varies(line);
     return count;
 }
 
@@ -207,7 +207,7 @@ static bool run_statement(replay *r) {
     return true;
 }
 
-/* Does it end in ^C, as a line that was dropped? If an answer follows, it was not: then it is run. */
+/* Does the statement end in ^C, like a line dropped by Ctrl-C? If an answer follows, it was run after all. */
 static bool seems_dropped(const replay *r) {
     static const char end[] = "^C";
     const size_t n = sizeof end - 1, len = r->length;
@@ -228,7 +228,7 @@ static bool begin_statement(replay *r, const char *text, size_t len) {
     return r->waits || run_statement(r);
 }
 
-/* Notes and warnings of a scene that a record begins with may be there or not. */
+/* Makes notes and warnings optional after a statement that a recording put at its beginning. */
 static void spare_notes(replay *r) {
     const size_t n = strlen(RECORD_GIVEN), len = r->length;
     if (len < n || strcmp(r->statement + len - n, RECORD_GIVEN) != 0)
@@ -239,7 +239,7 @@ static void spare_notes(replay *r) {
 }
 
 static bool judge(replay *r, char *want) {
-    if (shell_stop || (r->waits && is_blank(want))) /* interrupted: there is no whole answer to compare */
+    if (shell_stop || (r->waits && is_blank(want))) /* interrupted now, or when the line was typed */
         return true;
     if (r->waits && !run_statement(r))
         return false;
@@ -253,12 +253,12 @@ static bool judge(replay *r, char *want) {
         print_safe(r->out, r->statement, r->length);
         putc('\n', r->out);
         show(r->out, '-', want, false);
-        show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* more: it has asides */
+        show(r->out, '+', r->got, count_lines(want) > count_lines(r->got)); /* `want` has asides */
     }
     return true;
 }
 
-/* What follows the statement, if there is one, has been gathered. False: out of memory. */
+/* The answer to the statement, if there is one, is complete: compares it. False: out of memory. */
 static bool judge_answer(replay *r) {
     if (!r->want.to)
         return true;
@@ -295,7 +295,7 @@ static bool take_lines(replay *r, file_in *in, calc_error *error) {
     if (ok && got != FILE_GOT_ERROR)
         ok = judge_answer(r);
     if (!ok && !shell_stop)
-        calc_no_memory(error); /* an error that came first stays */
+        calc_no_memory(error); /* does nothing if an error was raised before */
     if (ok && got == FILE_GOT_END && r->passed + r->failed == 0)
         ok = calc_fail(error, 0, 0, "%s holds no lines that begin with `fret> `", r->path);
     return ok && got != FILE_GOT_ERROR;
@@ -326,7 +326,7 @@ int shell_replay(const shell *sh, const char *path, double tolerance, calc_error
         fprintf(r.out, ": %zu passed, %zu failed\n", r.passed, r.failed);
     }
     if (shell_stop)
-        calc_interrupted(error); /* what comes first stays */
+        calc_interrupted(error);
     ok &= text_end(&t, true);
     file_in_close(&in);
     r.sh.out = r.sh.err = sh->out;

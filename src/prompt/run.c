@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statements, lines and streams of them: dispatch, and the one place that reports errors. */
+/* Runs a statement, a line of them, a stream of lines: dispatch, and the one place that reports errors. */
 #include "statement/shell.h"
 #include "text/clock.h"
 
@@ -34,7 +34,7 @@ void shell_free(shell *sh) {
 
 /* ---- statements -------------------------------------------------------------------------------- */
 
-/* `a dz` */
+/* Reports a missing comma or `*`, as in `a dz`. */
 static bool lacks_comma(lexer *lx) {
     return lx->kind == T_NAME && quantity_find(lx->text + lx->at, lx->len) &&
            !lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
@@ -59,7 +59,7 @@ static bool print_statement(shell *sh, lexer *lx) {
     return ok;
 }
 
-/* A command word alone misses more than its first argument. */
+/* Does the error say that an argument is missing? After a command word alone the whole usage helps more. */
 static bool lacks_all(const calc_error *error) {
     static const char missing[] = "expected ";
     return error->raised && error->kind == ERROR_WORDS && !strncmp(error->text, missing, sizeof missing - 1);
@@ -74,7 +74,7 @@ static bool run_row(shell *sh, lexer *lx, const command *c, said *all) {
         undo_scene(&sh->calc, before);
     else if (c->changes)
         undo_unmark(&sh->calc, before);
-    if (ok && c->changes && shell_stop) { /* while it printed its answer */
+    if (ok && c->changes && shell_stop) { /* Ctrl-C came while the answer was printed */
         undo_pop(&sh->calc, true);
         ok = calc_interrupted(lx->error);
     }
@@ -112,7 +112,7 @@ static bool assign(shell *sh, lexer *lx) {
     return ok;
 }
 
-/* An unknown word that help knows, alone or before another: the error names the page. */
+/* If help knows the unknown word, raises an error that names its page. after: the next token. */
 static bool told_of(lexer *lx, const char *word, token_kind after) {
     if (after != T_NAME && after != T_NUMBER && after != T_END)
         return false;
@@ -120,7 +120,7 @@ static bool told_of(lexer *lx, const char *word, token_kind after) {
     return where && !lex_fail(lx, "unknown name '%s'; try: %s %s", word, where, word);
 }
 
-/* What other programs are left by, as `:q`, or `q` alone, may begin with no name, or be one that is free. */
+/* Raises an error that helps with a word of other programs, such as `:q`; before: prepended to look it up. */
 static bool is_lead(lexer *lx, const char *before) {
     char word[LEX_NAME];
     size_t n = 1;
@@ -135,14 +135,14 @@ static bool is_lead(lexer *lx, const char *before) {
                       LEX_SHOWN(n), lx->text + lx->at, lead);
 }
 
-/* A misspelt command followed by its arguments. */
+/* If the statement begins with an unknown word, looks for what was meant and raises an error that says so. */
 static bool misspelt(shell *sh, lexer *lx) {
     char word[LEX_NAME];
     size_t i;
     if (names_find(&sh->calc.names, lx->text + lx->at, lx->len, &i) || name_taken(lx->text + lx->at, lx->len))
         return false;
     lex_word(lx, word);
-    if (lead_from(word)) /* a fuller error comes when the name is looked up */
+    if (lead_from(word)) /* the look-up of the name raises a fuller error */
         return false;
     const token_kind after = lex_peek(lx);
     if (after == T_END && is_lead(lx, ":"))
@@ -196,12 +196,12 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     if (ok && sh->calc.scene.used & ASKED_TANGENTIAL)
         shell_warn_dissimilar(sh);
     undo_end(&sh->calc);
-    if (shell_stop) { /* results of a run that was stopped half-way must not answer the next statement */
+    if (shell_stop) { /* results of a run stopped half-way must not be used by the next statement */
         scene_forget(&sh->calc.scene, false);
         if (!ok && error->raised) {
             error->raised = false;
             calc_interrupted(error);
-            calc_put_place(error, began, len - began); /* all of it: no word of it is to blame */
+            calc_put_place(error, began, len - began); /* the whole statement: no single word is wrong */
         }
     }
     return ok;
@@ -209,9 +209,9 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
 
 /* ---- lines ------------------------------------------------------------------------------------- */
 
-enum { SHOWN = 100 }; /* columns of a long line, around the place */
+enum { SHOWN = 100 }; /* columns shown of a long line, around the place of the error */
 
-/* The part of a line that is shown: `before` columns of it lie before the place. */
+/* Which bytes of a line to show; `before` gets the number of columns shown before the place `at`. */
 static void find_part(const char *text, size_t len, size_t at, size_t *begin, size_t *end, size_t *before) {
     *begin = 0;
     *end = len;
@@ -224,6 +224,7 @@ static void find_part(const char *text, size_t len, size_t at, size_t *begin, si
     *end = *begin + text_fit(text + *begin, len - *begin, SHOWN);
 }
 
+/* Shows the line and marks the place with ^~~. aside: marked for replays as lines a transcript may lack. */
 static void show_place(const shell *sh, bool aside, const char *text, size_t len, size_t at, size_t width) {
     FILE *to = sh->err;
     size_t begin, end, before;
@@ -253,7 +254,7 @@ static void show_place(const shell *sh, bool aside, const char *text, size_t len
 void shell_report(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
                   const calc_error *error) {
     fflush(sh->out);
-    if (shell_unread()) /* the reader has gone, which is why it failed */
+    if (shell_unread()) /* not reported: the reader of the pipe has gone */
         return;
     /* the physical line within a continued one */
     size_t begin = 0;
@@ -289,11 +290,11 @@ void shell_report(shell *sh, const source *from, const char *text, size_t len, s
     fflush(sh->err);
 }
 
-/* With the models that have answered, in parentheses. */
+/* Tells the time and the models that computed the answer. */
 static void report_time(shell *sh, double t) {
     char by[240] = "";
     const scene *s = &sh->calc.scene;
-    if (sh->replaying) /* no two runs agree */
+    if (sh->replaying) /* times differ from run to run */
         return;
     for (model_id i = 0; i < MODELS; i++)
         if (s->used & USED(i)) {
@@ -322,7 +323,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         bool done = shell_statement(sh, text + i, end - i, &error);
         if (!done)
             calc_word(&sh->calc, &error);
-        if (!done && error.raised) { /* else a nested source has reported it */
+        if (!done && error.raised) { /* not raised: a nested `source` has reported it */
             shell_report(sh, from, text, len, line, i + error.at, &error);
             sh->stopped |= error.stop;
             sh->refused |= error.refused;
@@ -339,7 +340,7 @@ bool shell_line(shell *sh, const source *from, const char *text, size_t len, siz
         i = end < len && text[end] == ';' ? end + 1 : len;
         while (i < len && text[i] == ' ')
             i++;
-        if (sh->record && sh->record != recorder && i < len) /* begun in this line: it gets the rest */
+        if (sh->record && sh->record != recorder && i < len) /* a recording began: it gets the rest */
             record_line(sh, text + i, len - i);
     }
     return ok;
@@ -351,14 +352,14 @@ int shell_stream(shell *sh, file_in *in) {
     const source from = {in->name, sh->keep_going};
     calc_error error = ERROR_NONE;
     file_got got = FILE_GOT_END;
-    bool ok = true, last = true; /* all statements so far; those of the last line */
+    bool ok = true, last = true; /* did all lines so far succeed, and the last one? */
     while (!sh->quit && !shell_stop && !ferror(sh->out) && (ok || sh->keep_going) &&
            (got = file_in_logical(in, &error)) == FILE_GOT_LINE) {
         if (sh->nesting == 0)
             record_line(sh, in->line, in->length);
         last = shell_line(sh, &from, in->line, in->length, (size_t)in->number);
         ok = ok && last;
-        if (in->waits && in->at == in->have) /* who writes into the pipe may be waiting for the answer */
+        if (in->waits && in->at == in->have) /* a program at the other end may be waiting for the answer */
             fflush(sh->out);
     }
     if (got == FILE_GOT_ERROR)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands on the session itself: scripts, settings, the end; and those that keep it: save, record, and
- * replay, which runs a kept one beside it. */
+/* Commands on the session itself: source, set, quit, save, record and replay. */
 #include <stdlib.h>
 
 #include "plot/script.h"
@@ -36,9 +35,9 @@ bool do_quit(shell *sh, lexer *lx, said *all) {
     return true;
 }
 
-/* ---- save, record, replay ---------------------------------------------------------------------- */
+/* ---- save -------------------------------------------------------------------------------------- */
 
-/* The name of a file of statements: not one that says of itself that it is a picture. */
+/* Refuses the name of a picture as the name of a file of statements. */
 static bool is_statements(const lexer *lx, const span *part) {
     char name[FILE_NAME];
     hole_file(lx, part, name);
@@ -48,8 +47,6 @@ static bool is_statements(const lexer *lx, const span *part) {
                      "such as scene.fret",
                      name);
 }
-
-/* ---- save -------------------------------------------------------------------------------------- */
 
 bool do_save(shell *sh, lexer *lx, said *all) {
     target t;
@@ -71,8 +68,8 @@ bool do_save(shell *sh, lexer *lx, said *all) {
 
 /* ---- record and replay ------------------------------------------------------------------------- */
 
-/* Settings come last: with `set format json` the statements of the scene would print objects. NULL: out of
- * memory. */
+/* The statements that a recording begins with, to be freed; NULL: out of memory. Settings come last: after
+ * `set format json` the statements of the scene would print objects. */
 static char *beginning(shell *sh) {
     file_text kept;
     if (!file_text_open(&kept))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* show: the scene, the settings and the tables of the language in writing. Changes nothing. */
+/* The command show: the scene as statements, the settings and the tables as text. Changes nothing. */
 #include "prompt/show.h"
 
 #include <math.h>
@@ -26,8 +26,8 @@ static const definition *binding(const writer *w, input in) {
     return (const definition *)w->c->scene.in.bound[in];
 }
 
-/* A bound input too is written by its value first: its definition may need the load, which needs the value.
- * It may have none before there is a load. */
+/* Bound inputs, too, are written by their value first: a definition may need the load, which needs the value.
+ * Before there is a load they may have none. */
 static bool is_set(const writer *w, input in) {
     return w->c->scene.in.set[in] && !(binding(w, in) && input_status(in, w->c->scene.in.v[in]).code);
 }
@@ -47,20 +47,20 @@ static value input_value(const writer *w, input in) {
     return (value){(long double)w->c->scene.in.v[in], quantity_dim(quantity_of_input(in), &w->c->scene)};
 }
 
-/* ` NAME=VALUE` of a command. */
+/* Writes ` NAME=VALUE` behind a command. */
 static void write_argument(writer *w, const char *name, input in) {
     putc(' ', w->to);
     write_value(w, name, "=", input_value(w, in));
 }
 
-/* A statement of its own for an input that no command could carry. */
+/* Writes `NAME = VALUE`, for an input that is no argument of a command written here. */
 static void write_input(writer *w, input in) {
     write_start(w, "");
     write_value(w, quantity_of_input(in)->name, " = ", input_value(w, in));
     putc('\n', w->to);
 }
 
-/* ` := TEXT`; the text may have been continued on another line. */
+/* Writes ` := TEXT`; line ends within a text that was continued become blanks. */
 static void write_definition(writer *w, const definition *d) {
     fputs(" := ", w->to);
     for (const char *p = d->text; *p; p++)
@@ -75,7 +75,7 @@ static void write_binding(writer *w, input in) {
     write_definition(w, binding(w, in));
 }
 
-/* `material` wants modulus and ratio; k wants its depth beside it. */
+/* `material` needs a modulus and nu (Estar alone will do), and for k also c0; the rest is set by name. */
 static void write_material(writer *w) {
     const inputs *in = &w->c->scene.in;
     const bool graded = is_set(w, IN_K) && in->v[IN_K] != 0;
@@ -124,9 +124,9 @@ static void write_second(writer *w) {
         write_input(w, IN_NU_2);
 }
 
-/* Quoted where it must be; false: no form of it can be read back. */
+/* Writes a file name, quoted if it must be; false if no form of it can be read back. */
 static bool write_file_name(writer *w, const char *name) {
-    const char *form = strchr(name, '"')          ? " %s " /* as it was typed, and no mark at the end */
+    const char *form = strchr(name, '"') ? " %s " /* as typed; the blank keeps a \ from continuing the line */
                        : strpbrk(name, " \t;#\\") ? " \"%s\""
                                                   : " %s";
     if (strpbrk(name, "\r\n"))
@@ -214,7 +214,7 @@ static void write_name(writer *w, const own_name *name) {
     }
 }
 
-/* Does a definition use a name that has not been written yet? */
+/* Does the definition of a name use another one that has not been written yet? */
 static bool waits(const calc *c, size_t row, const bool written[]) {
     const definition *d = (const definition *)c->names.row[row].definition;
     for (size_t i = 0; i < c->names.count; i++)
@@ -223,7 +223,7 @@ static bool waits(const calc *c, size_t row, const bool written[]) {
     return false;
 }
 
-/* Values first, then definitions, each after those that it uses: a name must be known to be read. */
+/* Writes values first, then definitions, each after those that it uses: a name must be known to be read. */
 static bool write_names(writer *w) {
     const own_names *n = &w->c->names;
     bool *written = calloc(n->count + 1, sizeof *written), more = true;
@@ -257,7 +257,7 @@ static void write_cycle(writer *w, const load_item *item) {
     const load_step *step = &item->step;
     const quantity *amplitude = quantity_of_input(cycle_input((load_by)step->tangential));
     write_target(w, amplitude->name, false, step->tangential_value, amplitude->d);
-    if (step->normal_value != 0 || item->extra.phase != 0) { /* the phase also alone: an FNA may be added */
+    if (step->normal_value != 0 || item->extra.phase != 0) { /* a phase without FNA too */
         write_target(w, "FNA", false, step->normal_value, DIM_FORCE);
         write_target(w, "phase", false, item->extra.phase, DIM_ANGLE);
     }
@@ -305,7 +305,7 @@ static void write_load(writer *w, bool whole) {
     }
 }
 
-/* Computes bound inputs; one that has no value yet keeps the last. */
+/* Computes the bound inputs; one that cannot be computed keeps its last value. */
 static void settle(calc *c) {
     long double unused;
     for (input i = 0; i < INPUTS; i++)
@@ -340,7 +340,7 @@ bool scene_write(shell *sh, FILE *to, bool whole) {
 
 /* ---- show -------------------------------------------------------------------------------------- */
 
-/* At the prompt a long load is shortened; a script's output may be read back. */
+/* Shortens a long load at the prompt only: a script's output may be read back. */
 static bool show_scene(shell *sh, FILE *to) {
     return scene_write(sh, to, !sh->interactive);
 }
@@ -399,5 +399,5 @@ bool show_text(shell *sh, show_part *part, calc_error *error) {
 }
 
 bool do_show(shell *sh, lexer *lx, said *all) {
-    return show_text(sh, shown[all->count ? all->list[0].choice : 0].show, lx->error); /* else the scene */
+    return show_text(sh, shown[all->count ? all->list[0].choice : 0].show, lx->error); /* 0: the scene */
 }
