@@ -25,7 +25,7 @@ bool canvas_make(plot_cells *c, rect at) {
     return made;
 }
 
-/* Of an ink on this terminal. */
+/* How this terminal shows an ink. */
 static int ink_attributes(ink of) {
     static const chtype plain[INKS] = {
         [INK_FRAME] = A_NORMAL, [INK_SLIP] = A_BOLD, [INK_POINT] = A_REVERSE, [INK_ERROR] = A_REVERSE};
@@ -80,7 +80,7 @@ char *canvas_text(void) {
     if (!file_text_open(&text))
         return NULL;
     for (int y = 0; y < LINES; y++) {
-        int blanks = 0; /* not written yet: none are at the end of a line */
+        int blanks = 0; /* not written yet, so that a line has none at its end */
         for (int x = 0; x < COLS; x++) {
             mvin_wch(y, x, &cell);
             getcchar(&cell, sign, &look, &pair, NULL);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one table of keys: what they do, and what `?` says of them. Each change of the scene is a statement. */
+/* The one table of keys: what they do, and what `?` tells about them. Each change of the scene is a
+ * statement. */
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
 #include <curses.h>
@@ -18,6 +19,7 @@ static const shot *now(const live *l) {
     return &l->side[0].now;
 }
 
+/* The value of a number in the table of the first scene, if positive; else `otherwise`. */
 static double number(const live *l, const char *name, double otherwise) {
     for (size_t i = 0; i < SHOT_VALUES; i++)
         if (!strcmp(shot_name(i), name) && now(l)->known[i] && now(l)->value[i] > 0)
@@ -27,24 +29,25 @@ static double number(const live *l, const char *name, double otherwise) {
 
 static const double parts = 25;
 
-/* By a part of the whole. */
-static void step_by(live *l, const char *name, double whole, double way) {
+/* Steps by about whole/parts, times factor. */
+static void step_by(live *l, const char *name, double whole, double factor) {
     char by[40];
     if (!(whole > 0)) {
         live_tell(l, true, "nothing is pressed: r presses again");
         return;
     }
-    live_amount(live_nice(whole / parts) * way, l->by_displacement ? DIM_LENGTH : DIM_FORCE, by, sizeof by);
+    live_amount(live_nice(whole / parts) * factor, l->by_displacement ? DIM_LENGTH : DIM_FORCE, by,
+                sizeof by);
     live_say(l, "step %s+=%s", name, by);
 }
 
-static void push(live *l, double way) {
-    step_by(l, l->by_displacement ? "dx" : "Fx", l->by_displacement ? now(l)->bound : now(l)->slip, way);
+static void push(live *l, double factor) {
+    step_by(l, l->by_displacement ? "dx" : "Fx", l->by_displacement ? now(l)->bound : now(l)->slip, factor);
 }
 
-static void press(live *l, double way) {
+static void press(live *l, double factor) {
     const char *name = l->by_displacement ? "dz" : "FN";
-    step_by(l, name, number(l, name, 0), way);
+    step_by(l, name, number(l, name, 0), factor);
 }
 
 static void drive(live *l) {
@@ -62,7 +65,7 @@ static double input_now(const live *l, input in) {
 static void grade(live *l, double by) {
     const double k = round(100 * (input_now(l, IN_K) + by)) / 100;
     char depth[40] = "";
-    if (!l->host->calc->scene.in.set[IN_C0]) /* as deep as the contact is wide */
+    if (!l->host->calc->scene.in.set[IN_C0]) /* a depth about the contact radius, where the grading matters */
         live_amount(live_nice(number(l, "a", 1e-3)), DIM_LENGTH, depth, sizeof depth);
     live_say(l, "k = %g%s%s", k, *depth ? ", c0 = " : "", depth);
 }
@@ -97,16 +100,16 @@ static void play_key(live *l) {
         script_on(l);
     } else if (!l->playing) {
         live_play(l);
-    } else if (!l->last_cycle) {
-        l->last_cycle = true;
+    } else if (!l->stops_at_end) {
+        l->stops_at_end = true;
         live_tell(l, false, "the last cycle: space again shows its end");
     } else {
         live_play_end(l);
     }
 }
 
-static void wider(live *l, double way) {
-    const double by = live_nice(now(l)->slip > 0 ? now(l)->slip / parts : 1) * way, FA = l->FA + by;
+static void wider(live *l, double sign) {
+    const double by = live_nice(now(l)->slip > 0 ? now(l)->slip / parts : 1) * sign, FA = l->FA + by;
     l->FA = FA > 0.5 * fabs(by) ? FA : l->FA;
     l->changed = true;
 }
@@ -134,7 +137,7 @@ static void undo_last(live *l) {
     live_say(l, "undo");
 }
 
-/* As pressed, nothing pushed. */
+/* Presses again, which drops all steps after the first press. */
 static void reset(live *l) {
     const scene *s = &l->host->calc->scene;
     if (!s->end.steps) {
@@ -191,7 +194,7 @@ static void save(live *l) {
     ask_line(l, "save the scene as: ", "live.fret", save_entered);
 }
 
-/* Both scenes, to the last digit. */
+/* The clause that compares both scenes in a plot statement, values exact to the last digit. */
 static void comparison_text(const live *l, char *text, size_t size) {
     snprintf(text, size, " with %s =", l->compared.by.text);
     for (size_t i = 0; i < COMPARED; i++) {
@@ -236,8 +239,7 @@ static void pull_to(live *l, int column) {
         live_say(l, "step dx=%s", to);
 }
 
-/* The point of the loop follows by displacement. Curses may hand over several events at a time, in no order.
- */
+/* Dragging in the loop steps dx to the mouse. Curses may hand over several events at once, in any order. */
 static void mouse(live *l) {
     MEVENT e;
     bool released = false;
@@ -261,10 +263,10 @@ static void mouse(live *l) {
 static void help(live *l);
 
 typedef struct key_row {
-    int key, other;          /* other: on another keyboard, 0: none */
-    const char *keys, *does; /* for help; NULL: said by the row before */
+    int key, other;          /* other: a second key for the same; 0: none */
+    const char *keys, *does; /* for help; NULL: the row before covers it */
     void (*act)(live *l);
-    void (*change)(live *l, double by); /* in place of it */
+    void (*change)(live *l, double by); /* called with `by` in place of act */
     double by;
 } key_row;
 
@@ -371,7 +373,7 @@ static void insert(live *l, int key) {
     l->line[l->cursor++] = (char)key;
 }
 
-/* Over the character behind the cursor. */
+/* The place after the character at the cursor. */
 static size_t next(const live *l) {
     const size_t left = strlen(l->line) - l->cursor, n = character_at(l->line + l->cursor, left, NULL);
     return l->cursor + (n || !left ? n : 1);
@@ -411,8 +413,8 @@ static void typing_key(live *l, int key) {
     }
 }
 
-/* A key that is held acts by what was shown: a scene that takes its time is computed once for all its
- * repeats. */
+/* Repeats of a held key act on the state that is shown, which is not refreshed for each: a slow scene is
+ * computed once for all of them. */
 void live_key(live *l, int key) {
     if (key != l->last_key)
         live_refresh(l);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* In place of the full-screen mode where it is not wanted (LIVE=no). */
+/* Replaces the full-screen mode when built with LIVE=no. */
 #include "live/live.h"
 
 void live_keys(FILE *to) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scenes of the full-screen mode: statements that change them, what is shown of them, and a cycle that
- * plays. Asks the views only for the room there is. */
+/* The scenes of the full-screen mode: runs statements that change them, updates what is shown, plays cycles.
+ * Of the views it uses only status_holds. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 /* ---- statements -------------------------------------------------------------------------------- */
 
-/* One line goes below the views, more to a page. */
+/* Shows the answer to a line: below the views if there is room, else as a page. Frees it. */
 static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     size_t n = answer ? strlen(answer) : 0;
     while (n > 0 && answer[n - 1] == '\n')
@@ -32,7 +32,8 @@ static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     free(answer);
 }
 
-static bool say_line(live *l, const char *line) {
+/* The same as live_say_line, but what plays goes on. */
+static bool run_line(live *l, const char *line) {
     char *answer = NULL;
     const bool ok = l->host->run(l->host->self, line, &answer);
     if (!ok && *l->host->stop) {
@@ -60,7 +61,7 @@ bool live_say(live *l, const char *format, ...) {
 
 bool live_say_line(live *l, const char *line) {
     live_play_end(l);
-    return say_line(l, line);
+    return run_line(l, line);
 }
 
 /* ---- what is shown ----------------------------------------------------------------------------- */
@@ -70,7 +71,7 @@ static void trouble(live *l, side *s, calc_error *error) {
     snprintf(s->trouble, sizeof s->trouble, "%.*s", LIVE_TEXT - 1, error->text);
 }
 
-/* Of the scene that expressions see; along: the last item is to be played. */
+/* Takes the numbers of the scene that expressions see; along: and the states of its last item, to play. */
 static bool take_side(live *l, side *s, bool along, calc_error *error) {
     calc *c = l->host->calc;
     const size_t items = c->now->end.steps;
@@ -78,7 +79,7 @@ static bool take_side(live *l, side *s, bool along, calc_error *error) {
     if (along)
         s->before = s->now;
     if (!shot_take(c, &s->now, error)) {
-        s->now = (shot){.time = 0}; /* keys go on from what is shown, which is nothing now */
+        s->now = (shot){.time = 0}; /* keys start from what is shown, which is nothing now */
         return false;
     }
     s->loses = shot_lost(c, s->now.a, s->lost);
@@ -96,16 +97,17 @@ static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *er
 static void refresh_side(live *l, size_t i) {
     side *s = &l->side[i];
     calc_error error = ERROR_NONE;
-    if (!(l->compared.on ? take_compared(l, s, i, l->follow, &error) : take_side(l, s, l->follow, &error)))
+    if (!(l->compared.on ? take_compared(l, s, i, l->play_next, &error)
+                         : take_side(l, s, l->play_next, &error)))
         trouble(l, s, &error);
     s->stale = false;
     l->changed = true;
-    if (i == 0 && !(l->FA > 0) && s->now.slip > 0) /* to begin with: half of what slides */
+    if (i == 0 && !(l->FA > 0) && s->now.slip > 0) /* at first: half the force of gross slip */
         l->FA = live_nice(s->now.slip / 2);
 }
 
-/* What `compare` has said. */
-static void follow_compared(live *l) {
+/* Takes over what the command `compare` has set. */
+static void update_compared(live *l) {
     const side_by_side *to = l->host->compared;
     if (to->on == l->compared.on && (!to->on || !memcmp(to, &l->compared, sizeof *to)))
         return;
@@ -122,7 +124,7 @@ static void follow_compared(live *l) {
 }
 
 void live_update(live *l) {
-    follow_compared(l);
+    update_compared(l);
     for (size_t i = 0; i < COMPARED; i++)
         l->side[i].stale = true;
     l->changed = true;
@@ -134,7 +136,7 @@ bool live_refresh_next(live *l) {
             refresh_side(l, i);
             return true;
         }
-    l->follow = false;
+    l->play_next = false;
     return false;
 }
 
@@ -158,7 +160,7 @@ void live_begin(live *l) {
             list_word(line, sizeof line, "; ", first[i].statement);
     if (!*line) {
         live_update(l);
-    } else if (live_say(l, "%s", line)) { /* what they answer, as with `set timing on`, is no page */
+    } else if (live_say(l, "%s", line)) { /* an answer, as with `set timing on`, is not worth a page */
         free(l->page);
         l->page = NULL;
     }
@@ -183,7 +185,7 @@ void live_walk(live *l, bool (*late)(void)) {
 
 /* ---- a cycle that plays ------------------------------------------------------------------------ */
 
-/* From where the last item of the load begins to move. */
+/* Plays from where the last item of the load begins to move. */
 static void start_play(live *l) {
     l->playing = true;
     l->moves = false;
@@ -200,6 +202,7 @@ static void cycle_text(const live *l, char text[LIVE_TEXT]) {
         snprintf(text, LIVE_TEXT, "cycle FA=%s", force);
 }
 
+/* Gets the load's last item, if it is a cycle. */
 static bool last_cycle(const live *l, load_item *out) {
     scene *s = &l->host->calc->scene;
     if (!s->end.cycles || s->program->steps[s->end.steps - 1].kind != LOAD_CYCLE)
@@ -208,17 +211,17 @@ static bool last_cycle(const live *l, load_item *out) {
 }
 
 static void remember_cycle(live *l) {
-    l->said_changes = l->host->calc->undo.count;
-    last_cycle(l, &l->said);
+    l->cycle_undo = l->host->calc->undo.count;
+    last_cycle(l, &l->cycle_item);
 }
 
-/* Is the cycle to play the one that was said last? Then its periods go on, without a new statement. */
+/* Is the cycle that is set the load's last item already? Then another period needs no new statement. */
 static bool goes_on(const live *l) {
     char text[LIVE_TEXT];
     load_item now;
     cycle_text(l, text);
-    return !strcmp(text, l->said_as) && l->host->calc->undo.count == l->said_changes && last_cycle(l, &now) &&
-           walk_same_item(&l->said, &now);
+    return !strcmp(text, l->cycle_as) && l->host->calc->undo.count == l->cycle_undo && last_cycle(l, &now) &&
+           walk_same_item(&l->cycle_item, &now);
 }
 
 static void one_more(live *l) {
@@ -226,7 +229,7 @@ static void one_more(live *l) {
         if (!*l->side[i].trouble)
             way_more(&l->side[i].way);
     l->periods++;
-    live_tell(l, false, "%s times %u", l->said_as, l->periods);
+    live_tell(l, false, "%s times %u", l->cycle_as, l->periods);
 }
 
 static void start_cycle(live *l) {
@@ -235,14 +238,14 @@ static void start_cycle(live *l) {
     if (!live_say_line(l, text))
         return;
     remember_cycle(l);
-    memcpy(l->said_as, text, sizeof text);
-    l->follow = true;
+    memcpy(l->cycle_as, text, sizeof text);
+    l->play_next = true;
     l->periods = 1;
     start_play(l);
 }
 
 void live_play(live *l) {
-    l->last_cycle = false;
+    l->stops_at_end = false;
     live_refresh(l);
     if (goes_on(l)) {
         one_more(l);
@@ -253,37 +256,37 @@ void live_play(live *l) {
 }
 
 void live_play_item(live *l) {
-    l->last_cycle = true;
+    l->stops_at_end = true;
     l->periods = 0;
     live_update(l);
-    l->follow = true;
+    l->play_next = true;
     start_play(l);
 }
 
-/* One statement with all periods played, in place of the one that has been undone. */
-static void say_periods(live *l) {
+/* Runs one statement with all periods played, in place of the one that has been undone. */
+static void run_periods(live *l) {
     char line[LIVE_LINE], why[LIVE_LINE];
-    snprintf(line, sizeof line, "%s times %u", l->said_as, l->periods);
-    if (!say_line(l, line)) { /* interrupted, perhaps: say the cycle as it was before */
+    snprintf(line, sizeof line, "%s times %u", l->cycle_as, l->periods);
+    if (!run_line(l, line)) { /* interrupted, perhaps: run the cycle as it was before */
         memcpy(why, l->status, sizeof why);
-        snprintf(line, sizeof line, "%s times %u", l->said_as, l->said.extra.times);
-        say_line(l, line);
+        snprintf(line, sizeof line, "%s times %u", l->cycle_as, l->cycle_item.extra.times);
+        run_line(l, line);
         live_tell(l, true, "%s", why);
     }
     remember_cycle(l);
 }
 
 void live_play_end(live *l) {
-    const bool more = l->playing && l->periods > l->said.extra.times;
+    const bool more = l->playing && l->periods > l->cycle_item.extra.times;
     l->playing = false;
     l->changed = true;
     for (size_t i = 0; i < live_sides(l); i++)
         way_unwatch(&l->side[i].way);
-    if (more && say_line(l, "undo"))
-        say_periods(l);
+    if (more && run_line(l, "undo"))
+        run_periods(l);
 }
 
-/* The end of what has been walked. */
+/* The time up to which all sides have states to play. */
 static double ahead(const live *l) {
     double time = INFINITY;
     for (size_t i = 0; i < live_sides(l); i++) {
@@ -294,7 +297,7 @@ static double ahead(const live *l) {
     return time;
 }
 
-/* Can both scenes begin to move? They are moved together. */
+/* Have all sides two states or their end, so that they can begin to move together? */
 static bool ready(const live *l) {
     for (size_t i = 0; i < live_sides(l); i++) {
         const side *s = &l->side[i];
@@ -319,7 +322,7 @@ void live_play_on(live *l, double seconds) {
     l->play_at = fmin(l->play_at + seconds * l->speed, ahead(l));
     if (!way_done(w) || l->play_at < w->play[w->shots - 1].time)
         return;
-    if (l->last_cycle) {
+    if (l->stops_at_end) {
         live_play_end(l);
     } else if (goes_on(l)) {
         one_more(l);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A script stepped through: a line at a time, and back by undo. */
+/* Steps through a script: a line at a time, and back by undo. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,7 +23,7 @@ static bool is_comment(const char *line) {
     return *line == '#' || !*line;
 }
 
-/* The comments before the next statement are shown with it still to come. */
+/* Shows the comments before the next statement, which is not run yet. */
 static void take_note(live *l) {
     live_script *s = &l->script;
     l->note[0] = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The full-screen mode: its loop, and what it costs. */
+/* The loop of the full-screen mode, at a terminal or playing a script without one. */
 #include "live/live.h"
 
 #include <math.h>
@@ -15,15 +15,15 @@ static void count_work(live_work *work, bool frame, double spent) {
     work->worst = fmax(work->worst, spent);
 }
 
-/* Ways are walked a little in each frame. */
-static double walked_from;
+static double slice_began; /* [s] */
 
+/* Is the time over that a frame may spend on running loads, or on keys? */
 static bool late(void) {
-    static const double SLICE = 0.0015;
-    return clock_wall() - walked_from > SLICE;
+    static const double SLICE = 0.0015; /* [s] */
+    return clock_wall() - slice_began > SLICE;
 }
 
-/* Is there more to walk? */
+/* Is there a load to run on? */
 static bool walks(const live *l) {
     for (size_t i = 0; i < live_sides(l); i++)
         if (!*l->side[i].trouble && !way_rests(&l->side[i].way))
@@ -36,8 +36,8 @@ static void session(live *l, live_work *work) {
     double before = clock_wall(), last = clock_worked();
     while (!l->leave) {
         double start = clock_wall();
-        walked_from = start;
-        const bool fresh = !live_refresh_next(l); /* one scene at a time: keys must not wait for both */
+        slice_began = start;
+        const bool fresh = !live_refresh_next(l); /* one scene per turn: keys must not wait for both */
         if (fresh)
             live_walk(l, late);
         const int busy = terminal_busy();
@@ -51,14 +51,14 @@ static void session(live *l, live_work *work) {
         last = now;
         const int pause = !fresh ? 0 : l->playing || walks(l) ? FRAME : l->changed ? busy : IDLE;
         int key = terminal_key(pause, l->host->stop);
-        walked_from = start = clock_wall();
+        slice_began = start = clock_wall();
         bool away = false;
-        for (int many = 1; key != KEY_NONE; many++) { /* held keys: one frame for all that wait */
+        for (int many = 1; key != KEY_NONE; many++) { /* one frame for all keys that wait */
             away = away || key == KEY_AGAIN;
             live_key(l, key);
             key = many < MANY && !l->leave && !late() ? terminal_key(0, l->host->stop) : KEY_NONE;
         }
-        if (away) /* perhaps stopped for long: what plays must not jump */
+        if (away) /* the program may have been stopped for long: what plays must not jump */
             before = start = clock_wall();
         live_play_on(l, start - before);
         before = start;
@@ -66,7 +66,7 @@ static void session(live *l, live_work *work) {
     live_play_end(l);
 }
 
-/* Without a terminal: what the screen shows in the end, or NULL. */
+/* Plays a script without a terminal. Returns the text of the last screen; NULL: out of memory. */
 static char *play_script(live *l) {
     static const double FRAME = 1.0 / 15;
     for (;;) {

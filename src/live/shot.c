@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* States of a scene as plain numbers. Changes no scene. */
+/* Takes the state of a scene as plain numbers. Changes no scene. */
 #include "live/shot.h"
 
 #include <string.h>
@@ -17,14 +17,14 @@ static void take_values(calc *c, shot *out) {
         const quantity *q = quantity_find(names[i], strlen(names[i]));
         out->known[i] = q && quantity_get(q, c->now, &out->value[i], error_quiet());
         out->d[i] = q ? q->d : DIM_NONE;
-        if (!q) { /* c/a, of two that have been read */
+        if (!q) { /* c/a is no quantity: from the two values before it */
             out->known[i] = out->known[i - 1] & (out->value[i - 2] > 0);
             out->value[i] = out->known[i] ? out->value[i - 1] / out->value[i - 2] : 0;
         }
     }
 }
 
-/* Parts of uniform slope; only the outermost where there are many. */
+/* Rings of one slope of the memory diagram each; only the outermost ones if there are too many. */
 static void take_rings(const fret_contact *contact, shot *out) {
     fret_segment part;
     size_t count = 0;

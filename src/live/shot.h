@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is drawn of a scene at an instant, as plain numbers. Knows no screen. */
+/* A shot: what the views draw of a scene at one instant, as plain numbers. Uses no screen. */
 #ifndef LIVE_SHOT_H
 #define LIVE_SHOT_H
 
@@ -8,30 +8,30 @@
 enum { SHOT_SAMPLES = 96, SHOT_RINGS = 32, SHOT_VALUES = 11 };
 
 typedef struct shot_ring {
-    double radius; /* its outer edge [m] */
-    double sigma;  /* slope of the memory: 0 where it never slipped, -1 or 1 where it has */
+    double radius; /* outer edge [m] */
+    double sigma;  /* slope of the memory diagram: 0 where it never slipped, -1 or 1 where it has */
 } shot_ring;
 
 typedef struct shot {
-    double time;
-    double a, c, dx, Fx;
-    double slip;                                     /* mu F_N [N] */
-    double bound;                                    /* the largest displacement of a spring, B(0) [m] */
-    double u[SHOT_SAMPLES + 1], B[SHOT_SAMPLES + 1]; /* at r = a i/SHOT_SAMPLES [m] */
+    double time;                                     /* along the load: a step or a period takes 1 */
+    double a, c, dx, Fx;                             /* [m], [m], [m], [N] */
+    double slip;                                     /* force of gross slip, mu F_N [N] */
+    double bound;                                    /* largest displacement of a spring, B(0) [m] */
+    double u[SHOT_SAMPLES + 1], B[SHOT_SAMPLES + 1]; /* springs and bound [m] at x = a i/SHOT_SAMPLES */
     shot_ring ring[SHOT_RINGS];                      /* from the innermost */
     size_t rings;
-    bool known[SHOT_VALUES]; /* the numbers: shot_name */
+    bool known[SHOT_VALUES]; /* the table of numbers, named by shot_name: is there a value? */
     long double value[SHOT_VALUES];
     dim d[SHOT_VALUES];
-    int digits; /* that the numbers are known to; 0: all that are printed */
+    int digits; /* correct digits of the values; 0: all */
 } shot;
 
 const char *shot_name(size_t i);
-/* Of the scene that expressions see. */
+/* Takes a shot of the scene that expressions see, at its instant. False with the error. */
 bool shot_take(calc *c, shot *out, calc_error *error);
 
-/* Friction's work per area in the last closed cycle [J/m^2], at r = a i/SHOT_SAMPLES; false: there is none,
- * or F_N is not constant. */
+/* Gets friction's work per area in the last closed cycle [J/m^2] at r = a i/SHOT_SAMPLES; false if there is
+ * none, or F_N is not constant. */
 bool shot_lost(calc *c, double a, double lost[SHOT_SAMPLES + 1]);
 
 #endif

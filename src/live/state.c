@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of the full-screen mode as the views ask for it, and words for numbers. Runs no statement. */
+/* What several files ask of the state of the full-screen mode, and numbers as text. Runs no statement. */
 #include "live/state.h"
 
 #include <math.h>

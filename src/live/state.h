@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of the full-screen mode: what the keys change and the views draw. */
+/* The state of the full-screen mode: what the keys change and the views draw; and the functions on it. */
 #ifndef LIVE_STATE_H
 #define LIVE_STATE_H
 
@@ -9,14 +9,14 @@
 
 enum { LIVE_TEXT = 256, LIVE_LINE = 512, KEPT_LINES = 50 };
 
-/* One scene on the screen: the user's, or the user's with an input changed. */
+/* One scene on the screen: the user's, or after `compare` the user's with one input changed. */
 typedef struct side {
-    char title[LIVE_TEXT];   /* of two scenes, else empty */
-    char trouble[LIVE_TEXT]; /* why there is nothing to show; empty: there is */
-    bool stale;              /* what is shown is of an earlier scene */
-    shot now, before;        /* before: of what is to be played */
-    bool loses;              /* in a cycle, at r = now.a i/SHOT_SAMPLES: */
-    double lost[SHOT_SAMPLES + 1];
+    char title[LIVE_TEXT];         /* "k = 0.5" if two scenes are shown, else empty */
+    char trouble[LIVE_TEXT];       /* the error shown in place of the views, or empty */
+    bool stale;                    /* the scene has changed since the numbers below were taken */
+    shot now, before;              /* the present state, and the one before the item that is played */
+    bool loses;                    /* lost holds the work of friction in a cycle [J/m^2] */
+    double lost[SHOT_SAMPLES + 1]; /* at r = now.a i/SHOT_SAMPLES */
     load_way way;
 } side;
 
@@ -24,99 +24,102 @@ typedef struct side {
 typedef struct live_script {
     const char *const *line; /* NULL: there is none */
     struct live_before {
-        size_t undo, steps; /* of the session before a line */
+        size_t undo, steps; /* how many undo levels and load steps there were before a line was run */
     } * before;
-    size_t count, at;
+    size_t count, at; /* lines, and the next one */
 } live_script;
 
 typedef struct live {
     const live_host *host;
-    bool leave;
-    bool by_displacement; /* what the arrows push */
+    bool leave;           /* the loop is to end */
+    bool by_displacement; /* arrows change displacements, else forces */
     /* the cycle that space plays */
-    double FA, FNA, phase, speed; /* [N], [N], [deg], periods a second */
-    bool playing, last_cycle;
-    bool follow;    /* what is said now is to be played */
-    bool moves;     /* what plays has begun to move */
-    double play_at; /* time of the load */
-    /* the cycle that was said last, and the statement that did it; periods played of it, which are said when
-     * it ends */
-    load_item said;
-    char said_as[LIVE_TEXT];
-    size_t said_changes; /* that undo knows of, then */
-    unsigned periods;
+    double FA, FNA, phase, speed; /* [N], [N], [deg], periods per second */
+    bool playing;
+    bool stops_at_end;        /* stop at the end of the period that plays */
+    bool play_next;           /* the next refresh takes the states of the load's last item for playing */
+    bool moves;               /* what plays has begun to move */
+    double play_at;           /* time along the load that is shown */
+    load_item cycle_item;     /* the last cycle run for playing */
+    char cycle_as[LIVE_TEXT]; /* its statement */
+    size_t cycle_undo;        /* the number of undo levels after it */
+    unsigned periods;      /* periods played of it; at its end one statement with all of them replaces it */
     side_by_side compared; /* what the sides show */
     side side[COMPARED];
-    /* what is told */
-    char status[LIVE_LINE]; /* nothing in it that does not show; nor in the note */
-    bool bad;
-    char note[LIVE_LINE]; /* a comment of the script */
-    char *page;           /* a text over all views, or NULL */
-    int page_from;
+    /* messages */
+    char status[LIVE_LINE]; /* the last one, without control characters */
+    bool bad;               /* it is an error */
+    char note[LIVE_LINE];   /* comments of the script, without control characters */
+    char *page;             /* a text over all views, or NULL */
+    int page_from;          /* its first row on the screen */
     /* the line being typed */
     bool typing;
     const char *prompt;
     char line[LIVE_LINE];
     size_t cursor;
     void (*entered)(struct live *l, const char *line);
-    char *kept[KEPT_LINES];
+    char *kept[KEPT_LINES]; /* history of lines */
     size_t kept_count, kept_at;
     live_script script;
-    /* where the loop is, for the mouse */
+    /* where the views have drawn the hysteresis loop, for the mouse */
     rect loop;
-    double loop_dx; /* half its width */
+    double loop_dx; /* displacement at its right edge [m] */
     bool dragging;
     int last_key;
-    bool changed; /* something is to be drawn */
-    bool torn;    /* and all of it: at Ctrl-C a terminal drops what was on its way */
+    bool changed; /* the screen is to be drawn */
+    bool torn;    /* all of it: at Ctrl-C the terminal drops output that is under way */
 } live;
 
 /* ---- state.c ---- */
 /* 1, 2 or 5 times a power of ten, near v. */
 double live_nice(double v);
-/* A number for a statement, in a unit that suits it. */
+/* Writes a value as a statement takes it, 3 digits and a unit that suits it. */
 void live_amount(double v, dim d, char *text, size_t size);
+/* Shows a message below the views; bad: an error. */
 LIKE_PRINTF(3, 4)
 void live_tell(live *l, bool bad, const char *format, ...);
-/* How many scenes are shown. */
+/* How many scenes are shown: 1 or 2. */
 size_t live_sides(const live *l);
-/* The state that is shown: on the way of a cycle, or the present one. */
+/* The state to draw: while a cycle plays the one at play_at, else the present one. */
 const shot *side_shown(const live *l, const side *s);
 
-/* ---- scenes.c: what the keys do, statements most of them ---- */
+/* ---- scenes.c ---- */
 
-/* Runs a line and tells what it says; false: an error. */
+/* Both end what plays, run a line of statements and show its answer; false: an error. */
 LIKE_PRINTF(2, 3)
 bool live_say(live *l, const char *format, ...);
 bool live_say_line(live *l, const char *line);
-/* After a change: what is shown must follow; and does, before it is drawn or asked. */
+/* Call after a change of the scene: marks the sides as stale. live_refresh brings them up to date. */
 void live_update(live *l);
 void live_refresh(live *l);
-/* The first that is of an earlier scene; false: none is. */
+/* Brings one stale side up to date; false if there was none. */
 bool live_refresh_next(live *l);
-/* Nothing set yet: a scene to begin with. */
+/* Runs statements that set what the scene lacks. */
 void live_begin(live *l);
+/* Plays the cycle that is set: runs it, or goes on with one more period if it is the last item already. */
 void live_play(live *l);
-/* Goes on by so many seconds; stops: shows the end at once. */
+/* Goes on playing for so many seconds; live_play_end stops and shows the end at once. */
 void live_play_on(live *l, double seconds);
 void live_play_end(live *l);
-/* The way of the load's last item, step or cycle, once. */
+/* Plays the load's last item, step or cycle, once. */
 void live_play_item(live *l);
-/* Walks the ways until it is late; NULL: to their ends. */
+/* Runs the loads of the sides on for their curves until late() is true; NULL: to their ends. */
 void live_walk(live *l, bool (*late)(void));
 
 /* ---- script.c ---- */
 bool script_open(live *l, const char *const *line, calc_error *error);
 void script_close(live *l);
+/* Shows the comments that come next, or runs the next statement and plays its load. */
 void script_on(live *l);
+/* Undoes the last statement of the script. */
 void script_back(live *l);
 bool script_ends(const live *l);
 
 /* ---- views.c ---- */
 void live_draw(live *l);
-/* Is there room for the text below the views? Else it is a page. */
+/* Is there room for the text below the views? If not, it is shown as a page. */
 bool status_holds(const char *text);
-/* Rows of a page on this screen. */
+/* How many rows a page takes on this screen. */
 int page_rows(const char *page);
 
 /* ---- keys.c ---- */

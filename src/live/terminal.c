@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The terminal by curses. Signals that end the program put it right through the list of text/file.h; those
- * that stop it or change its size wait until nothing is being drawn. */
+/* The terminal by curses. On signals that end the program, the guards of text/file.h restore it; signals that
+ * stop it or change the screen's size only set flags, on which terminal_key acts, when nothing is drawn. */
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
 #define NCURSES_NOMACROS 1
@@ -27,12 +27,12 @@ static const char mouse_on[] = "\033[?1002h", mouse_off[] = "\033[?1002l\033[?10
 
 static struct {
     SCREEN *screen;
-    FILE *nowhere; /* in place of the terminal */
+    FILE *nowhere; /* /dev/null in place of the terminal */
     int guard;
     bool mouse;
-    double free_at;     /* when the line has taken all */
-    char farewell[256]; /* what the terminal is sent when there is no time for curses */
-    int deaf;           /* how often in a row there was no waiting for keys */
+    double free_at;     /* the time when a slow line has sent everything */
+    char farewell[256]; /* sent to restore the terminal at a signal that ends the program */
+    int deaf;           /* how often in a row waiting for a key has failed */
 } own = {.guard = -1};
 
 /* ---- signals ----------------------------------------------------------------------------------- */
@@ -65,7 +65,7 @@ static struct taken {
              {.number = SIGABRT, .handler = on_crash},
              {.number = 0}};
 
-/* A crash: the terminal first, then what it would have been. */
+/* At a crash: restores the terminal, then lets the signal act as before. */
 static void on_crash(int number) {
     file_emergency();
     for (struct taken *t = taken; t->number; t++)
@@ -89,7 +89,7 @@ static void give_signals_back(void) {
 
 /* ---- taking over ------------------------------------------------------------------------------- */
 
-/* A string of the terminal's description, without its padding. */
+/* Appends a string of the terminal's description, without padding such as $<5>. */
 static void append_capability(char *to, size_t size, const char *name) {
     const char *s = tigetstr(name);
     size_t n = strlen(to);
@@ -104,7 +104,7 @@ static void append_capability(char *to, size_t size, const char *name) {
 
 static void send(const char *text) {
     const ssize_t sent = write(STDOUT_FILENO, text, strlen(text));
-    (void)sent; /* a mouse that is not there is no harm */
+    (void)sent; /* only the mouse is lost if it fails */
 }
 
 static void set_colors(void) {
@@ -123,7 +123,7 @@ static void set_colors(void) {
         init_pair(i, COLORS >= 256 ? many[i] : basic[i], -1);
 }
 
-/* Arrows of terminals that take no notice of the keypad's mode. */
+/* Arrow keys as sent by terminals that ignore the keypad mode. */
 static const struct {
     const char *sent;
     int key;
@@ -199,7 +199,7 @@ void terminal_close(void) {
             mousemask(0, NULL);
             send(mouse_off);
         }
-        if (endwin() == ERR) /* whose terminal is not left so that it echoes nothing */
+        if (endwin() == ERR) /* the modes would be left without echo */
             reset_shell_mode();
         delscreen(own.screen);
     }
@@ -216,10 +216,9 @@ void terminal_close(void) {
 
 /* ---- slow lines -------------------------------------------------------------------------------- */
 
-/* Bytes that the update takes, about: of a sign, and its share of moves and colours. Curses keeps a place in
- * what is compared. */
+/* About how many bytes the update takes. Reading a cell moves the cursor of its window, which is put back. */
 static int bytes_of_update(void) {
-    enum { EACH = 4 };
+    enum { EACH = 4 }; /* a character, and its share of cursor moves and colours */
     int bytes = 0, y, x, v, w;
     getyx(curscr, y, x);
     getyx(newscr, v, w);
@@ -236,7 +235,7 @@ static int bytes_of_update(void) {
 }
 
 void terminal_show(bool again) {
-    enum { SLOW = 19200 /* terminals that are no lines report 38400 */, BITS = 10 };
+    enum { SLOW = 19200 /* pseudo-terminals report 38400 */, BITS = 10 /* of a byte on the line */ };
     const int rate = baudrate();
     if (again)
         clearok(curscr, TRUE);
@@ -245,7 +244,7 @@ void terminal_show(bool again) {
     const double takes = slow ? (double)BITS * bytes_of_update() / rate : 0, begin = clock_wall();
     doupdate();
     const double now = clock_wall();
-    /* by its rate, or by how long the last write took */
+    /* by the rate of the line, or by how long this write took */
     own.free_at = fmax(begin + takes, now + (now - begin > 0.05 ? now - begin : 0));
 }
 
@@ -261,7 +260,7 @@ int terminal_busy(void) {
 
 /* ---- keys -------------------------------------------------------------------------------------- */
 
-/* As Ctrl-Z does; returns when the program is continued. */
+/* Stops the program, as Ctrl-Z does elsewhere; returns when it is continued. */
 static void stop_here(void) {
     struct sigaction act = {.sa_handler = SIG_DFL}, ours;
     if (own.mouse)
@@ -280,7 +279,7 @@ static void take_size(void) {
     if (isendwin())
         refresh();
     else
-        reset_prog_mode(); /* whoever stopped us may have changed it */
+        reset_prog_mode(); /* the shell may have changed the modes */
     if (!ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) && size.ws_row > 0 && size.ws_col > 0 &&
         (size.ws_row != LINES || size.ws_col != COLS))
         resizeterm(size.ws_row, size.ws_col);
@@ -292,7 +291,7 @@ static void take_size(void) {
 
 int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
     enum { DEAF = 20 };
-    int key = getch(); /* curses may hold bytes already: select would not see them */
+    int key = getch(); /* curses may have bytes in its buffer, which pselect does not see */
     if (key != ERR)
         return key == KEY_RESIZE ? KEY_AGAIN : key;
     sigset_t ours, before;
@@ -300,7 +299,7 @@ int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
     sigaddset(&ours, SIGINT);
     for (struct taken *t = taken; t->handler != on_crash; t++)
         sigaddset(&ours, t->number);
-    sigprocmask(SIG_BLOCK, &ours, &before); /* none comes between looking and waiting */
+    sigprocmask(SIG_BLOCK, &ours, &before); /* none may come between looking at the flags and waiting */
     fd_set in;
     FD_ZERO(&in);
     FD_SET(STDIN_FILENO, &in);
@@ -319,7 +318,7 @@ int terminal_key(int milliseconds, volatile sig_atomic_t *stop) {
         *stop = 0;
         return KEY_STOP;
     }
-    if (own.deaf > DEAF) { /* no key will come any more */
+    if (own.deaf > DEAF) { /* standard input is broken: no key will come */
         own.deaf = 0;
         return KEY_STOP;
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The terminal: taken over, given back, and never left as it should not be. */
+/* The terminal as a curses screen: opened, drawn on, read, and restored however the program ends. */
 #ifndef LIVE_TERMINAL_H
 #define LIVE_TERMINAL_H
 
@@ -8,18 +8,18 @@
 
 #include "text/error.h"
 
-/* Beyond the keys of curses. */
-enum { KEY_NONE = -1, KEY_STOP = 0x10000 /* Ctrl-C */, KEY_AGAIN /* the screen must be drawn anew */ };
+/* Keys besides those of curses. KEY_STOP: Ctrl-C, or the terminal is gone; KEY_AGAIN: redraw the screen. */
+enum { KEY_NONE = -1, KEY_STOP = 0x10000, KEY_AGAIN };
 
 bool terminal_there(void);
-/* unseen: a screen of the usual size that nobody sees. */
+/* unseen: draws on /dev/null, for a script played without a terminal. False with the error. */
 bool terminal_open(bool unseen, calc_error *error);
 void terminal_close(void);
-/* Sends what has been drawn; again: all of it. */
+/* Sends what has changed on the screen; again: the whole screen. */
 void terminal_show(bool again);
-/* Milliseconds until the line has taken what was sent last: what is drawn before would only pile up. */
+/* Milliseconds until a slow line has sent the last update: drawing before that would only queue up. */
 int terminal_busy(void);
-/* Waits for a key or for the time to pass. */
+/* Returns the next key, KEY_NONE after so many milliseconds without one, or KEY_STOP, which clears *stop. */
 int terminal_key(int milliseconds, volatile sig_atomic_t *stop);
 
 #endif

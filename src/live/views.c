@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The views: one table. Draws what the state says and changes none of it, but for the place of the loop,
- * which the mouse wants to know. */
+/* The one table of views, and all drawing. Changes nothing of the state but the place of the hysteresis loop,
+ * which the mouse needs. */
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
 #include <curses.h>
@@ -13,9 +13,9 @@
 #include "text/characters.h"
 #include "text/typeset.h"
 
-/* ---- texts --------------------------------------------------------------------------------------- */
+/* ---- text -------------------------------------------------------------------------------------- */
 
-/* Rows that a text takes; those from one on are drawn where `at` has room. */
+/* Wraps a text, draws its rows from number `from` on as far as `at` has room, and returns how many it has. */
 static int put_words(const char *text, ink of, rect at, int from) {
     int row = 0;
     for (const char *p = text; *p; p += *p == '\n') {
@@ -42,7 +42,7 @@ typedef struct scales {
     double a, bound, dx, Fx, energy, lost;
 } scales;
 
-/* A little above, in steps: the picture must not breathe with every key. */
+/* A round number a little above v: scales must not change at every key. */
 static double roomy(double v) {
     static const double steps[] = {1, 1.5, 2, 3, 4, 5, 6, 8, 10};
     if (!(v > 0))
@@ -75,10 +75,10 @@ static scales scales_of(const live *l) {
 
 /* ---- panes ------------------------------------------------------------------------------------- */
 
-/* A view on the screen. */
+/* What a view draws, and on what. */
 typedef struct pane {
     const side *side;
-    const shot *shot; /* what is shown of it */
+    const shot *shot; /* the state of the side that is shown */
     const scales *most;
     plot_cells cells;
     int wide, high; /* in dots */
@@ -89,7 +89,7 @@ static void put_label(const pane *p, int column, int row, ink of, const char *te
     plot_cells_text(&p->cells, column, row, text, (unsigned char)of);
 }
 
-/* How far the picture reaches: in the first row at its left, in others at its right. */
+/* Writes the largest value of an axis: in the first row at the left, in others at the right. */
 static void put_scale(const pane *p, int row, const char *name, double v, dim d) {
     char number[40], text[48];
     live_amount(v, d, number, sizeof number);
@@ -106,12 +106,12 @@ static void draw_dotted(const pane *p, ink of, double x0, double y0, double x1, 
     plot_pen_line(&pen, x0, y0, x1, y1);
 }
 
-/* ---- the contact disc -------------------------------------------------------------------------- */
+/* ---- the views --------------------------------------------------------------------------------- */
 
 typedef struct zone {
     ink of;
     const char *name, *sign, *dots;
-    int every; /* dots of a row, so that zones differ without colours */
+    int every; /* a dot in so many places, so that zones differ without colours */
 } zone;
 
 static const zone stick = {INK_STICK, "stick", "#", "\u28ff", 1}, slip = {INK_SLIP, "slip", ".", "\u2801", 4},
@@ -128,7 +128,7 @@ static const zone *zone_at(const shot *s, double r) {
     return fabs(s->ring[i].sigma) > 0.5 ? &earlier : &stick;
 }
 
-/* Edges of the rings are left out, so that rings side by side are told apart. */
+/* Dots on the edge of a ring are left out, so that neighbouring rings can be told apart. */
 static bool on_edge(const shot *s, double r, double width) {
     for (size_t i = 0; i < s->rings; i++)
         if (fabs(s->ring[i].radius - r) < width && s->ring[i].radius < s->c * (1 - 1e-9))
@@ -136,7 +136,7 @@ static bool on_edge(const shot *s, double r, double width) {
     return false;
 }
 
-/* dot: its size. */
+/* Draws one zone of the disc; dot: the size of a dot [m]. */
 static void put_zone(const pane *p, int high, const zone *z, double dot) {
     const int mx = p->wide / 2, my = high / 2;
     for (int y = 0; y < high; y++)
@@ -166,16 +166,14 @@ static void draw_disc(const pane *p) {
     }
 }
 
-/* ---- the springs ------------------------------------------------------------------------------- */
-
 static void draw_springs(const pane *p) {
     const shot *s = p->shot;
     const int below = p->cells.rows - 1;
     const double mx = (p->wide - 1) / 2.0, my = (below * p->cells.up - 1) / 2.0, kx = mx / p->most->a,
                  ky = my / p->most->bound;
     draw_dotted(p, INK_FRAME, 0, my, p->wide - 1, my);
-    for (int way = -1; way <= 1; way += 2) {
-        const double step = way * kx * s->a / (double)SHOT_SAMPLES;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const double step = sign * kx * s->a / (double)SHOT_SAMPLES;
         plot_pen above = pen_of(p, "10", INK_BOUND), under = above, u = pen_of(p, "1", INK_STICK);
         for (int i = 0; i < SHOT_SAMPLES; i++) {
             const double x0 = mx + step * i, x1 = x0 + step;
@@ -198,8 +196,6 @@ static void draw_springs(const pane *p) {
     put_scale(p, below - 1, "", p->most->a, DIM_LENGTH);
 }
 
-/* ---- the loop ---------------------------------------------------------------------------------- */
-
 static void draw_loop(const pane *p) {
     const shot *s = p->shot;
     const double mx = (p->wide - 1) / 2.0, my = (p->high - 1) / 2.0, kx = mx / p->most->dx,
@@ -209,7 +205,7 @@ static void draw_loop(const pane *p) {
     draw_dotted(p, INK_BOUND, 0, my - ky * s->slip, p->wide - 1, my - ky * s->slip);
     draw_dotted(p, INK_BOUND, 0, my + ky * s->slip, p->wide - 1, my + ky * s->slip);
     plot_pen path = pen_of(p, "1", INK_CURVE);
-    const track *t = &p->side->way.path;
+    const track *t = &p->side->way.track;
     const double until = s->time + 1e-9;
     for (size_t i = 0; i + 1 < t->count && t->point[i].time <= until; i++) {
         const track_point *from = &t->point[i], *to = from + 1;
@@ -223,10 +219,8 @@ static void draw_loop(const pane *p) {
     put_scale(p, p->cells.rows - 1, "dx ", p->most->dx, DIM_LENGTH);
 }
 
-/* ---- energies ---------------------------------------------------------------------------------- */
-
 static void draw_energies(const pane *p) {
-    const track *t = &p->side->way.path;
+    const track *t = &p->side->way.track;
     const double begin = t->point[0].time, end = fmax(t->point[t->count - 1].time, begin + 1);
     const double kx = (p->wide - 1) / (end - begin), bottom = p->high - 1, ky = bottom / p->most->energy;
     plot_pen W = pen_of(p, "1", INK_SLIP), U = pen_of(p, "10", INK_OTHER);
@@ -239,8 +233,7 @@ static void draw_energies(const pane *p) {
     put_scale(p, 0, "", p->most->energy, DIM_ENERGY);
 }
 
-/* ---- where energy is lost ---------------------------------------------------------------------- */
-
+/* The energy that friction dissipates in a cycle, per area, over r. */
 static void draw_lost(const pane *p) {
     const side *s = p->side;
     char text[40] = "of a cycle at constant FN";
@@ -255,8 +248,6 @@ static void draw_lost(const pane *p) {
     put_label(p, 0, 0, INK_FRAME, text);
     put_scale(p, p->cells.rows - 1, "r ", p->most->a, DIM_LENGTH);
 }
-
-/* ---- the numbers ------------------------------------------------------------------------------- */
 
 static void draw_numbers(const pane *p) {
     const shot *s = p->shot;
@@ -282,10 +273,10 @@ static void draw_numbers(const pane *p) {
 typedef struct view {
     const char *title;
     void (*draw)(const pane *p);
-    bool right; /* in the right column; narrow screens have one column */
-    int share;  /* of the height of its column; 0: it takes these rows */
-    int rows;
-    int worth_rows; /* shown from so many rows of the screen on */
+    bool right;     /* in the right column; narrow screens have one column */
+    int share;      /* weight when the height of the column is divided; 0: the view takes `rows` */
+    int rows;       /* of the view, if it has no share */
+    int worth_rows; /* shown on screens with at least so many rows */
 } view;
 
 static const view views[] = {
@@ -298,13 +289,13 @@ static const view views[] = {
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
-/* In this column; narrow: the only one. */
+/* Is the view shown in the left or right column, or, if narrow, in the only one? */
 static bool is_shown(const view *v, rect all, bool narrow, bool right) {
     const int rows = v->worth_rows ? v->worth_rows : narrow && v->draw == draw_disc ? 30 : 0;
     return all.rows + 3 >= rows && (narrow || v->right == right);
 }
 
-/* What a view shows, and of which scene; its first word where there is no room for more. */
+/* Writes the title of a view and of its scene; if there is no room for it, only up to its colon. */
 static void put_title(const char *of, const char *title, rect at) {
     char text[LIVE_TEXT + 80];
     const int n = snprintf(text, sizeof text, "-- %s%s%s", of, *of ? ": " : "", title);
@@ -329,7 +320,7 @@ static void draw_view(live *l, const view *v, const side *s, const scales *sc, r
     }
 }
 
-/* Views of a column, one below the other: those without a share as high as they must be. */
+/* Draws the views of a column; those with a share divide the rows that the others leave. */
 static void draw_column(live *l, const side *s, const scales *sc, rect all, rect column, bool narrow,
                         bool right) {
     int shares = 0, room = column.rows;
@@ -372,9 +363,9 @@ static void draw_side(live *l, const side *s, const scales *sc, rect all) {
         draw_column(l, s, sc, all, (rect){all.top, all.left + left, all.rows, all.cols - left}, narrow, true);
 }
 
-/* ---- lines around them ------------------------------------------------------------------------- */
+/* ---- lines around the views -------------------------------------------------------------------- */
 
-/* What is set, the most important first, as much as there is room for; dots where more is left out. */
+/* Writes the inputs, the most important first, as many as fit; two dots if some are left out. */
 static void put_inputs_line(const live *l, rect at) {
     static const input shown[] = {IN_K, IN_MU, IN_C0, IN_RADIUS, IN_SLOPE, IN_N};
     const scene *s = &l->host->calc->scene;
@@ -417,13 +408,13 @@ static int note_rows(const live *l) {
     return *l->note && !l->page ? rows_of(l->note, NOTE_ROWS) : 1;
 }
 
-/* What was said last takes the rows that it needs, but not from a page. */
+/* The status takes the rows that it needs, but one below a page and while a line is typed. */
 static int status_rows(const live *l) {
     const int rows = l->page || l->typing ? 1 : rows_of(l->status, STATUS_ROWS);
     return rows > 1 ? rows : 1;
 }
 
-/* The line being typed, as much of it as there is room for up to the cursor. */
+/* Writes the line being typed, scrolled so that the cursor is on the screen. */
 static void put_line(const live *l, rect at, int row) {
     char before[LIVE_LINE], shown[4 * LIVE_LINE];
     const int prompt = (int)strlen(l->prompt), width = at.cols - prompt - 1;
@@ -462,7 +453,7 @@ int page_rows(const char *page) {
     return rows_of(page, INT_MAX);
 }
 
-/* A text over everything, a screen of rows at a time. */
+/* Draws the page in place of the views, from the row it has been scrolled to. */
 static void draw_page(const live *l, rect all) {
     const int rows = page_rows(l->page);
     put_words(l->page, INK_NONE, all, l->page_from < rows ? l->page_from : rows - 1);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The walk of a load, watched: points for the curve, states to play. */
+/* Runs a load in slices and keeps points for its curve and states to play. */
 #include "live/way.h"
 
 #include <math.h>
@@ -34,14 +34,14 @@ static void begin_track(track *t) {
     t->count = 0;
 }
 
-/* ---- what the walk sees ------------------------------------------------------------------------ */
+/* ---- what is kept of a run --------------------------------------------------------------------- */
 
-/* While nothing moves yet the first state is the last one. */
+/* Has nothing moved since the first state kept? */
 static bool stands_still(const load_way *w, const fret_state *s) {
     return w->shots == 1 && (double)s->Fx == w->play[0].Fx && (double)s->a == w->play[0].a;
 }
 
-/* Chords stand in for a sine: more digits would be wrong. */
+/* Correct digits where chords replace a sine. */
 enum { CHORD_DIGITS = 4 };
 
 static bool keep_shot(load_way *w, calc *c, calc_error *error) {
@@ -59,7 +59,7 @@ static bool keep_shot(load_way *w, calc *c, calc_error *error) {
     return ok;
 }
 
-/* A point of the curve, which is counted into its extent. */
+/* Gets the state and the point of the curve there, and widens the extent of the curve. */
 static track_point point_of(track *t, const runner *r, fret_state *s) {
     engine_state(&r->engine, s);
     const track_point p = {r->time, (double)s->dx, (double)s->Fx, (double)s->W, (double)s->U};
@@ -69,17 +69,18 @@ static track_point point_of(track *t, const runner *r, fret_state *s) {
     return p;
 }
 
-/* Of a swinging period's many chords as many as can be told apart: each state takes its time. */
-static bool see(load_way *w, calc *c, calc_error *error) {
-    static const double APART = 1.0 / 64;
+/* Adds a point to the curve and keeps its state, if it is to be played. Leaves out points too close to see: a
+ * swinging period has many chords, and each state costs time. */
+static bool take_point(load_way *w, calc *c, calc_error *error) {
+    static const double APART = 1.0 / 64; /* in time: a period takes 1 */
     const runner *r = &w->walk.run;
-    track *t = &w->path;
+    track *t = &w->track;
     fret_state s;
     if (!r->turning && r->time - t->point[t->count - 1].time < APART)
         return true;
     if (!add_track_point(t, point_of(t, r, &s)))
         return calc_no_memory(error);
-    if (!w->within || r->time < w->from)
+    if (!w->reached || r->time < w->from)
         return true;
     if (!stands_still(w, &s))
         return keep_shot(w, c, error);
@@ -92,7 +93,7 @@ static bool see(load_way *w, calc *c, calc_error *error) {
 void way_unwatch(load_way *w) {
     w->item = NO_ITEM;
     w->from = 0;
-    w->within = false;
+    w->reached = false;
     w->shots = 0;
 }
 
@@ -101,12 +102,12 @@ bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
     way_unwatch(w);
     w->item = item;
     if (item != NO_ITEM && w->walk.run.at.steps + w->walk.run.within > item)
-        walk_end(&w->walk); /* which is past where it begins */
+        walk_end(&w->walk); /* run again: it is past the beginning of the item */
     if (!walk_follow(&w->walk, c, &anew, error))
         return false;
     if (anew) {
-        begin_track(&w->path);
-        if (!add_track_point(&w->path, (track_point){.time = 0})) {
+        begin_track(&w->track);
+        if (!add_track_point(&w->track, (track_point){.time = 0})) {
             walk_end(&w->walk);
             return calc_no_memory(error);
         }
@@ -114,7 +115,7 @@ bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
     return true;
 }
 
-/* In how many parts each leg is drawn. */
+/* Into how many parts each leg of the load is divided for the curve: fewer if there are many legs. */
 static unsigned parts_of(const scene *s) {
     enum { STATES = 1200, FEWEST = 2, MOST = 24 };
     size_t legs = s->end.steps;
@@ -124,34 +125,34 @@ static unsigned parts_of(const scene *s) {
     return parts < FEWEST ? FEWEST : parts > MOST ? MOST : (unsigned)parts;
 }
 
-/* Periods that repeat those before are not seen: the last point is at their end. */
-static void see_end(load_way *w) {
-    track *t = &w->path;
+/* Periods that repeat the one before are skipped: the last point is moved to the end of the load. */
+static void move_last_point(load_way *w) {
+    track *t = &w->track;
     fret_state s;
     t->point[t->count - 1] = point_of(t, &w->walk.run, &s);
 }
 
 bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
-    enum { PARTS = 38 }; /* of a leg that is played */
+    enum { PARTS = 38 }; /* of each leg that is played */
     walk *k = &w->walk;
     const size_t end = k->scene.end.steps;
     const unsigned parts = parts_of(&k->scene);
     bool ok = true;
     do {
-        if (!w->within && k->run.at.steps >= w->item) { /* NO_ITEM is never come to */
-            w->within = true;
+        if (!w->reached && k->run.at.steps >= w->item) { /* never so for NO_ITEM */
+            w->reached = true;
             ok = k->run.time < w->from || keep_shot(w, c, error);
         }
-        if (ok && walk_next(k, w->within || w->item > end ? end : w->item, w->within ? PARTS : parts,
-                            w->within, error))
-            ok = see(w, c, error);
+        if (ok && walk_next(k, w->reached || w->item > end ? end : w->item, w->reached ? PARTS : parts,
+                            w->reached, error))
+            ok = take_point(w, c, error);
         ok = ok && !error->raised;
     } while (ok && !way_rests(w) && !(late && late()));
     if (!ok) {
-        walk_end(k); /* it stands within a step, and cannot go on from there */
+        walk_end(k); /* a run that failed within a step cannot go on */
     } else if (way_done(w)) {
-        see_end(w);
-        w->path.before = (extent){0, 0, 0, 0, 0};
+        move_last_point(w);
+        w->track.before = (extent){0, 0, 0, 0, 0};
     }
     return ok;
 }
@@ -161,7 +162,7 @@ bool way_done(const load_way *w) {
 }
 
 bool way_rests(const load_way *w) {
-    return way_done(w) || (w->within && w->shots == PLAY_SHOTS);
+    return way_done(w) || (w->reached && w->shots == PLAY_SHOTS);
 }
 
 void way_more(load_way *w) {
@@ -185,12 +186,12 @@ void way_pass(load_way *w, double time) {
 }
 
 extent way_extent(const load_way *w) {
-    return larger(w->path.most, w->path.before);
+    return larger(w->track.most, w->track.before);
 }
 
 void way_end(load_way *w) {
     walk_end(&w->walk);
-    free(w->path.point);
+    free(w->track.point);
     free(w->play);
     *w = (load_way){.item = NO_ITEM};
 }

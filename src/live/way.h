@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The way of the load: its curve, and states of an item to play. Walked in parts, so that no frame waits for
- * it. Knows no screen. */
+/* The way of a load: its curve, and states of its last item to play. The load is run (language/walk) a little
+ * in each frame, so that no frame waits for it. Uses no screen. */
 #ifndef LIVE_WAY_H
 #define LIVE_WAY_H
 
 #include "language/walk.h"
 #include "live/shot.h"
 
-/* A polyline with every turning point; the oldest part goes where it is long. */
+/* The curve: a polyline with every turning point. If it grows too long the older half is dropped. */
 typedef struct track_point {
     double time, dx, Fx, W, U;
 } track_point;
@@ -17,8 +17,8 @@ typedef struct extent {
 typedef struct track {
     track_point *point;
     size_t count, room;
-    extent most;   /* on the way */
-    extent before; /* of the way that it replaces, until it is complete: the picture must not breathe */
+    extent most;   /* of this curve */
+    extent before; /* of the curve before it, until this one is complete: scales must not jump meanwhile */
 } track;
 
 enum { PLAY_SHOTS = 256 };
@@ -26,28 +26,29 @@ enum { PLAY_SHOTS = 256 };
 
 typedef struct load_way {
     walk walk;
-    track path;
-    size_t item; /* of the load, whose states are wanted; or NO_ITEM */
-    double from; /* this time on */
-    bool within; /* the walk has come to it */
-    shot *play;  /* those that are ahead */
+    track track;
+    size_t item;  /* states of this item of the load and the following are kept; NO_ITEM: none are */
+    double from;  /* from this time on */
+    bool reached; /* the walk has reached the item */
+    shot *play;   /* the states to play, PLAY_SHOTS at most */
     size_t shots;
 } load_way;
 
-/* Goes for the load of the scene that expressions see. item: states of this item and what follows are wanted,
- * from where it moves. */
+/* Prepares for the load of the scene that expressions see; goes on where the load that has been run is its
+ * beginning. item: keep the states of this item and the following, from its first motion, or NO_ITEM. */
 bool way_follow(load_way *w, calc *c, size_t item, calc_error *error);
-/* Goes on until it is late, or all is walked, or there are enough states ahead. late: NULL: never. */
+/* Runs the load on until late() is true (NULL: never), its end, or PLAY_SHOTS states to play. False with the
+ * error. */
 bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error);
-/* All is walked. */
+/* Has the load been run to its end? */
 bool way_done(const load_way *w);
-/* Is there nothing to do for way_on? */
+/* Has way_on nothing to do: the end is reached, or there are enough states to play? */
 bool way_rests(const load_way *w);
-/* One more period of the cycle that it ends with; its states are wanted. */
+/* Adds one more period of the cycle that the load ends with, and keeps its states. */
 void way_more(load_way *w);
-/* No states are wanted any more: there is no end to wait for. */
+/* Drops the states to play and keeps no more of them. */
 void way_unwatch(load_way *w);
-/* The states before this time are no longer wanted, but for the last of them. */
+/* Drops the states before this time, but for the last of them. */
 void way_pass(load_way *w, double time);
 extent way_extent(const load_way *w);
 void way_end(load_way *w);
