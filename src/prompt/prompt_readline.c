@@ -339,8 +339,6 @@ char *prompt_line(const char *text, bool continued) {
     const char *bracketed = rl_variable_value("enable-bracketed-paste"); /* with it readline ends the line */
     if (!line && !(bracketed && !strcmp(bracketed, "on")))
         fputc('\n', stdout);
-    if (shell_stop) /* clears the state of a search or an argument that Ctrl-C broke off */
-        rl_callback_sigcleanup();
     in_readline = false;
     restore_job_signals();
     file_unguard(guard);
