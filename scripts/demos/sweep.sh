@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# From another program: a table of loss per cycle as JSON, one object a line.
+# How another program may use fret: prints a table of the loss per cycle as JSON, an object per line.
 fret=${FRET:-build/fret}
 exec "$fret" --format=json - <<END
 material E0=210 GPa nu=0.3 k=0 c0=1 mm

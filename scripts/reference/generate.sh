@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes every table in tests/reference anew; needs Python 3 with mpmath (and numpy for --check). Same bytes every time.
+# Makes every table in tests/reference again, byte for byte the same. Needs Python 3 with mpmath, and numpy for --check.
 set -eu
 cd "$(dirname "$0")"
 for script in dd material kappa loss slice scene history shape field rim corners \
