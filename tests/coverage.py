@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines and branches of src/ that the rooms of tests and the faults reach, by gcov, and those that they do not:
-tests/hard/coverage.txt; `--short`: those that `make check` runs, and what these reach. A comment `unreached: REASON` leaves out its line and what is indented under it; alone on its line,
-the next one."""
+"""Writes tests/hard/coverage.txt: which lines and branches of src/ the rooms of tests and the faults reach, by gcov, and which
+they do not. `--short`: only the rooms that `make check` runs. A comment `unreached: REASON` leaves out its line and the lines
+indented under it; alone on a line, the next line."""
 import collections
 import contextlib
 import copy
@@ -21,14 +21,14 @@ import faults
 import latency
 
 B = "build/coverage"
-# build of their own, or reach nothing more
+# left out: rooms with builds of their own, or that reach nothing more
 SLOW = ("hard", "packaging", "portable", "programs", "fuzz", "house", "python", "oscillator")
 MARK = re.compile(r"/\* unreached: ")
 MARKED_LINE = re.compile(r"\s*/\* unreached: .*\*/$")
 
 
 def every_fault(tests):
-    """Every allocation and every system call fails once, and is interrupted, as by `make faults`."""
+    """Makes every allocation and system call fail once, and interrupts each, as `make faults` does."""
     folder = os.path.join(os.path.abspath(tests.build), "tests")
     env = {"PATH": os.environ["PATH"], "LC_ALL": "C", "TERM": "dumb"}
     kinds = (faults.allocations, faults.interrupts, *((faults.calls,) if faults.can_filter(folder) else ()))
@@ -41,7 +41,7 @@ def every_fault(tests):
 
 
 def some_hard(tests):
-    """A few random scenes and histories: what they reach, not what they prove."""
+    """Runs a few random scenes and histories for what they reach; their results are checked elsewhere."""
     program = os.path.join(tests.build, "tests/hard/hard")
     if os.path.exists(program):
         units.counted(tests, "hard", program, "--scenes", "2000", "--steps", "20000", "--jobs", "2")
@@ -49,7 +49,7 @@ def some_hard(tests):
 
 
 def leaves(terminal):
-    """The end of a terminal of `latency`, which kills: an exit writes the counts."""
+    """Ends a terminal of latency.py, which would kill the program, by an exit, which writes the counts."""
     terminal.send("exit")
     with contextlib.suppress(OSError):
         while os.read(terminal.fd, 1 << 16):
@@ -59,7 +59,7 @@ def leaves(terminal):
 
 
 def interrupts(tests):
-    """What takes long, interrupted after some times: the scene stays."""
+    """Interrupts slow statements after several times; the scene must stay as it was."""
     latency.Terminal.close = leaves
     env = {**tests.env, "XDG_STATE_HOME": tests.dir, "INPUTRC": "/dev/null"}
 
@@ -75,9 +75,9 @@ ROOMS = {**{name: run for name, run in runner.ROOMS.items() if name not in SLOW}
 
 
 def build():
-    """With what writes the counts at ends that run no exit handler."""
+    """Builds for gcov, with code that writes the counts also at ends that run no exit handler."""
     flush, program = B + "/tests/coverage.o", os.path.join(harness.ROOT, B, "fret")
-    if os.path.exists(program):  # linked in another way, perhaps
+    if os.path.exists(program):  # it may have been linked in another way
         os.unlink(program)
     wrapped = "LDFLAGS=--coverage -Wl,--wrap=_exit,--wrap=raise,--wrap=kill,--wrap=fork,--wrap=__gcov_exit " + flush
     apart = "OPT=-O1 -g -fno-inline --coverage '-DFRET_INLINE=static inline'"  # each function counted once
@@ -86,7 +86,7 @@ def build():
 
 
 def counts():
-    """{file of counts: its bytes}"""
+    """{file with counts: its bytes}"""
     found = {}
     for folder, _, names in os.walk(os.path.join(harness.ROOT, B)):
         for path in (os.path.join(folder, name) for name in names if name.endswith(".gcda")):
@@ -104,18 +104,18 @@ def put_back(kept):
 
 
 def whole(data):
-    """A file of counts: its records fill it up to the mark of its end."""
+    """Is the file with counts complete: do its records fill it up to the end mark?"""
     at = 16
     while data[:4] in (b"adcg", b"gcda") and at + 8 <= len(data):
         tag, length = struct.unpack("=Ii", data[at:at + 8])
-        at += 8 + max(length, 0)  # no more than its length where all are 0
+        at += 8 + max(length, 0)  # negative: all counts are 0, and not written
         if not tag:
             break
     return data[at:] == bytes(4)
 
 
 def run_room(tests, room):
-    """A process that is killed while it writes its counts leaves a file that no other can add to: all over again then."""
+    """Runs a room. If a process was killed while it wrote its counts, which spoils the file, the room is run again."""
     kept, before = counts(), copy.deepcopy(tests.cases)
     for _ in range(5):
         tests.room(room, ROOMS.get(room) or runner.ROOMS[room])
@@ -140,8 +140,8 @@ def main():
 
 
 def marked(text):
-    """The numbers of the lines that comments leave out."""
-    found, under = set(), None  # the indentation below which the rest belongs to a mark
+    """The numbers of the lines that `unreached` comments leave out."""
+    found, under = set(), None  # under: the indentation of the line with the comment
     for n, line in enumerate(text.splitlines(), 1):
         depth = len(line) - len(line.lstrip())
         if under is not None and line.strip() and depth <= under[0] and n != under[1]:
@@ -154,13 +154,13 @@ def marked(text):
 
 
 def reached():
-    """{file: ({line: reached}, {line: [branch taken]})} of src/, over all objects that include it. A line of a header
-    that is compiled in several ways, inlined or for several processors, has its branches once: those of one that stands
-    alone, a multiple of which is several in one place."""
+    """{file: ({line: reached}, {line: [branch taken]})} of src/, over all objects that include it. Branches of a line that is
+    compiled several times, inlined or for several processors, are counted once: for the smallest copy; an object that
+    has a multiple of its branches has several copies in one place."""
     files = {}
-    for folder, _, names in os.walk(os.path.join(harness.ROOT, B)):  # tests have headers inlined
+    for folder, _, names in os.walk(os.path.join(harness.ROOT, B)):  # objects of tests count too: they inline headers
         data = [os.path.join(folder, name) for name in names if name.endswith(".gcda")]
-        if "/shared/" in folder:  # the same sources once more
+        if "/shared/" in folder:  # the same sources again
             continue
         done = subprocess.run(["gcov", "-b", "--json-format", "--stdout", *data], cwd=harness.ROOT, capture_output=True,
                               text=True, check=False) if data else None
@@ -178,7 +178,7 @@ def reached():
 
 
 def once(name, ways):
-    """The branches of a line from {number: [taken]} of its copies."""
+    """The branches of a line, merged from its copies, {number of branches: [taken]}."""
     least = min((n for n in ways if n), default=0)
     if not name.endswith(".h") or not least:
         return ways[max(ways)]

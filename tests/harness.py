@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the rooms of tests share: running the program, comparing, counting."""
+"""What the rooms of tests share: running the program, comparing its output, counting tests."""
 import contextlib
 import difflib
 import json
@@ -20,17 +20,17 @@ NUMBER = re.compile(r"\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?")
 
 
 def told(text):
-    """JSON lines, messages and heads of tables left out."""
+    """The rows of JSON output, without messages and heads of tables."""
     return [row for row in map(json.loads, text.splitlines()) if "columns" not in row and next(iter(row)) not in ("note", "warning", "error")]
 
 
 def printed_values(text):
-    """The values of JSON lines, events left out."""
+    """The values of the rows of JSON output that are no events."""
     return [row["value"] for row in told(text) if "event" not in row]
 
 
 def reported(stderr, names, verb="wrote"):
-    """Does standard error report these files, in their order, and nothing else?"""
+    """Does standard error report that these files were written, in this order, and nothing else?"""
     found = re.findall(r"^%s (.*) \([\d.]+ k?B\)\n" % verb, stderr, re.M)
     return found == list(names) and len(stderr.splitlines()) == len(found)
 
@@ -43,8 +43,8 @@ def last_place(number):
 
 
 def same_line(want, got):
-    """Equal up to a unit of the last printed digit of each number; what prints short (1, 0.5) is meant exactly, what
-    prints long (17 digits) to 1e-12."""
+    """Is the text equal, and is each number equal to one unit of its last digit, but at most 1.1e-5 of it, so that short numbers
+    (1, 0.5) are exact, and at least 1e-12 of it, for numbers of 17 digits?"""
     want, got = want.rstrip(), got.rstrip()
     if want == got:
         return True
@@ -66,7 +66,7 @@ def diff(want, got):
 
 
 def at_work(process):
-    """Waits until it would take an interrupt as one, and a little more; False: it has ended."""
+    """Waits until the process has a handler for SIGINT, and a little longer. False: it has ended."""
     while process.poll() is None:
         with open("/proc/%d/status" % process.pid, encoding="ascii") as f:
             caught = re.search(r"^SigCgt:\s*(\w+)", f.read(), re.M)
@@ -78,7 +78,7 @@ def at_work(process):
 
 
 def links(compiler, flags, source="int main(void) { return 0; }"):
-    """Is it there, with the libraries that these flags take?"""
+    """Is the compiler installed, with the libraries that these flags need?"""
     with tempfile.TemporaryDirectory(prefix="fret-links-") as folder:
         return shutil.which(compiler) and subprocess.run(
             [compiler, *flags.split(), "-x", "c", "-", "-o", os.path.join(folder, "out")], input=source, text=True,
@@ -86,28 +86,28 @@ def links(compiler, flags, source="int main(void) { return 0; }"):
 
 
 def usual_signals():
-    """nohup and & pass on ignored ones, which programs then ignore too."""
+    """Undoes what nohup and & do: they have signals ignored, and programs started from here would ignore them too."""
     for number in (signal.SIGHUP, signal.SIGINT, signal.SIGQUIT, signal.SIGTERM):
         if signal.getsignal(number) == signal.SIG_IGN:
             signal.signal(number, signal.SIG_DFL)
 
 
 class Case:
-    """What has a name; a loop that draws a million scenes is one."""
+    """A named test; a loop that draws a million scenes is one case."""
 
     def __init__(self):
         self.ok, self.draws, self.seconds = True, 0, 0.0
 
 
 class Tests:
-    """One run of rooms with one build of the program. `few`: there is no time for many draws of what is drawn at random."""
+    """One run of rooms with one build of the program. `few`: make few random draws, for there is little time."""
 
     def __init__(self, build, label, sanitized, few=False):
         self.fret = os.path.join(ROOT, build, "fret")
         self.build, self.label, self.sanitized, self.few = build, label, sanitized, few
         self.cases = {}
         self.lock = threading.Lock()
-        self.since = threading.local()  # when this thread recorded its last case, or began
+        self.since = threading.local()  # when this thread recorded its last case, or started
         self.top = self.dir = tempfile.mkdtemp(prefix="fret-tests-")
         self.tmp = os.path.join(self.top, "tmp")  # where the program may keep temporary files
         os.makedirs(os.path.join(self.top, "home"))
@@ -137,7 +137,7 @@ class Tests:
         self.guarded(name, run)
 
     def guarded(self, name, run):
-        """A test that breaks off has failed."""
+        """Runs `run`; an exception is a failed test."""
         self.since.time = time.monotonic()
         try:
             run(self)
@@ -146,7 +146,7 @@ class Tests:
                                                             traceback.format_exc()[-1500:]))
 
     def run(self, *args, input="", env=None, timeout=120, cwd=None):
-        """Runs the program; bytes in `input` go in as they are. Output is text."""
+        """Runs the program. Bytes in `input` are passed as they are; output is decoded to text."""
         data = input if isinstance(input, bytes) else input.encode()
         try:
             done = subprocess.run([self.fret, *args], input=data, capture_output=True,
@@ -158,7 +158,7 @@ class Tests:
         return done
 
     def record(self, name, ok, draws=1, seconds=None, detail=""):
-        """A case, or a further draw of one. Its seconds: since this thread recorded the one before."""
+        """Records a case, or further draws of one. Its seconds, if not given: since this thread recorded the last one."""
         now = time.monotonic()
         with self.lock:
             case = self.cases.setdefault(name, Case())
@@ -180,11 +180,11 @@ class Tests:
         return "exit %d\n%s%s" % (done.returncode, done.stdout[-3000:], done.stderr[-3000:])
 
     def some(self, many, step=4):
-        """A few of them, where there is no time for all."""
+        """All of them, or with `few` every step-th."""
         return list(many)[::step if self.few else 1]
 
     def each(self, jobs):
-        """Runs callables side by side."""
+        """Runs callables in threads side by side."""
         def timed(job):
             self.since.time = time.monotonic()
             job()
@@ -194,7 +194,7 @@ class Tests:
         self.since.time = time.monotonic()
 
     def rooms(self, *runs):
-        """Parts of a room, side by side."""
+        """Runs the parts of a room side by side."""
         self.each([lambda run=run: self.guarded(run.__name__, run) for run in runs])
 
     @contextlib.contextmanager
@@ -209,7 +209,7 @@ class Tests:
 
 
 def read_transcript(text):
-    """[(statement, expected output)]; what precedes the first prompt is a comment."""
+    """[[statement, expected output]]; lines before the first prompt are comments."""
     steps = []
     for line in text.splitlines():
         if line.startswith(PROMPT):
@@ -223,12 +223,12 @@ def read_transcript(text):
 
 
 def draws(statement):
-    """A plot in the terminal: its exact characters are gnuplot's affair."""
+    """Does the statement plot in the terminal? What gnuplot draws there is not compared."""
     return re.search(r"(^|;)\s*plot\b", statement) and " to " not in statement and not statement.startswith("set")
 
 
 def replay(tests, name, steps, cwd=None):
-    """The transcript by --replay, plots left out."""
+    """Runs the transcript by --replay, without plots in the terminal."""
     text = ""
     for statement, out in steps:
         if not (draws(statement) and not any("error:" in line for line in out)):
@@ -247,7 +247,7 @@ def is_message(line):
 
 
 def batch(tests, name, steps):
-    """The same statements as a file, by -c and through a pipe: same answers, messages on standard error."""
+    """Runs the statements as a file, by -c and through a pipe: the answers are the same, messages go to standard error."""
     script = "".join(statement + "\n" for statement, _ in steps)
     out = [line for _, lines in steps for line in lines]
     want = "\n".join(line for line in out if not is_message(line))

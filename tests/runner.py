@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the program and runs rooms of tests: `make check` each once, plainly, with few draws of what is random; the rest of
-`make check-all` with sanitizers, with many draws, and by other compilers and libraries."""
+"""Builds the program and runs rooms of tests. `make check` runs each room once, with the normal build and few random draws;
+`make check-all` goes on with sanitizers, with many draws, and with other compilers and libraries."""
 import argparse
 import collections
 import os
@@ -56,7 +56,7 @@ import trouble  # noqa: E402
 import typed  # noqa: E402
 import units  # noqa: E402
 
-# those that take longest begin
+# the rooms that take longest come first
 ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.run, "sharing": sharing.run, "shares": shares.run, "hard": units.hard,
          "accuracy": accuracy_test.run, "explaining": explaining.run, "errors": table.run, "programs": programs.run,
          "scripts": scripts.run, "trouble": trouble.run, "fits": fits.run, "instants": instants.run, "keeping": keeping.run,
@@ -65,16 +65,16 @@ ROOMS = {"rim": rim.run, "unit": units.run, "numbers": numbers_of_the_physics.ru
          "smoothing": smoothing.run, "answers": answers.run, "following": following.run, "forms": forms.run, "readme": transcripts.readme, "fuzz": fuzzing.run,
          "portable": portable.run, "python": python_module.run, "oscillator": oscillating.run, "moving": moving.run, "completion": completion.run, "rough": rough.run, "typed": typed.run,
          "live": live.run, "interactive": prompt.run}
-DRAWING = ("unit", "hard", "numbers", "errors", "fits", "instants", "accuracy", "programs", "typed", "rim", "sharing", "explaining", "completion", "moving")
-PLAIN = ("house", "packaging")  # the sanitized program has the same sources
-OTHER = ("fuzz", "portable", "python", "oscillator")  # builds of their own, and what stands on the library, in check-all alone
-WAITING = ("moving", "completion", "rough", "typed", "live", "interactive")  # for a terminal, most of the time
+DRAWING = ("unit", "hard", "numbers", "errors", "fits", "instants", "accuracy", "programs", "typed", "rim", "sharing", "explaining", "completion", "moving")  # check-all
+PLAIN = ("house", "packaging")  # not sanitized: they look at the sources, or at what is installed
+OTHER = ("fuzz", "portable", "python", "oscillator")  # only in check-all: they build other programs
+WAITING = ("moving", "completion", "rough", "typed", "live", "interactive")  # they mostly wait for a terminal
 
 Result = collections.namedtuple("Result", "label room cases seconds processor")
 
 
 def make(*args):
-    """Warnings of a compiler that nobody knows yet must not keep a newcomer from a check."""
+    """Warnings are errors only if CI is set: those of an unknown compiler must not stop `make check`."""
     command = ["make", "--no-print-directory", "-s", "-j%d" % (os.cpu_count() or 1),
                *(["WERROR=-Werror"] if os.environ.get("CI") else []), *args]
     done = subprocess.run(command, cwd=harness.ROOT, capture_output=True, text=True, check=False)
@@ -84,7 +84,7 @@ def make(*args):
 
 
 def processor():
-    """Seconds that this process and its children have used."""
+    """Processor seconds that this process and its children have used."""
     return sum(used.ru_utime + used.ru_stime for used in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)))
 
 
@@ -103,14 +103,14 @@ def run_room(build, label, name, few=False):
 
 
 def run_rooms(jobs):
-    """Two side by side, since many leave a core idle, and those that wait beside them."""
-    with ProcessPoolExecutor(2) as pool, ProcessPoolExecutor(1) as aside:  # threads would wait for each other's turn at Python
+    """Two side by side, since many leave a core idle, and besides them one that waits for a terminal."""
+    with ProcessPoolExecutor(2) as pool, ProcessPoolExecutor(1) as aside:  # threads would share one interpreter lock
         running = [(aside if job[2] in WAITING else pool).submit(run_room, *job) for job in jobs]
         return [one.result() for one in running]
 
 
 def builds(variants):
-    """[(those that build, seconds)], each a case of the room `build`."""
+    """([labels of the builds that succeeded], Result): each build is a case of the room `build`."""
     cases, good, start, before = {}, [], time.monotonic(), processor()
     for label, args in variants:
         case = cases["builds " + label] = harness.Case()
@@ -130,10 +130,10 @@ def short(wanted):
 
 def rest(wanted):
     args = ["sanitized"]
-    if harness.links("clang", "-fsanitize=address,undefined"):  # sees more than gcc's
+    if harness.links("clang", "-fsanitize=address,undefined"):  # its sanitizers see more than gcc's
         args.append("CC=clang")
     variants = [("plain", ["all", "tests"]), ("sanitized", args)]
-    if "CC=clang" not in args and shutil.which("clang"):  # else that is how it is seen to build with clang
+    if "CC=clang" not in args and shutil.which("clang"):  # only to see that it builds with clang
         variants.append(("by clang", ["B=build/clang", "CC=clang", "all", "tests"]))
     good, built = builds(variants)
     jobs = [("build", "plain", name) for name in wanted if name in OTHER]
@@ -143,7 +143,7 @@ def rest(wanted):
 
 
 def told(results):
-    """Seconds by room, and the tests that take longest."""
+    """Prints the seconds by room, and the tests that take longest."""
     print("\n%-10s %-12s %7s %9s %7s %10s" % ("", "room", "seconds", "processor", "cases", "draws"))
     for r in sorted(results, key=lambda r: -r.processor):
         print("%-10s %-12s %7.1f %9.1f %7d %10d" % (r.label, r.room, r.seconds, r.processor, len(r.cases),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rim of the program: lines without end, memory that runs out, signals at the prompt, text that would command the
-terminal, small stacks. Nothing is lost, nothing is wrong in silence."""
+"""Tests the program at its limits: endless lines, failing allocations and system calls, signals at the prompt, control characters
+in text, small stacks. Nothing may be lost, and no wrong result may go unreported."""
 import errno
 import os
 import pty
@@ -27,7 +27,7 @@ MB = 1 << 20
 
 
 def limited(tests, args, kind, limit, cwd=None, env=None, input=b""):
-    """Runs the program with a limit of the system."""
+    """Runs the program with a resource limit."""
     done = subprocess.run([tests.fret, *args], input=input, capture_output=True, cwd=cwd or tests.dir, timeout=120,
                           env={**tests.env, **(env or {})}, check=False,
                           preexec_fn=lambda: resource.setrlimit(kind, (limit, limit)))
@@ -42,7 +42,7 @@ def expect(tests, name, done, status, out=None, err=None):
 
 
 def lines_without_end(tests):
-    """A line longer than the limit, and memory that is out while a line is read, are errors and never the end."""
+    """A line longer than the limit, and no memory while a line is read, are errors, not the end of the input."""
     for name, way in (("a script", lambda path: tests.run(path)),
                       ("a pipe", lambda path: subprocess.run(
                           "'%s' < '%s'" % (tests.fret, path), shell=True, capture_output=True, text=True,
@@ -59,7 +59,7 @@ def lines_without_end(tests):
         expect(tests, "a continued line of 17 MB does not run its first half", done, 1, "", "longer than 16 MB")
     expect(tests, "source /dev/zero", tests.run("-c", "source /dev/zero"), 1, "", "longer than 16 MB")
     expect(tests, "geometry file /dev/zero", tests.run("-c", "geometry file /dev/zero"), 1, "", "longer than 16 MB")
-    if tests.sanitized:  # shadow memory needs all of the address space
+    if tests.sanitized:  # AddressSanitizer needs all of the address space
         return
     follow = "FN [N],Fx [N]\n100,0\n100,30\n100,20" + " " * (10 * MB) + "\n"
     with tests.file(follow, ".csv") as path:
@@ -73,8 +73,8 @@ def lines_without_end(tests):
 
 
 def once(tests):
-    """Some of the allocations and system calls of each statement fail, once each, and all of those that pass through
-    every room of the program; `make faults` takes them all."""
+    """Makes some of the allocations and system calls of each statement fail, and all of those of statements that use every room
+    of the program; `make faults` tries all."""
     folder = os.path.join(os.path.abspath(tests.build), "tests")
     if tests.sanitized or not os.path.exists(os.path.join(folder, "faults.so")):
         return
@@ -93,7 +93,7 @@ def once(tests):
 
 
 def many_rows(tests):
-    """Rows of a history, interrupted at each allocation: all or nothing."""
+    """`follow` interrupted at each allocation takes all rows of the file, or none."""
     folder = os.path.join(os.path.abspath(tests.build), "tests")
     if tests.sanitized or not os.path.exists(os.path.join(folder, "faults.so")):
         return
@@ -123,7 +123,7 @@ def lost_reads(tests):
                                   capture_output=True, text=True, cwd=where, env=tests.env, timeout=60, check=False)
             with open(os.path.join(where, "told"), encoding="ascii") as f:
                 if "FAILED" not in f.read():
-                    break  # the picture of the last one stays
+                    break  # keep the picture of the last run
             left = [entry for entry in os.listdir(where) if entry not in ("arm", "disarm", "told")]
             for entry in left:
                 os.unlink(os.path.join(where, entry))
@@ -135,7 +135,7 @@ def lost_reads(tests):
 
 
 def no_more_keys(tests):
-    """Where no key can be waited for any more the full-screen mode ends, and leaves the screen."""
+    """If waiting for a key fails for good the full-screen mode ends, and leaves the screen."""
     tool = os.path.join(os.path.abspath(tests.build), "tests", "calls")
     if tests.sanitized or not faults.can_filter(os.path.dirname(tool)):
         return
@@ -151,7 +151,7 @@ def no_more_keys(tests):
     while time.monotonic() < end and select.select([fd], [], [], end - time.monotonic())[0]:
         try:
             text += os.read(fd, 1 << 16)
-        except OSError:  # it has ended
+        except OSError:  # the program has ended
             break
     else:
         os.killpg(pid, signal.SIGKILL)
@@ -164,7 +164,7 @@ def no_more_keys(tests):
 
 
 def transcripts(tests):
-    """What is lost of a transcript is told when it is lost, and at the end."""
+    """Bytes of a recording that are lost are reported at once, and at the end."""
     for name, script, out in (("at once", "record /dev/full\nx = 1\nx\n", ""), ("at the end", "record /dev/full\n", None),
                               ("by record off", "record /dev/full; record off\n", None)):
         done = tests.run(input=SCENE + script)
@@ -173,11 +173,11 @@ def transcripts(tests):
 
 
 def limits(tests):
-    """What would take all memory is refused, and small stacks do."""
+    """Statements that would take all memory are refused; a small stack is enough."""
     with tests.file("1" + "+1" * (5 * MB) + "\n") as path:
         done = tests.run(path) if tests.sanitized else limited(tests, [path], resource.RLIMIT_AS, 400 * MB)
         expect(tests, "a sum of 5e6 terms", done, 1, "", "more than 2097152 numbers, names and operators")
-    if tests.sanitized:  # frames are larger there
+    if tests.sanitized:  # its stack frames are larger
         return
     script = SCENE + "cycle FA=20 N\n" + "".join("w%d := %s + 1\n" % (i, "w%d" % (i - 1) if i else "1")
                                                  for i in range(90)) + "w89\n"
@@ -192,7 +192,7 @@ def limits(tests):
 
 
 def hostile(tests):
-    """Bytes from outside reach the terminal escaped, and JSON as UTF-8."""
+    """Bytes from files and names are escaped on the terminal, and valid UTF-8 in JSON."""
     where = os.path.join(tests.dir, "hostile")
     os.mkdir(where)
     for i, escape in enumerate(tests.some(ESCAPES, 3)):
@@ -300,7 +300,7 @@ def gnuplot(tests):
         subprocess.run(["rm", "-rf", deep], check=False)
 
 
-# The prompt is a job of a session's leader, as of a shell: a process group without one is never stopped.
+# The prompt is a job of a session leader, such as a shell: an orphaned process group cannot be stopped.
 LEADER = """
 import fcntl, os, signal, sys, termios
 fcntl.ioctl(0, termios.TIOCSCTTY, 0)
@@ -318,7 +318,7 @@ os.write(int(sys.argv[1]), b"%d\\n" % (-os.WTERMSIG(status) if os.WIFSIGNALED(st
 
 
 class Prompt:
-    """The prompt on a terminal whose settings are looked at."""
+    """The prompt on a terminal whose modes are compared."""
 
     def __init__(self, tests, **env):
         self.tests = tests
@@ -348,7 +348,7 @@ class Prompt:
         return self.read()
 
     def restored(self):
-        """As it was before, within seconds."""
+        """Are the modes as before, after some seconds at most?"""
         for _ in range(100):
             if termios.tcgetattr(self.side) == self.before:
                 return True
@@ -359,7 +359,7 @@ class Prompt:
         os.kill(self.pid, number)
 
     def status(self):
-        """How it ended; None: not yet."""
+        """The exit status; None: it has not ended."""
         return int(self.told.readline()) if select.select([self.told], [], [], 60)[0] else None
 
     def stopped(self):
@@ -382,7 +382,7 @@ class Prompt:
 
 
 def inherited(tests):
-    """What whoever starts the program has it ignore: nohup(1) is obeyed, children are waited for all the same."""
+    """Signals that the parent has ignored: nohup(1) is obeyed; an ignored SIGCHLD does not prevent waiting for children."""
     for number in (signal.SIGHUP, signal.SIGINT):
         child = subprocess.Popen([tests.fret, "-c", "x = 1; source /dev/stdin; x + 1"], stdin=subprocess.PIPE,
                                  stdout=subprocess.PIPE, env=tests.env,
@@ -448,7 +448,7 @@ def signals(tests):
 
 
 def prompt_memory(tests):
-    """Memory that runs out while a line is edited: the terminal is right again, and an end is no good one."""
+    """Allocations fail while a line is edited: the terminal is restored, and if the program ends its status is not 0."""
     shim = os.path.join(os.path.abspath(tests.build), "tests", "faults.so")
     if tests.sanitized or not os.path.exists(shim):
         return
@@ -458,7 +458,7 @@ def prompt_memory(tests):
         p = Prompt(tests, LD_PRELOAD=shim, FAULT=str(number))
         text = p.say("source arm")
         for line in ("x = 5", "x", "x + 1", "\x04"):
-            if "virtual memory" not in text:  # of readline, which ends the program
+            if "virtual memory" not in text:  # readline's message: it ends the program
                 os.write(p.main, line.encode() + (b"" if line == "\x04" else b"\r"))
                 text += p.read(0.7 if line == "\x04" else 2)
         status = p.status()
@@ -469,7 +469,7 @@ def prompt_memory(tests):
 
 
 def ended_at_work(tests):
-    """Half-written files, gnuplot and its directory go when the program is ended."""
+    """When a signal ends the program, half-written files, gnuplot and its directory are removed."""
     where = os.path.join(tests.dir, "ended")
     tmp = os.path.join(where, "tmp")
     os.makedirs(tmp)
@@ -507,7 +507,7 @@ def ended_at_work(tests):
 
 
 def gone(pid):
-    """Ended, or waiting to be collected."""
+    """Has the process ended, or is it a zombie?"""
     try:
         with open("/proc/%s/stat" % pid, encoding="ascii") as f:
             return f.read().rpartition(")")[2].split()[0] == "Z"
@@ -516,7 +516,7 @@ def gone(pid):
 
 
 def interrupts(tests):
-    """Ctrl-C in what takes longest, on smaller cases: the scene is as before, and it does not take long."""
+    """Ctrl-C in the slowest statements, on smaller cases: it takes effect soon, and the scene is as before."""
     where = os.path.join(tests.dir, "latency")
     os.mkdir(where)
     env = {**tests.env, "TERM": "dumb", "INPUTRC": "/dev/null", "XDG_STATE_HOME": where}
@@ -545,7 +545,7 @@ def interrupts(tests):
 
 
 def history(tests):
-    """The history makes no home, follows no link, waits for no pipe."""
+    """The history file: no home directory is made, no link followed, no pipe waited for."""
     home = os.path.join(tests.dir, "no-home")
     p = Prompt(tests, HOME=home)
     p.say("1")
@@ -572,10 +572,10 @@ def history(tests):
     p.close()
 
 
-# each input as it depends on s, and one that goes with it
+# each input as a function of s, and another input that it needs
 FOLLOWS = {"E0": "210 GPa*%s", "nu": "0.3*%s", "k": "0.3*%s", "c0": "1 mm*%s", "E0_2": "70 GPa*%s", "mu": "0.4*%s",
            "FN": "100 N*%s", "FA": "20 N*%s", "dxA": "0.5 um*%s"}
-# geometry, what else is of it and follows; load; model
+# geometry, what belongs to it and follows it; load; model
 NEEDING = (("sphere R=10 mm", {"R": "10 mm*%s"}, "cycle FA=20 N", "auto"),
            ("sphere R=10 mm", {"R": "10 mm*%s"}, "step Fx=20 N", "memory"),
            ("sphere R=10 mm", {}, "step FN=80 N Fx=20 N; cycle dxA=0.5 um", "auto"),
@@ -590,7 +590,7 @@ CALLS = {"E": "1 mm", "loss_factor": "10 N", "c": "10 N", "F": "10 N", "d": "0.1
 
 
 def quantities(tests):
-    """All there are, called where they are functions."""
+    """All quantities; functions as calls."""
     listed = tests.run("-c", "help quantities").stdout.partition("Results:")[2].partition("fret>")[0]
     asked = ["%s(%s)" % (name, CALLS.get(name) or CALLS[argument]) if argument else name
              for name, argument in re.findall(r"^    (\w+)(?:\((\w+)\))?  ", listed, re.M)]
@@ -599,7 +599,7 @@ def quantities(tests):
 
 
 def needs(tests):
-    """What moves with an input cannot be told where the input cannot be; what does not, is the same there."""
+    """At an impossible value of an input, quantities that depend on it are errors, and the others keep their value."""
     asked = quantities(tests)
     with tests.file("r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(51)), ".csv") as path:
         tests.each([lambda s=scene, n=name: needed(tests, asked, s, n, path) for scene in tests.some(NEEDING, 3)
@@ -635,7 +635,7 @@ def needed(tests, asked, scene, name, path):
     tests.check("what moves with " + told, moved > 0, str(moved))
 
 
-# scenes, and the inputs that a table runs through
+# scenes, and inputs over which tables are made
 TABLED = (("material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N",
            ("E0 = 100 GPa .. 200 GPa", "nu = 0.1 .. 0.3", "k = -0.2 .. 0.2", "mu = 0.3 .. 0.5", "FN = 80 N .. 120 N", "R = 5 mm .. 9 mm",
             "FA = 10 N .. 30 N", "FN = 20 N .. 60 N", "nu = 0.4 .. 0.6")),
@@ -654,7 +654,7 @@ TABLED = (("material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry sphere R=10 mm; f
 
 
 def tabled(tests):
-    """A column holds, row by row, what is told of the scene with that input: rows of many scenes at once, or none."""
+    """Each row of a table over an input has the value of the scene with that input, whether rows are computed together or one by one."""
     asked = quantities(tests) + ["E0", "nu", "k", "c0", "mu", "R", "A", "FN", "FA", "2*a+0 m", "a/a0"]
     tests.each([lambda s=scene, r=span: columns(tests, asked, s, r) for scene, spans in tests.some(TABLED, 3) for span in spans])
 
@@ -684,7 +684,7 @@ def columns(tests, asked, scene, span):
 
 
 def along(tests):
-    """At the end of a table along the load every quantity is what it is there."""
+    """In the last row of a table along the load every quantity has the value that it has at the end of the load."""
     asked = [one for one in quantities(tests) if one != "time"]
     loads = ("press FN=100 N", "step Fx=20 N", "step FN=80 N Fx=20 N", "step Fx=20 N; step dx=-0.1 um", "cycle FA=20 N times 2",
              "cycle dxA=0.3 um; step FN=90 N", "cycle FA=12 N FNA=9 N", "cycle dxA=0.3 um FNA=9 N")
@@ -706,7 +706,7 @@ def ends(tests, asked, shape, load):
     tests.check("along " + load, not {1, 2} & failed and len(values) > 40, tests.report(done))
     for one in asked:
         a, b = rows.get(one), values.get(one)
-        near = 1e-7 if "FNA" in load else 1e-11  # chords, and the sine itself
+        near = 1e-7 if "FNA" in load else 1e-11  # one value is by chords, the other by the sine itself
         tests.check("%s along %s, %s" % (one, load, shape), a == b or (None not in (a, b) and abs(a - b) <= near * abs(b)),
                     "%s, expected %s" % (a, b))
 

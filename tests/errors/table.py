@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs errors.txt: each entry as a file, by -c and through a pipe, or in one of these ways in turn. The caret must stand where
-the column says."""
+"""Runs errors.txt: each entry as a file, by -c and through a pipe, or in one of these ways in turn. The caret must stand below
+the column that the message names."""
 import os
 import re
 import unicodedata
@@ -10,7 +10,7 @@ import harness
 SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
 
 
-# what entries read, beside them
+# files that the entries read
 FILES = {"gap.csv": "r [mm],f [um]\n0,0\n1,1\n2,4\n", "loop.csv": "dx [um],Fx [N]\n0,0\n0.1,5\n0.2,8\n0.3,11\n",
          "loss.csv": "F [N],y [uJ]\n5,0.01\n10,0.08\n15,0.25\n", "ambiguous.csv": "F [N],dW [uJ]\n5,0.01\n10,0.08\n",
          "modulus.csv": "F [N],E0\n1,2\n2,3\n3,4\n",
@@ -33,12 +33,12 @@ def entries(text):
 
 
 def wide(text):
-    """Columns of a terminal."""
+    """How many columns of a terminal the text takes."""
     return sum(0 if unicodedata.combining(c) else 2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in text)
 
 
 def part_of(source, column, shown, caret):
-    """Of a long line a part is shown, with dots where it goes on; the caret stands below the column."""
+    """Is this the part of a long line that may be shown, with dots where it is cut, and the caret below the column?"""
     before, after = shown.startswith("  ..."), shown.endswith("...") and not source.endswith("...")
     text, behind = shown[5 if before else 2:-3 if after else None], source[column - 1:]
     left = next((n for n in range(len(text) + 1) if wide(text[:n]) == caret - (5 if before else 2)), None)
@@ -48,8 +48,8 @@ def part_of(source, column, shown, caret):
 
 
 def carets(messages, lasts, script):
-    """Each placed message is followed by its line and a caret below the column, which counts characters; marks go on
-    to the last column, where that is known."""
+    """Each message with a place is followed by its line, and by a caret below the column, which counts characters; ~ marks
+    follow up to the last column, if it is known."""
     lines, lasts, script = messages.splitlines(), list(lasts), script.splitlines()
     for i, line in enumerate(lines):
         found = re.match(r"\S+:(\d+):(\d+): error: ", line)
@@ -60,10 +60,10 @@ def carets(messages, lasts, script):
             return False
         row, shown, caret = int(found.group(1)) - 1, lines[i + 1], lines[i + 2].index("^")
         source = script[row]
-        if row and script[row - 1].rstrip().endswith("\\"):  # a line that goes on is shown without its indentation
+        if row and script[row - 1].rstrip().endswith("\\"):  # a continuation line is shown without its indentation
             blanks = min(len(source) - len(source.lstrip(" ")), column - 1)
             source, column, last = source[blanks:], column - blanks, int(last) - blanks if last else None
-        plain = source.isprintable()  # what is not is shown in another way
+        plain = source.isprintable()  # other lines are shown escaped
         if "..." not in shown and (wide(source[:column - 1]) if plain else column - 1) != caret - 2:
             return False
         if wide(source) > 100 and plain and not part_of(source, column, shown, caret):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Broken input, missing programs, full disks, interrupts, no memory: always a clear message and status."""
+"""Broken input, missing programs, full disks, interrupts, no memory: each must give a clear message and exit status."""
 import contextlib
 import os
 import random
@@ -17,7 +17,7 @@ LONG = SCENE + "table dW(F) for F = 1 N .. 30 N steps 50000000 to %s\n"
 
 
 def expect(tests, name, done, status, out=None, err=None):
-    """Ends with this status; these words stand in the output and the messages."""
+    """Checks the exit status, and that these words are in the output and in the messages."""
     ok = (done.returncode == status and "Sanitizer" not in done.stderr and "runtime error" not in done.stderr
           and (out is None or out in done.stdout) and (err is None or err in done.stderr))
     tests.check(name, ok, "expected exit %s, %r, %r\n%s" % (status, out, err, tests.report(done)))
@@ -260,7 +260,7 @@ def gnuplot(tests):
 
 
 def finish(tests, name, job):
-    """An interrupted job: exit 130 long before its end, and it says so at most."""
+    """Waits for an interrupted job: it must end soon with status 130, and print no message but that it was interrupted."""
     try:
         out, err = job.communicate(timeout=60)
     except subprocess.TimeoutExpired:
@@ -321,7 +321,7 @@ def interrupts(tests):
 
 
 def memory(tests):
-    if tests.sanitized:  # its shadow memory needs terabytes
+    if tests.sanitized:  # AddressSanitizer reserves terabytes
         return
     line = "1+" * (1 << 21) + "1\n"
     job = subprocess.run([tests.fret], input=line.encode(), capture_output=True, env=tests.env, timeout=60,

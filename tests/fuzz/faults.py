@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What fails once, at every place where it can: memory that runs out, and system calls; and an interrupt at every allocation.
-A statement then ends with the right answer, or with an error that says so and the scene and its files as before. `faults.py FRET TESTS [STATEMENT...]`
-tries them all and prints a table, the tests some; TESTS is the folder with faults.so and calls.
-`faults.py --leaks FRET TESTS [STATEMENT...]`: does memory that runs out leave any of it behind? Both built for a leak detector."""
+"""Injects faults: one allocation or one system call fails, or an interrupt comes at one allocation, at every place where it can.
+The statement must then give the right answer, or an error that names the fault and leaves the scene and all files as before.
+`faults.py FRET TESTS [STATEMENT...]` tries all places and prints a table; the tests try some. TESTS: the folder with faults.so and
+calls. `faults.py --leaks FRET TESTS [STATEMENT...]` looks for memory leaked after failed allocations; both built with -fsanitize=leak."""
 import contextlib
 import difflib
 import errno
@@ -32,10 +32,10 @@ SUM = "material steel; friction 0.4; geometry sum 2:50 m^-1, 4:2e6 m^-3; press F
 NESTED = POWER + "; press FN=100 N" + "".join("; step Fx=%d N" % ((-1) ** i * (20 - 2 * i)) for i in range(10))
 NAMES = "x = 1; y = 2; q = 3; z = 4"
 SWUNG = POWER + "; press FN=100 N; cycle FA=9 N FNA=10 N"
-MOST = 2000  # allocations of a statement that fail
+MOST = 2000  # allocations of a statement that are made to fail
 STEEL = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
 
-# a setup, and statements that are tried after it
+# a setup, and the statements that are tried after it
 STATEMENTS = (
     (POWER, ("y = 3 mm, z = x + 1", "z := x^2", "G(u, v) := u + v*x", "k = 0.3", "c0 := 2 mm*x", "undo", "x, x^2 in %",
              "F(3), (x at x=5), (F(x) at x=5)", "material steel nu=0.2", "second E0=70 GPa nu=0.33", "second aluminium",
@@ -90,7 +90,7 @@ STATEMENTS = (
     (TABLE, ("step Fx=1 N", "dW, a, Fx", "cycle FA=2 N FNA=1 N", "geometry file gap.csv", "k = 0.2, c0 = 1 mm",
              "explain dW", "show", "p(0.01 mm)", "accuracy within 0.001")),
     (LOADED + "; set model springs 40", ("Fx, W", "dW", "history", "explain W", "cycle FA=10 N")),
-    # searches whose every evaluation allocates, and nothing else does
+    # searches: all allocations are made by their evaluations, which repeat
     (NAMES, ("minimize ((z-1)^2 at z=x) over x = 0 .. 3", "maximize (z+0*sqrt(1-z) at z=x) over x = 0.2 .. 3",
              "minimize ((z-1)^2+(y-2)^2+z*y/9 at z=x) over x = 0 .. 3, y = 0 .. 3", "minimize (abs(z-1) at z=x) over x = 0 .. 3",
              "minimize (z^2 at z=x) over x = 0 .. 3", "minimize (abs(z-1)+abs(y-1) at z=x) over x = 0 .. 3, y = 0 .. 3",
@@ -115,25 +115,25 @@ STATEMENTS = (
     (SUM, ("cycle FA=1 N", "W, dW(1 N)", "FN = 20 N", "explain W", "qx(0.01 mm)", "dW(1 N), dx(1 N)")),
 )
 
-# how calls fail; those that are not named, with EIO
+# the errors with which calls fail; EIO for those not listed
 CODES = {"read": ("EIO", "EINTR", "EAGAIN"), "write": ("ENOSPC", "EIO", "EINTR"), "open": ("EMFILE", "EACCES", "EINTR"),
          "close": ("EIO", "EINTR"), "fsync": ("EIO", "ENOSPC"), "rename": ("EIO", "ENOSPC", "EACCES"),
          "unlink": ("EIO", "EACCES"), "mkdir": ("ENOSPC", "EMFILE"), "fork": ("EAGAIN", "ENOMEM"),
          "wait": ("EINTR", "ECHILD"), "mmap": ("ENOMEM",), "exec": ("EACCES", "ENOMEM", "EMFILE"),
          "fcntl": ("EMFILE",), "dup": ("EMFILE", "EINTR"), "pipe": ("EMFILE",), "poll": ("EINTR", "ENOMEM"),
          "getrandom": ("EINTR", "EAGAIN"), "ioctl": ("ENOTTY",), "lseek": ("ESPIPE",)}
-# families of calls that do the same
+# families of system calls that do the same
 FAMILIES = {"openat": "open", "pread64": "read", "writev": "write", "renameat": "rename", "renameat2": "rename",
             "unlinkat": "unlink", "rmdir": "unlink", "mkdirat": "mkdir", "clone": "fork", "clone3": "fork",
             "vfork": "fork", "wait4": "wait", "waitid": "wait", "mremap": "mmap", "execve": "exec",
             "dup2": "dup", "dup3": "dup", "pipe2": "pipe", "ppoll": "poll"}
 ALLOCATION, INTERRUPT = "allocation", "interrupt"
-LIVE = ("log.txt", "log.html")  # written as it goes on
+LIVE = ("log.txt", "log.html")  # files written while the session goes on
 LOST_OUTPUT = "error: cannot write to standard output"
 INTERRUPTED = 130  # the exit status
 LAST_WORD = "without a word to the terminal"
-AGAIN = 4  # calls in a row that only wait
-PATIENCE, HUNG = 120, 124  # seconds for a statement, and the status of one that takes longer
+AGAIN = 4  # how many calls in a row fail, of those that only wait
+PATIENCE, HUNG = 120, 124  # seconds for a statement, and the exit status if it takes longer
 
 
 def codes_of(call):
@@ -141,7 +141,7 @@ def codes_of(call):
 
 
 def prepare(where):
-    """Files that the statements read, and one that must survive."""
+    """Writes the files that the statements read, and one that must stay as it is."""
     texts = {"arm": "", "disarm": "", "script.fret": "x\nx + 1; x + 2\n",
              "gap.csv": "r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50) for i in range(40)),
              "rough.csv": "r [mm],f [um],note,more\n" + "".join("%g,%g,a word\n" % (i / 50, max(0, i * i / 50 + 8 * math.sin(2 * i)))
@@ -168,7 +168,7 @@ def prepare(where):
 
 
 def files(where):
-    """What the directory holds."""
+    """{name: content} of the directory."""
     found = {}
     for name in sorted(os.listdir(where)):
         with open(os.path.join(where, name), "rb") as f:
@@ -181,9 +181,9 @@ def differ(want, got):
 
 
 class Faults:
-    """One statement, run again and again. A fault is (what, number, code), None for none."""
-    given = None  # to the program, beside the script; standard input
-    most = 500  # of system calls and interrupts
+    """One statement, which is run once for each fault. A fault is (what fails, its number, error code); None: no fault."""
+    given = None  # standard input of the program
+    most = 500  # the most system calls and interrupts that are tried
 
     def __init__(self, fret, tests, env, setup, statement):
         self.fret, self.tests, self.env, self.statement = fret, tests, env, statement
@@ -193,7 +193,7 @@ class Faults:
                                "1234567", "show", "show variables"))
 
     def run(self, fault, count=None, script=None):
-        """(exit status, output, messages, files, what was counted)"""
+        """Runs the script with a fault: (exit status, output, messages, files, number of places counted)"""
         where = tempfile.mkdtemp(prefix="fret-faults-")
         told = where + ".told"
         tmp = where + ".tmp"
@@ -236,7 +236,7 @@ class Faults:
         return done.returncode, done.stdout.decode(), done.stderr.decode()
 
     def changed(self, wants, left, what):
-        """Files that are none of these, without what a removal that fails leaves behind."""
+        """The files that are as in none of `wants`; a file left by a removal that failed does not count."""
         if FAMILIES.get(what, what) == "unlink":
             left = {name: text for name, text in left.items()
                     if name != "left in TMPDIR" and not name.startswith(".fret-")}
@@ -244,7 +244,7 @@ class Faults:
         return [name for name in sorted(names) if all(want.get(name) != left.get(name) for want in wants)]
 
     def try_one(self, fault, right):
-        """"refused", "harmless", "not reached", or what is wrong."""
+        """Runs with one fault and judges it: "refused", "harmless", "not reached", or what is wrong."""
         what = fault[0]
         status, out, err, left, seen = self.run(fault)
         if what == INTERRUPT:
@@ -270,7 +270,7 @@ class Faults:
         if not before.startswith(started):
             return "another beginning"
         first = [line for line in err.splitlines() if "error:" in line][:1]
-        if first and first[0].startswith("-c:5:"):  # what follows the statement
+        if first and first[0].startswith("-c:5:"):  # the fault came in the line after the statement
             return "refused"
         if "1234567 = " in out and final != self.kept:
             return "the scene changed, or what follows fails:\n" + differ(self.kept, final) + "\n" + err
@@ -278,7 +278,7 @@ class Faults:
         return "%s changed\n%s" % (" ".join(changed), err) if changed else "refused"
 
     def interrupted(self, status, out, err, left, right):
-        """The script ends, if not before, where the next statement would begin."""
+        """Judges an interrupt: the script must end at the latest where the next statement begins."""
         if status == 0:
             return "harmless" if self.tells_times or out == right[1] else "ends well with another answer\n" + differ(right[1], out)
         told = re.findall(r"error: (.*)", err)
@@ -289,14 +289,14 @@ class Faults:
         return "%s changed\n%s" % (" ".join(changed), err) if changed else "refused"
 
     def reference(self, count):
-        """The run without a fault; what the scene and the files are before the statement."""
+        """Runs without a fault, and records the scene and the files before the statement."""
         bare = self.run(None, None, self.script.replace("source arm\n%s\nsource disarm\n" % self.statement, "", 1))
         self.kept, self.files = bare[1].rpartition("1234567 = ")[2], bare[3]
         return self.run(None, count)
 
 
 class ToTheEnd(Faults):
-    """A script and the end of the program, by one of the ways to give it."""
+    """The same for a whole script and the end of the program, by one of the ways to pass it."""
     ways = {"-c": lambda script: ["-c", script], "a file": lambda script: ["main.fret"], "standard input": lambda script: [],
             "a transcript": lambda script: ["--replay", "main.fret"]}
 
@@ -328,7 +328,7 @@ class ToTheEnd(Faults):
 
 
 class OnScreen(Faults):
-    """The full-screen mode, which tells on its screen what is wrong and goes on: a scene that is another one has been told."""
+    """The same for the full-screen mode. It shows an error on its screen and goes on: if the scene differs, an error was shown."""
     played, most = "live lesson.fret", 300
 
     def __init__(self, fret, tests, env, statement):
@@ -339,12 +339,12 @@ class OnScreen(Faults):
         if fault[0] not in (ALLOCATION, INTERRUPT) and "FAILED\n" not in seen:
             return "not reached"
         if status == LAST_WORD and fault[0] == "write" and "read" not in seen.partition("FAILED\n")[2]:
-            return "harmless"  # to us: no key is read after the last write, which leaves the screen
+            return "harmless"  # a fault after the last key, while the screen is left
         if status not in ((0, INTERRUPTED) if fault[0] == INTERRUPT else (0, 1)):
             return "exit %s\n%s" % (status, err)
         if self.changed([self.files, right[3]], left, fault[0]):
             return "files changed"
-        if fault[0] == INTERRUPT:  # leaves, as a key
+        if fault[0] == INTERRUPT:  # Ctrl-C is a key that leaves
             return "refused"
         told_of = re.search("error: |out of memory", err + out)
         if status and not told_of:
@@ -358,12 +358,12 @@ class OnScreen(Faults):
 
 
 class ByKeys(OnScreen):
-    """The same at a terminal, by these keys; which is as before in the end."""
+    """The same with keys at a terminal, which must be as before in the end."""
     most = 100
     keys = ("l", "f", ":x = 3\r", "?", "x", ":compare k = 0, 0.2\r", "l", ":compare\r", "u", ":\x1b[A\x15pr\t\x1b", ":show commands\r", "x",
             ":table x for x = 1 .. 2 to out.csv\r", "c", "b", "q")
 
-    steps = " ", "b", " ", "q"  # of a script
+    steps = " ", "b", " ", "q"  # keys that step through a script
 
     def __init__(self, fret, tests, env, statement="live"):
         super().__init__(fret, tests, {**env, "TERM": "xterm-256color"}, statement)
@@ -375,7 +375,7 @@ class ByKeys(OnScreen):
         modes, screen, seen, shown = termios.tcgetattr(ours), Screen(24, 80), "", ""
 
         def read(seconds):
-            """What comes until nothing does for so long."""
+            """Output until none comes for so many seconds."""
             text = ""
             while select.select([terminal], [], [], seconds)[0]:
                 text += os.read(terminal, 1 << 16).decode(errors="replace")
@@ -388,7 +388,7 @@ class ByKeys(OnScreen):
                 now = read(0.05)
                 shown += now
                 raw = not termios.tcgetattr(ours)[3] & termios.ICANON
-                if "\x1b[?1049h" in shown or (raw and not now):  # what tells of the screen may be what was lost
+                if "\x1b[?1049h" in shown or (raw and not now):  # the message may have been lost itself
                     break
             for key in self.keys if job.poll() is None else ():
                 os.write(terminal, key.encode())
@@ -397,7 +397,7 @@ class ByKeys(OnScreen):
             while job.poll() is None and time.time() < end:
                 shown += read(0.05)
             with contextlib.suppress(ProcessLookupError):
-                os.killpg(job.pid, signal.SIGKILL)  # what makes calls fail, and the program below it
+                os.killpg(job.pid, signal.SIGKILL)  # `calls` and the program that it runs
             shown += read(0)
             err = job.stderr.read().decode()
         restored = termios.tcgetattr(ours) == modes
@@ -423,7 +423,8 @@ def interrupts(seen):
 
 
 def calls(seen):
-    """Each call with each code; of those that wait for gnuplot, whose number changes, the first."""
+    """The faults for the calls that were seen: each with each code; only the first of the calls that wait for gnuplot, whose
+    number varies."""
     found, numbers = [], {}
     for call in seen.split():
         numbers[call] = numbers.get(call, 0) + 1
@@ -433,7 +434,7 @@ def calls(seen):
 
 
 def attempt(one, kind, most=0):
-    """{how it ended: faults}, and [(fault, what is wrong)], of at most so many faults, evenly chosen."""
+    """Tries at most `most` faults, evenly spread: {how it ended: number of faults}, [(fault, what is wrong)]"""
     right = one.reference("all" if kind is calls else ALLOCATION)
     if right[0] != 0:
         return {}, [(None, "does not run: " + right[2])]
@@ -448,12 +449,12 @@ def attempt(one, kind, most=0):
 
 
 def spread(every, most):
-    """No more than so many of them."""
+    """At most `most` of them, evenly spread."""
     return [every[(2 * i + 1) * len(every) // (2 * most)] for i in range(most)] if len(every) > most else every
 
 
 def leaks(one):
-    """[injected, clean, of libraries], and [(fault, report)] of what is left behind."""
+    """Looks for leaks: [faults injected, without leak, leaks of libraries], [(fault, report)]"""
     right, counts, wrong = one.reference(ALLOCATION), [0, 0, 0], []
     for fault in [(None, 0, 0), *spread(allocations(right[4]), MOST)]:
         status, _, told_of = one.run(fault)[:3]
@@ -469,8 +470,8 @@ def leaks(one):
 
 
 def left_by_library(leak):
-    """GSL's constructors leave behind what they had when they can have no more: a matrix its head, a solver its parts; glibc's
-    newlocale a name."""
+    """Is the leak one of a library? GSL's constructors leak what they have allocated when a later allocation fails, and so does
+    newlocale of glibc."""
     if leak.startswith("Direct leak of 5 byte(s) in 1 object") and " in __newlocale " in leak:
         return True
     makers = set(re.findall(r" in (gsl_\w+_c?alloc) ", leak))
@@ -494,7 +495,7 @@ def leak_campaign(fret, tests, only):
 
 
 def can_filter(tests):
-    """May system calls be filtered here?"""
+    """Does this system allow seccomp filters?"""
     tool = os.path.join(tests, "calls")
     return os.path.exists(tool) and subprocess.run([tool, os.devnull, "none", "0", "0", "/bin/true"], check=False,
                                                    stderr=subprocess.DEVNULL).returncode == 0

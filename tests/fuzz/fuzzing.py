@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the targets of fuzz.c from the corpus in git. `fuzzing.py FUZZ SECONDS [TARGET...]` goes on for so long with each,
-keeps new inputs in build/fuzz/corpus and writes tests/hard/fuzz.txt; the tests run ten seconds of each. `--minimise` puts
-what the corpus and build/fuzz/corpus reach between them into the corpus, in few inputs."""
+"""Runs the libFuzzer targets of fuzz.c, starting from the corpus in git. `fuzzing.py FUZZ SECONDS [TARGET...]` runs each for so long,
+keeps new inputs in build/fuzz/corpus and writes tests/hard/fuzz.txt; the tests run each for ten seconds. `--minimise` merges
+build/fuzz/corpus into the corpus in git: the few inputs that reach all code that both reach."""
 import glob
 import os
 import pathlib
@@ -27,7 +27,7 @@ def corpus(target):
     return os.path.join(HERE, "corpus", target + ".txt")
 
 
-# A paragraph an input: its lines, bytes that are no printable text as \xNN, an empty line as a backslash alone.
+# The corpus is text: a paragraph per input, with unprintable bytes as \xNN and an empty line as a single backslash.
 def written(data):
     text = re.sub(r"[\\\x00-\x09\x0b-\x1f\x7f\x80-\x9f\u2028\u2029\ud800-\udfff]", lambda found: "\\\\" if found.group() == "\\" else
                   "".join("\\x%02x" % byte for byte in found.group().encode("utf-8", "surrogateescape")), data.decode("utf-8", "surrogateescape"))
@@ -40,7 +40,7 @@ def given(paragraph):
 
 
 def inputs(target):
-    """Those in git."""
+    """The inputs in git."""
     if not os.path.exists(corpus(target)):
         return []
     with open(corpus(target), encoding="utf-8", newline="\n") as f:
@@ -48,7 +48,7 @@ def inputs(target):
 
 
 def unpack(target, folder):
-    """A file an input, as libFuzzer wants them."""
+    """Writes each input to a file of its own, as libFuzzer needs."""
     os.makedirs(folder)
     for i, data in enumerate(inputs(target)):
         pathlib.Path(folder, "%04d" % i).write_bytes(data)
@@ -62,7 +62,7 @@ def environment(target, tmp):
 
 
 def seeds(target):
-    """Text to begin with, from what the tests have."""
+    """Inputs to begin a corpus with, taken from the tests."""
     for path in sorted(glob.glob(os.path.join(ROOT, "tests/sessions/*.txt")) + glob.glob(os.path.join(ROOT, "scripts/demos/*.txt")) +
                        glob.glob(os.path.join(ROOT, "scripts/paper/*.txt"))):
         with open(path, encoding="utf-8") as f:
@@ -92,18 +92,18 @@ FILES = ("r [mm],f [um]\n0,0\n0.1,0.5\n0.2,2\n0.4,8\n0.8,32\n1.6,128\n", "r,f\n0
 
 
 def forms():
-    """Tables in all the forms that are read."""
+    """Tables in all formats that fret reads."""
     return [pathlib.Path(path).read_bytes() for path in sorted(glob.glob(os.path.join(ROOT, "tests/sessions/forms/*")))]
 
 
 def rows():
-    """The functions of the library that its target calls."""
+    """The functions that the target `library` calls."""
     with open(os.path.join(HERE, "library.h"), encoding="utf-8") as f:
         return re.findall(r"ROW\((fret_\w+)\)", f.read())
 
 
 def calls():
-    """All of them, in some orders, with usual numbers and others."""
+    """Inputs of the target `library`: calls of all functions in several orders, with usual and unusual numbers."""
     r = random.Random(1)
     for _ in range(60):
         names = r.sample(rows(), 30)
@@ -112,7 +112,7 @@ def calls():
 
 
 def start(target, folder):
-    """Seeds of a new corpus."""
+    """Begins a new corpus from seeds."""
     texts = [*FILES, *forms()] if target in ("gap", "follow", "table") else calls() if target == "library" else seeds(target)
     for i, text in enumerate(texts):
         data = text if isinstance(text, bytes) else text.encode()
@@ -120,7 +120,7 @@ def start(target, folder):
 
 
 def dictionary(target, path):
-    """Words of the language, from the program's sources, or of the library."""
+    """Writes libFuzzer's dictionary: words of the language, from the sources, or of the library."""
     words = set(rows() if target == "library" else ())
     for name in () if words else [path for room in ("text", "scene", "language", "prompt") for path in glob.glob(os.path.join(ROOT, "src", room, "*.c"))]:
         with open(name, encoding="utf-8") as f:
@@ -130,7 +130,7 @@ def dictionary(target, path):
 
 
 def fuzz(program, target, seconds, folder, seed):
-    """(executions, coverage, features, inputs, what went wrong)"""
+    """Runs a target: (executions, coverage, features, inputs, what went wrong)"""
     with tempfile.TemporaryDirectory(prefix="fret-fuzzing-") as tmp:
         dictionary(target, os.path.join(tmp, "words"))
         known = unpack(target, os.path.join(tmp, "known"))
@@ -158,7 +158,7 @@ def fuzz(program, target, seconds, folder, seed):
 
 
 def run(tests):
-    """Ten seconds of each target; and the lines of a session, typed."""
+    """Runs each target for ten seconds, and types the lines of a session."""
     program = os.path.join(ROOT, "build/asan/fuzz")
     if not harness.links("clang", "-fsanitize=fuzzer", "int LLVMFuzzerTestOneInput(void); int LLVMFuzzerTestOneInput(void) { return 0; }"):
         print("fuzz: not run, clang with libFuzzer is not installed")

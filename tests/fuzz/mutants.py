@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Does a test notice? One token of src/ is changed at a time, the program built in a copy of the tree, and parts of rooms
-of tests run that enter its function, those first that promise most for what they cost, until one fails. What each part
+"""Mutation testing: changes one token of src/ at a time, builds the program in a copy of the tree, and runs the parts of rooms of
+tests that enter the changed function, the most promising for their cost first, until one fails. Which functions each part
 enters is recorded once.
 
     python3 tests/fuzz/mutants.py [--seed 1] [--count 300] [--only DIRECTORY] [--table FILE] [--work FOLDER] [--jobs N]
                                   [--budget SECONDS]
 
-The table lists what no test noticed, with the judgement that the table of before has of it: write it there by hand, and
-run again. `--work` keeps the copies, the record and the log, so that a run that was ended goes on. With a budget, seconds
-of a processor, parts that go beyond it come when all others have been tried."""
+The table lists the mutants that no test noticed, each with its judgement from the table before: write it there by hand, and run
+again. `--work` keeps the copies, the record and the log, so that an interrupted run can go on. With a budget (processor
+seconds), the parts beyond it are run after all other mutants have been tried."""
 import argparse
 import collections
 import concurrent.futures
@@ -32,7 +32,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 OPT = "OPT=-O1 -fno-tree-slp-vectorize"
 LEFT_OUT = ("src/live/none.c", "src/prompt/prompt_plain.c", "src/commands/study_none.c", "src/number/constants.h")
-# those that promise most of a room of the sources
+# for each room of the sources, the rooms of tests most likely to notice
 NUMBERS, SAID = "unit sessions reference numbers hard accuracy", "sessions errors scripts help keeping trouble interactive completion"
 ROOMS = {"number": NUMBERS, "law": NUMBERS, "history": NUMBERS, "field": NUMBERS + " rim", "wear": NUMBERS, "arrays": "unit numbers",
          "text": "unit reading forms sessions errors keeping looks", "measured": "unit fits forms smoothing sessions",
@@ -43,7 +43,7 @@ ROOMS = {"number": NUMBERS, "law": NUMBERS, "history": NUMBERS, "field": NUMBERS
          "help": "help explaining completion errors", "prompt": SAID + " readme", "live": "live unit interactive"}
 ALL = ("unit sessions errors help readme reference numbers scripts reading keeping looks figures paper completion backwards fits "
        "smoothing sharing shares accuracy explaining instants answers following forms moving trouble rim interactive live hard").split()
-COUNTED = ("killed", "late", "lives", "so far")  # the others change no code
+COUNTED = ("killed", "late", "lives", "so far")  # outcomes that count; the other mutants change no code
 
 TOKEN = re.compile(r"""(?P<skip>//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|^[ \t]*\#(?:\\\n|[^\n])*)
                      |(?P<number>(?:0x[\da-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)[uUlLfF]*)
@@ -60,7 +60,7 @@ WORDS = {"true": "false", "false": "true", "break": "continue", "continue": "bre
 
 
 def numbers(text):
-    """What a number may become."""
+    """The numbers that replace a number."""
     digits = re.match(r"(0x[\da-fA-F]+|[\d.]+(?:[eE][-+]?\d+)?)(.*)$", text)
     body, suffix = digits.groups()
     if re.fullmatch(r"\d+", body):
@@ -75,7 +75,7 @@ def numbers(text):
 
 
 def places(path, text):
-    """[(offset, length, replacements)] of what may change."""
+    """[(offset, length, replacements)] of the tokens that may be changed."""
     found, before = [], ""
     for token in TOKEN.finditer(text):
         kind, now = token.lastgroup, token.group()
@@ -100,31 +100,31 @@ def places(path, text):
     return found
 
 
-# part of a room: its name, and the number of one of those that it runs side by side
+# a part of a room: the room's name, and the number of one of the jobs that it runs side by side
 Part = collections.namedtuple("Part", "room number")
-CHEAP = 20  # seconds of a processor for each mutant that also rooms may take which have less to do with it
-WHOLE, BESIDES = -1, -2  # in place of a number: all of the room; what it does besides those
+CHEAP = 20  # processor seconds that less related rooms may use for a mutant
+WHOLE, BESIDES = -1, -2  # in place of the number of a job: all of the room; what it does besides its jobs
 
 
 class Tree:
-    """A copy of the tree in which mutants are built, beside one as it was."""
+    """A copy of the tree in which mutants are built, and an unchanged one beside it."""
 
     def __init__(self, top, good=None):
         self.top, self.good = top, good
 
     def load(self):
-        """The tests, in this process and those that it starts."""
+        """Imports the tests of this tree, for this process and its children."""
         sys.path[:0] = [os.path.join(self.top, "tests")]
         import runner  # noqa: F401
 
     def make(self, *targets):
-        """None, or what is wrong."""
+        """Builds; None, or the error."""
         done = subprocess.run(["make", "--no-print-directory", "-s", *(() if any("OPT=" in t for t in targets) else (OPT,)),
                                "WARN=-w", *targets], cwd=self.top, capture_output=True, text=True, errors="replace")
         return None if done.returncode == 0 else done.stderr
 
     def differing(self):
-        """[(file as it was, file now)] of what was written since."""
+        """[(unchanged file, file now)] of the files that have been built since."""
         for folder, _, names in os.walk(self.good):
             for name in names:
                 good = os.path.join(folder, name)
@@ -140,12 +140,12 @@ class Tree:
             shutil.copy2(good, now)
 
     def changed(self):
-        """Does some object differ? Only then can the program."""
+        """Does an object file differ? If none does, the mutant changes no code."""
         return any(now.endswith(".o") and open(good, "rb").read() != open(now, "rb").read()
                    for good, now in self.differing())
 
     def run(self, room, numbers, cpu, wall):
-        """How parts of a room end, in a process of their own: (what it wrote last, seconds, seconds of a processor)."""
+        """Runs parts of a room in a process of their own: (what it wrote last, seconds, processor seconds)"""
         reads, writes = os.pipe()
         start, pid = time.time(), os.fork()
         if pid == 0:
@@ -163,7 +163,7 @@ class Tree:
             os.killpg(pid, signal.SIGKILL)
         except ProcessLookupError:
             pass
-        for name in filter(str.isdigit, os.listdir("/proc")):  # those that have left the group
+        for name in filter(str.isdigit, os.listdir("/proc")):  # processes that have left the group
             try:
                 if os.readlink("/proc/%s/exe" % name).startswith(self.top + "/build/"):
                     os.kill(int(name), signal.SIGKILL)
@@ -175,7 +175,7 @@ class Tree:
 
 
 def run_parts(room, numbers, pipe):
-    """In a process of its own: ends at the first failure. Writes its part; how many the room has when all passed."""
+    """Runs parts in this process, which ends at the first failure and writes which part failed; if all pass, how many there are."""
     import harness
     import runner
 
@@ -188,7 +188,7 @@ def run_parts(room, numbers, pipe):
             return super().record(name, ok, *how, **known)
 
         def end(self, what):
-            self.once.acquire()  # other threads may fail too
+            self.once.acquire()  # other threads may fail at the same time
             shutil.rmtree(self.top, ignore_errors=True)
             os.write(pipe, what.encode())
             os._exit(0)
@@ -232,11 +232,11 @@ def functions(text):
 
 
 class Reach:
-    """What each part of a room costs, and which functions it enters: recorded once."""
+    """A record of what each part of a room costs, and which functions it enters."""
 
     def __init__(self, work, names):
         self.file, self.parts, self.lines = os.path.join(work, "reach"), {}, {}
-        pid = os.fork()  # which alone loads the tests of its tree
+        pid = os.fork()  # a process of its own, to load the tests of this tree
         if pid == 0:
             os._exit(self.record(work, names))
         if os.waitpid(pid, 0)[1]:
@@ -288,20 +288,20 @@ class Reach:
         return 0
 
     def measured(self, tree, marks, room, number):
-        """(parts of the room, seconds, seconds of a processor, what it entered or None)."""
+        """Measures a part: (parts of the room, seconds, processor seconds, functions entered or None)"""
         for name in os.listdir(marks):
             os.unlink(os.path.join(marks, name))
         said, wall, cpu = tree.run(room, (number,), 0, 600)
         return int(said) if said.isdigit() else 0, wall, cpu, self.entered(tree, marks) if said.isdigit() else None
 
     def least(self, room):
-        """What no part of a room takes less than: what it does besides."""
+        """The least time of any part of a room: what the room does besides its jobs."""
         return tuple(min(known[i] for part, known in self.parts.items() if part.room == room) for i in (1, 0))
 
     known = {}
 
     def entered(self, tree, marks):
-        """[FILE:LINE] of functions, and the programs of tests that ran."""
+        """[FILE:LINE] of the functions entered, and the test programs that ran."""
         found = set()
         for name in os.listdir(marks):
             path = next(p for p in (os.path.join(tree.top, "build", *way, name) for way in ((), ("tests",), ("tests", "hard")))
@@ -321,7 +321,7 @@ class Reach:
         return sorted(found - {""})
 
     def order(self, path, line, first, last, kills):
-        """Parts that enter a function (all, where it is not one), those first that promise most for their cost."""
+        """The parts that enter a function (all, if the line is in no function), the most promising for their cost first."""
         directory = path.split("/")[1]
         stem = os.path.basename(path).rpartition(".")[0]
         near = [stem, stem.partition("_")[0], {"table": "shape", "law": "normal", "zone": "diagram"}.get(stem, directory)]
@@ -346,7 +346,7 @@ tree = None  # of this process
 
 
 def begin(work, reach):
-    """A process that builds mutants, in a tree of its own."""
+    """Starts a worker process, which builds mutants in a tree of its own."""
     global tree
     good = os.path.join(work, "good")
     for n in range(1000):
@@ -365,8 +365,8 @@ def begin(work, reach):
 
 
 def together(parts, reach):
-    """The first of the parts, and others of its room as long as all take little more; their seconds of a processor and of
-    the clock."""
+    """The first of the parts and others of its room that can be run with it at little extra time; their processor seconds and
+    seconds."""
     room, group = parts[0].room, []
     cpu, wall = least = reach.least(room)
     for part in parts:
@@ -378,7 +378,7 @@ def together(parts, reach):
 
 
 def attempt(path, at, length, other, parts, budget):
-    """(what became of it, where, parts not run for want of time)."""
+    """Tries one mutant: (outcome, where it was noticed, parts not run for lack of time)"""
     name = os.path.join(tree.top, path)
     with open(name, encoding="utf-8") as f:
         text = f.read()
@@ -412,12 +412,12 @@ def attempt(path, at, length, other, parts, budget):
         tree.restore()
 
 
-# how a judgement begins
+# words that a judgement begins with
 ALIKE, SINCE = ("equivalent", "speed only"), "killed since"
 
 
 def table(out, done, judged, options):
-    """Counts by room, and what lives with its judgement."""
+    """Writes the table: counts by room, and each mutant that lives with its judgement."""
     def kind(one):
         judgement = judged.get(key_of(one), "")
         if one["end"] != "lives":
@@ -450,7 +450,7 @@ def key_of(one):
 
 
 def judgements(path):
-    """{what lives: judgement} of a table."""
+    """{mutant that lives: judgement} of an existing table."""
     found, key = {}, None
     if os.path.exists(path):
         with open(path, encoding="utf-8") as f:
@@ -510,7 +510,7 @@ def main():
                 note(json.loads(line))
 
     def done():
-        """What was tried, without gaps, up to the number wanted."""
+        """The mutants tried so far, up to the first gap and the number wanted."""
         found, count = [], 0
         for path, at, *_ in all_:
             one = ends.get((path, at))
@@ -535,7 +535,7 @@ def main():
         running = []
 
         def step(most):
-            """Waits until no more than so many are running."""
+            """Waits until at most `most` workers are busy."""
             while len(running) > most:
                 concurrent.futures.wait([r[0] for r in running], return_when=concurrent.futures.FIRST_COMPLETED)
                 for r in [r for r in running if r[0].done()]:

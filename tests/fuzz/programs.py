@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random programs of the language: the same as a file, through a pipe and by -c, recorded and replayed, saved and loaded;
-what is refused changes nothing; every line under --format=json is an object. `programs.py FRET SECONDS [SEED]` goes on
-for so long; the tests run half a minute of it."""
+"""Random scripts. Each must give the same answers as a file, through a pipe and by -c, recorded and replayed, saved and loaded;
+a statement that is refused must change nothing; every line under --format=json must be an object. `programs.py FRET SECONDS
+[SEED]` runs for so long; the tests run a few."""
 import difflib
 import json
 import math
@@ -38,7 +38,7 @@ FILES = {"gap.csv": "r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 50, i * i / 50)
 
 
 class Writer:
-    """Statements at random; most make sense."""
+    """Writes random statements, most of which make sense."""
 
     def __init__(self, seed):
         self.r = random.Random(seed)
@@ -151,7 +151,7 @@ class Writer:
     def line(self):
         text = self.statement()
         u = self.r.random()
-        if u < .04:  # a slip of the finger
+        if u < .04:  # a typing error
             at = self.r.randrange(len(text) + 1)
             text = text[:at] + self.r.choice(NOISE) + text[at + self.pick(0, 1):]
         elif u < .08:
@@ -165,7 +165,7 @@ class Writer:
 
 
 def outcome(fret, env, lines, way, options=(), before=(), after=()):
-    """(exit status, output, messages without the name of the script, files)"""
+    """Runs a script: (exit status, output, messages without the name of the script, files)"""
     where = tempfile.mkdtemp(prefix="fret-programs-", dir=env["TMPDIR"])
     try:
         for name, text in FILES.items():
@@ -209,7 +209,7 @@ def not_a_number(text):
 
 
 def refused(lines, out, err):
-    """The scene is shown after each line: what a line that holds one statement, refused, has changed."""
+    """The output shows the scene after each line: finds a line of a single, refused statement after which it has changed."""
     shown = re.split(r"^987654321 = .*\n", out, flags=re.M)
     if len(shown) != len(lines) + 2:
         return "%d pauses for %d lines" % (len(shown) - 2, len(lines))
@@ -222,7 +222,7 @@ def refused(lines, out, err):
 
 
 def problem(fret, env, seed):
-    """What is wrong with a program; None: nothing."""
+    """What is wrong with a random script; None: nothing."""
     lines = Writer(seed).program()
     first = outcome(fret, env, lines, "file")
     if first[0] not in (0, 1) or "Sanitizer" in first[2] or "runtime error" in first[2]:
@@ -259,7 +259,7 @@ def problem(fret, env, seed):
 
 
 def campaign(problem, fret, env, seconds, seed, workers, most=math.inf):
-    """(those tried, [(seed, problem)]); also of typed sessions. It ends after so many seconds, or that many of each worker."""
+    """Tries scripts (or typed sessions) for so many seconds, at most `most` per worker: (number tried, [(seed, problem)])"""
     end, wrong, counts = time.time() + seconds, [], [0] * workers
 
     def work(worker):
@@ -277,7 +277,7 @@ def campaign(problem, fret, env, seconds, seed, workers, most=math.inf):
 
 
 def run(tests):
-    """Programs of fixed seeds; the sanitized build goes on with others."""
+    """Runs scripts of fixed seeds; the sanitized build takes other seeds."""
     count, wrong = campaign(problem, tests.fret, {**tests.env, "TMPDIR": tests.tmp}, math.inf, 1000000 if tests.sanitized else 1, 2,
                             1 if tests.sanitized else 4 if tests.few else 10)
     for seed, what in wrong:

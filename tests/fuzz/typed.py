@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A prompt that gets random keys, a random start-up file and a random history: it ends when it is told to, without a word
-of a sanitizer, the terminal as before and the history whole. `typed.py FRET SECONDS [SEED]` goes on for so long."""
+"""Types random keys at a prompt with a random start-up file and a random history. The program must end when told to, without a
+sanitizer's report, with the terminal as before and the history whole. `typed.py FRET SECONDS [SEED]` runs for so long."""
 import math
 import os
 import pty
@@ -24,7 +24,7 @@ KEYS = ("\x01", "\x02", "\x05", "\x06", "\x08", "\x0b", "\x0c", "\x0e", "\x10", 
 
 
 def text_of(r):
-    """Statements, and what is none."""
+    """Random text: statements, and text that is none."""
     writer = programs.Writer(r.randrange(1 << 30))
     lines = [writer.line() for _ in range(r.choice((0, 3, 12)))]
     noise = bytes(r.randrange(256) for _ in range(r.choice((0, 0, 40, 3000))))
@@ -48,7 +48,7 @@ def problem(fret, env, seed):
     where = tempfile.mkdtemp(prefix="fret-typed-", dir=env["TMPDIR"])
     try:
         with open(os.path.join(where, "suppressions"), "w", encoding="ascii") as f:
-            f.write("leak:libreadline\n")  # what an interrupted search of its own had in hand
+            f.write("leak:libreadline\n")  # readline's own memory, if a search is interrupted
         for name, text in programs.FILES.items():
             with open(os.path.join(where, name), "w", encoding="ascii") as f:
                 f.write(text)
@@ -78,11 +78,11 @@ def session(fret, env, where, keys, r):
             ready, _, _ = select.select([master], [], [], 0.02)
             if ready:
                 out += os.read(master, 65536)
-            elif b"fret> " not in out:  # Ctrl-C ends what has not begun
+            elif b"fret> " not in out:  # wait for the prompt: before it Ctrl-C would end the program
                 continue
             elif sent < len(keys):
                 sent += os.write(master, keys[sent:sent + r.choice((1, 10, 100, 200))])
-            elif time.time() > told + 2:  # a half-typed key, line or search may swallow the first
+            elif time.time() > told + 2:  # an unfinished key, line or search may have swallowed the first try
                 os.write(master, b"\x03\x07\r\x03\rquit\r")
                 told = time.time()
         while select.select([master], [], [], 0)[0]:

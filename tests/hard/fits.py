@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Do the standard errors of fit hold? Loops of springs stepped one by one, with noise in both columns, are fitted; the table
-says how far the values lie off, in their standard errors, and how many of them within one and two.
+"""Are the standard errors of fit right? Fits loops with noise in both columns, computed by stepping springs one by one; the table
+gives the deviations of the fitted values in standard errors, and how many are within one and two.
     python3 tests/hard/fits.py build/fret 200"""
 import concurrent.futures
 import json
@@ -23,7 +23,7 @@ def scene(k, mu, E0):
 
 
 def springs_of(fret, k):
-    """Bound and tangential stiffness of each spring, and the displacement of gross slip. From the program are dz and eta alone."""
+    """Bound and tangential stiffness of each spring, and the displacement of gross slip. Only dz and eta come from the program."""
     done = subprocess.run([fret, "--format=json", "-c", scene(k, MU, E0) + "; dz; eta"], capture_output=True, text=True, check=True)
     dz, eta = (json.loads(line)["value"] for line in done.stdout.splitlines() if "name" in line)
     a = math.sqrt(dz * R * (1 + k))  # g = x^2/(R(1+k))
@@ -52,12 +52,12 @@ def forces(springs, path):
 
 
 def loops():
-    """(k, regime, noise, rig stiffness): at the rig with the smaller noise alone."""
+    """(k, regime, noise, rig stiffness) of each loop; with a rig only the smaller noise."""
     return [(k, regime, noise, rig) for k in (0, 0.3) for regime, _ in REGIMES for noise, rig in ((10e-9, None), (50e-9, None), (10e-9, K_RIG))]
 
 
 def campaign(fret, count, folder):
-    """[(its lines, how many do not hold)] in their order, four at a time."""
+    """Fits, four at a time: [(lines of the table, how many errors are not right)] in order."""
     clean = {}
     for k in (0, 0.3):
         springs, most = springs_of(fret, k)
@@ -93,7 +93,7 @@ def lines_of(fret, count, folder, clean, k, regime, noise, rig):
         n = len(events)
         bias = sum((v - true) / s for v, s in zip(values, stated)) / n
         one, two = (sum(abs(v - true) <= m * s for v, s in zip(values, stated)) / n for m in (1, 2))
-        # three standard deviations of what a sound error would give in n draws
+        # three standard deviations of this fraction in n draws, if the standard error is right
         wrong = (abs(bias) > 0.2 + 3 / math.sqrt(n) or abs(one - 0.683) > 3 * math.sqrt(0.683 * 0.317 / n)
                  or abs(two - 0.954) > 3 * math.sqrt(0.954 * 0.046 / n) or n < count)
         bad += wrong

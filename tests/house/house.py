@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The house itself: includes run one way and in no circle, the library shows what its headers declare and no more,
-each public header stands alone in C and C++, each source file says what it is, and calls run in no circle."""
+"""Rules of the source tree: includes and calls between rooms run one way and in no circle; the library exports exactly what its
+headers declare; each public header compiles alone in C and C++; each source file begins with what it is."""
 import glob
 import os
 import re
@@ -10,7 +10,7 @@ import tempfile
 
 import harness
 
-# What a file of each room may include: its own room and these.
+# The rooms (or files) that the files of a room may include, besides their own room.
 BELOW = {
     "fret": set(),
     "number": {"fret/base.h"},
@@ -44,7 +44,7 @@ def read(path):
 
 
 def sources():
-    """{name as in an include: text} of all files of the rooms."""
+    """{name as in #include: text} of all sources and headers."""
     found = {}
     for top in ("src", "include"):
         for path in glob.glob(os.path.join(harness.ROOT, top, "**", "*.[ch]"), recursive=True):
@@ -74,7 +74,7 @@ def wrong_arrows(files):
 
 
 def circles(files):
-    """Circles of modules, a module being a header and its source; includes of its own header do not count."""
+    """Circles of includes between modules; a module is a header and its source."""
     graph = {}
     for name, text in files.items():
         module = os.path.splitext(name)[0]
@@ -83,11 +83,11 @@ def circles(files):
 
 
 def calls(build, files):
-    """{object: objects whose functions or data it uses}, of all rooms: what the linker sees."""
+    """{object: objects whose functions or data it uses} of all rooms, by nm."""
     defined, wanted = {}, {}
     for path in sorted(glob.glob(os.path.join(build, "src", "*", "*.o"))):
         name = os.path.relpath(path, os.path.join(build, "src"))
-        if os.path.splitext(name)[0] + ".c" not in files:  # of a source that is gone
+        if os.path.splitext(name)[0] + ".c" not in files:  # an old object whose source has been removed
             continue
         for line in subprocess.run(["nm", path], capture_output=True, text=True, check=True).stdout.splitlines():
             kind, symbol = line.split()[-2:]
@@ -114,7 +114,7 @@ def around(graph):
 
 
 def unsaid(files):
-    """Files without the licence line, or, above their first include, a comment that says what they are."""
+    """Files without the licence line, or without a comment below it that says what they are."""
     for name, text in sorted(files.items()):
         lines = text.splitlines() + ["", ""]
         if lines[0] != "/* SPDX-License-Identifier: GPL-3.0-or-later */":
@@ -134,7 +134,7 @@ SCREEN = 45  # lines
 
 
 def unintroduced(files):
-    """Rooms without a README.md of one screen that names their files."""
+    """Rooms without a README.md of at most SCREEN lines that names all their .c files."""
     for name in sorted({room(f) for f in files} & set(INTRODUCED)):
         path = os.path.join(harness.ROOT, "src", name, "README.md")
         text = read(path) if os.path.exists(path) else ""
@@ -146,7 +146,7 @@ def unintroduced(files):
 
 
 def unreasoned(files):
-    """Lines left out of the coverage without a reason of some words."""
+    """Comments `unreached` without a reason of at least three words."""
     for name, text in sorted(files.items()):
         for n, line in enumerate(text.splitlines(), 1):
             if "unreached" in line and not re.search(r"/\* unreached: \S+ \S+ \S.* \*/$", line):
@@ -164,7 +164,7 @@ def declared(files):
 
 
 def uncalled(names, rows):
-    """Functions that the fuzz target of the library does not call, and calls of none."""
+    """Functions that have no row in the fuzz target of the library, or two, and rows of functions that do not exist."""
     called = re.findall(r"^ *ROW\((\w+)\)", rows, re.M)
     for name in sorted(names ^ set(called)):
         yield name
@@ -198,7 +198,7 @@ def compilers():
 
 
 def compile_text(compiler, text, suffix, *args):
-    """One file that has this text."""
+    """Compiles a file with this text."""
     with tempfile.TemporaryDirectory() as where:
         path = os.path.join(where, "one" + suffix)
         with open(path, "w", encoding="ascii") as f:
@@ -209,7 +209,7 @@ def compile_text(compiler, text, suffix, *args):
 
 
 def headers(tests, by_header):
-    """Each by itself: compiled, and every function that it declares linked, from C and from C++."""
+    """Compiles each header alone, and links every function that it declares, from C and from C++."""
     c, cpp = compilers()
     languages = [(c, ".c", "-std=c11")]
     if cpp:
@@ -222,7 +222,7 @@ def headers(tests, by_header):
         calls = "".join("    count += (void (*)(void))%s != 0;\n" % f for f in names)
         text = '#include "%s"\nint main(void) {\n    int count = 0;\n%s    return count == %d ? 0 : 1;\n}\n' % (
             name, calls, len(names))
-        # comparing the address of a function is what is meant here
+        # addresses of functions are compared on purpose
         done = compile_text(compiler, text, suffix, standard, "-Wno-address", "-Wno-cast-function-type", library_path, "-lm")
         tests.check("%s as %s with %s" % (name, suffix[1:], os.path.basename(library_path)), done.returncode == 0,
                     done.stderr)
@@ -234,7 +234,7 @@ def headers(tests, by_header):
 
 
 def selftest(tests):
-    """The rules see what they are for."""
+    """Tests the rules on files that break them."""
     line = "/* SPDX-License-Identifier: GPL-3.0-or-later */\n"
     bad = {"law/a.h": '#include "law/b.h"\n', "law/b.c": line + "int x;\n", "fret/base.h": line,
            "law/b.h": line + '/* b */\n#include "field/c.h"\n', "field/c.h": line + '/* c */\n#include "law/a.h"\n',
@@ -253,7 +253,7 @@ def selftest(tests):
 
 
 def kept(tests):
-    """What git keeps: nothing that a session or a test left behind."""
+    """The top level of the repository holds nothing that a session or a test left behind."""
     if not os.path.exists(os.path.join(harness.ROOT, ".git")) or not shutil.which("git"):
         return
     listed = subprocess.run(["git", "-c", "safe.directory=*", "ls-files"], cwd=harness.ROOT, capture_output=True, text=True).stdout.splitlines()

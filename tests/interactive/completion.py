@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Tab offers, by position; pasting; the history of sessions side by side; recording at the prompt."""
+"""Tests completion by Tab at every kind of place, pasting, the history of sessions side by side, and recording at the prompt."""
 import os
 import re
 import time
@@ -16,7 +16,7 @@ set page-completions off
 $endif
 """
 
-# typed, then the words that must be offered, then one that must not (or None)
+# text typed, words that must be offered, one that must not (or None)
 OFFERED = (
     ("plot l", "loop load", "length"),
     ("plot m", "map max min mu", "material"), ("plot loop | ", "pressure map breadth", "for"),
@@ -44,7 +44,7 @@ OFFERED = (
     ("step ", "Fx= dx= FN= dz= steps", "FA="),
     ("2*wob", "wobble wobbly(", None),
     ("set model ", "auto closed memory springs", "off"),
-    ("2*", "wobble wobbly( breadth a", "zebra"),  # which has been undone
+    ("2*", "wobble wobbly( breadth a", "zebra"),  # `zebra` has been undone
     ("dW at ", "FN= wobble=", "zebra="),
     ("dW(3 N) in ", "uJ nJ J", "mm"), ("breadth in ", "um mm", "J"), ("(breadth) in ", "um mm", "J"), ("2*a in ", "um mm", "N"),
     ("dW, breadth in ", "um mm", "J"), ("dW(3 N)*2 in ", "uJ mJ", "um"),
@@ -67,9 +67,9 @@ OFFERED = (
     ("fit mu ", "for along to", "steps"), ("fit mu for ", "a breadth", "FN="),
     ("fit mu along gap", "gap1.csv gap2.csv", None), ("fit mu for breadth = 2*a to gap", "gap1.csv gap2.csv", None),
 )
-# typed, and nothing goes on there
+# text typed that has no completion
 ENDED = ("undo 3 ", "export jenkins ", "friction 0.4", "friction 0.4 ", "nu = 0.3", "nu = 0.3 ", "set digits 3", "geometry file gap1.csv smooth ", "undo ", "reset all ", "x over ", "friction 0.4 zebr", "2 \u00b5", "# FN", "set digits 3 f")
-# typed, and the one way that it goes on
+# text typed, and its only completion
 DONE = (
     ("explain a a", "t "), ("explain a at k=0 c", "onditioning "), ("cycle FA=2 N t", "imes "), ("a in u", "m "), ("material st", "eel "), ("table a f", "or "), ("1 + " * 140 + "breadt", "h "), ("geometry file gap1.csv s", "mooth "), ("second ri", "gid "),
     ("step dx=1 u", "m "), ("table a for FN ", "="), ("uncertainty a with mu ", "+- "), ("geometry flat-r", "ounded "), ("record o", "ff "), ("x = 3*kap", "pa "), ("?apr", "opos "),
@@ -91,7 +91,7 @@ def offers(tests):
     for line in (SCENE, "press FN=100 N", "cycle FA=20 N", "wobble = 3", "wobbly(x) = x", "breadth = 3 mm", "zebra = 3", "undo"):
         s.say(line)
     for i, (typed, words, other) in enumerate(OFFERED):
-        s.child.send(typed + "\t\x15%d\r" % (7000 + i))  # what comes after tells that the list is whole
+        s.child.send(typed + "\t\x15%d\r" % (7000 + i))  # when this has come the list is complete
         s.child.expect("%d = %d" % (7000 + i, 7000 + i))
         listed = clean(s.child.before).partition("\n")[2].partition("fret> ")[0].split()
         tests.check("Tab after `%s`" % typed, set(words.split()) <= set(listed) and other not in listed,
@@ -117,7 +117,7 @@ def offers(tests):
     tests.check("completion leaves", s.end() == 0)
 
 
-# typed, with Tabs, and the script that it names: names that want quotation marks get them
+# text typed, with Tabs, and the script that is named: names that need quotation marks get them
 QUOTED = (("source pl\t", "plain.fret"), ("source sp\t", "sp ace.fret"), ("source \"sp\t", "sp ace.fret"), ("source ha\t", "ha#sh.fret"),
           ("source ha#s\t", "ha#sh.fret"), ("source se\t", "se;mi.fret"), ("source my\tin\t", "my dir/in ner.fret"), ("source my\tpl\t", "my dir/plain.fret"),
           ("source \"my dir/in\t", "my dir/in ner.fret"), ("source tw\t1\t", "two x1.fret"), ("source \"tw\t2\t", "two x2.fret"), ("source ./sp\t", "sp ace.fret"),
@@ -157,7 +157,7 @@ def pasting(tests):
     tests.check("prompts pasted are taken off, answers left out", "error" not in s.child.before, clean(s.child.before))
     s.prompt()
     tests.check("and all of it happened", s.say("Fx") == "Fx = 20 N")
-    for length in (63, 64, 65):  # readline takes 64 bytes at first
+    for length in (63, 64, 65):  # readline reads a paste into 64 bytes at first
         s.child.send("\x1b[200~" + "x" * length)
         s.child.sendintr()
         s.prompt()
@@ -201,7 +201,7 @@ TYPED = ("friction 0.4", "material steel; geometry sphere R=10 mm", "press FN=10
 
 
 def recorded(tests):
-    """A session with errors, continuation lines and a pasted block replays: what it recorded, and what a terminal held."""
+    """A session with errors, continuation lines and a paste can be replayed, both its recording and a copy of the terminal."""
     path = os.path.join(tests.dir, "session.txt")
     s = Session(tests, "--color=always", LC_ALL="C.UTF-8", dimensions=(60, 120))
     s.say("mu = 0.3")
@@ -243,7 +243,7 @@ def recorded(tests):
 
 
 def slowly(tests, s):
-    """What takes long tells how far it is, and nothing of it stays."""
+    """A slow statement shows its progress, and wipes it at the end."""
     for name, rows in (("load", ["FN [N],Fx [N]"] + ["%d,%d" % (100 + i % 7, i % 11) for i in range(60000)]),
                        ("depth", ["force [N],depth [um]"] + ["%d,%d" % (1 + i % 997, 2 + i % 997) for i in range(100000)])):
         with open(os.path.join(tests.dir, name + ".csv"), "w", encoding="ascii") as f:
@@ -272,7 +272,7 @@ def slowly(tests, s):
 
 
 def screens(tests):
-    """What depends on the terminal: the pager, progress, carets."""
+    """Tests what depends on the terminal: the pager, progress, carets."""
     s = Session(tests, PAGER="sed s/^/PAGED:/", dimensions=(10, 100))
     tests.check("a pager for what does not fit", s.say("help").splitlines()[0].startswith("PAGED:fret: partial"))
     tests.check("none for what does", s.say("help pi").startswith("pi: "))

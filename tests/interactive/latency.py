@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How long Ctrl-C takes, from the key to the next prompt, for what takes longest: `latency.py FRET [NAME...]` prints a
-table of interrupts at random moments. The tests take a short version of it, with generous bounds."""
+"""Measures how long Ctrl-C takes, from the key to the next prompt, in the slowest statements: `latency.py FRET [NAME...]` prints a
+table for interrupts at random moments. The tests run a short version with generous limits."""
 import contextlib
 import math
 import os
@@ -17,13 +17,13 @@ import time
 STEEL = "material steel; friction 0.4"
 GRADED = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; friction 0.4"
 PRESSED = STEEL + "; geometry sphere R=10 mm; press FN=100 N"
-INTERRUPTS = int(os.environ.get("INTERRUPTS", "25"))  # of a statement
-LONGEST = float(os.environ.get("LONGEST", "5"))  # seconds until one
+INTERRUPTS = int(os.environ.get("INTERRUPTS", "25"))  # per statement
+LONGEST = float(os.environ.get("LONGEST", "5"))  # the latest interrupt [s]
 PATIENCE = 20
 
 
 def gap(path, rows):
-    """A sampled sphere of 10 mm as far as 1 mm, with a millionth of roughness."""
+    """Writes a table of a sphere of 10 mm up to r = 1 mm, with roughness of a millionth."""
     with open(path, "w", encoding="ascii") as f:
         f.write("r [mm],f [mm]\n")
         for i in range(rows):
@@ -39,7 +39,7 @@ def history(path, rows):
 
 
 def cases(where, size):
-    """(name, statements before, the statement); size divides rows and springs."""
+    """(name, statements before, the statement); numbers of rows and springs are divided by `size`."""
     springs, rows = 10000000 // size, 100000 // size
     path = {name: os.path.join(where, name) for name in ("gap", "small", "huge", "follow", "line", "sum", "transcript",
                                                       "measured")}
@@ -90,7 +90,7 @@ def cases(where, size):
 
 
 class Terminal:
-    """The prompt on a terminal of its own."""
+    """A prompt on a terminal of its own."""
 
     def __init__(self, fret, env):
         self.pid, self.fd = pty.fork()
@@ -99,7 +99,7 @@ class Terminal:
         self.read(PATIENCE)
 
     def read(self, patience):
-        """Up to the next prompt; None: it did not come."""
+        """The output up to the next prompt; None: it did not come."""
         text, end = b"", time.monotonic() + patience
         while not text.endswith(b"fret> "):
             left = end - time.monotonic()
@@ -126,20 +126,20 @@ class Terminal:
 
 
 def busy(pid):
-    """Seconds that a process has spent on a processor: others may be at work too."""
+    """Processor seconds of a process: unlike the time that passes, they do not count other processes."""
     with open("/proc/%d/schedstat" % pid, encoding="ascii") as f:
         return int(f.read().split()[0]) * 1e-9
 
 
 def stolen():
-    """Seconds that each processor of a virtual machine was not there for it, to 10 ms."""
+    """Seconds that each processor of a virtual machine was taken away by its host (steal time), to 10 ms."""
     with open("/proc/stat", encoding="ascii") as f:
         return [int(line.split()[8]) / os.sysconf("SC_CLK_TCK") for line in f if line[:3] == "cpu" and line[3].isdigit()]
 
 
 def interrupted(terminal, statement, delay):
-    """Seconds from Ctrl-C to the prompt, of these on a processor, and of these taken by other machines; None: the
-    statement was faster, infinity: it did not end."""
+    """Seconds from Ctrl-C to the prompt, processor seconds and stolen seconds among them; None: the statement had ended
+    before, infinity: it did not end."""
     terminal.send(statement)
     answer = terminal.read(delay)
     if answer is not None:
@@ -154,7 +154,7 @@ def interrupted(terminal, statement, delay):
 
 
 def measure(fret, env, case, delays):
-    """[(seconds, seconds on a processor, seconds stolen)] of interrupts after these delays, and whether the scene stayed."""
+    """Interrupts after these delays: [(seconds, processor seconds, stolen seconds)], and whether the scene stayed as it was."""
     _, before, statement = case
     terminal = Terminal(fret, env)
     try:
@@ -176,7 +176,7 @@ def measure(fret, env, case, delays):
 
 
 def lasts(fret, env, case):
-    """Seconds, no more than the longest delay."""
+    """How long the statement takes [s], at most the longest delay."""
     terminal = Terminal(fret, env)
     try:
         for part in case[1].split("; "):

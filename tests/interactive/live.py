@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The full-screen mode on a terminal of its own: screens, keys, sizes, signals, and sessions that come out again."""
+"""Tests the full-screen mode on a terminal of its own: screens, keys, sizes, signals, and sessions that are saved and recorded."""
 import json
 import os
 import random
@@ -20,7 +20,7 @@ SHOWN = "FN, Fx, dx, dz, a, c, W, U, kt, k, mu"
 
 
 class Live:
-    """fret --live, or what else is run, and its screen."""
+    """`fret --live`, or another command, and its screen."""
 
     def __init__(self, tests, *args, size=(24, 80), command=None, **env):
         env = {**tests.env, "XDG_CONFIG_HOME": os.path.join(tests.dir, "no-config"),
@@ -44,7 +44,7 @@ class Live:
         return True
 
     def wait(self, what, seconds=60):
-        """Until the screen shows it: a regular expression, or a function of the screen. False: it never does."""
+        """Waits until the screen shows `what`, a regular expression or a function of the screen. False: it does not in time."""
         end = time.time() + seconds
         seen = what if callable(what) else lambda screen: re.search(what, screen.text())
         while not seen(self.screen):
@@ -63,7 +63,7 @@ class Live:
         return self.screen.row(self.screen.rows - 1)
 
     def says(self, line):
-        """A statement by `:`; the screen when it has been run."""
+        """Runs a statement by `:`; returns the screen when it has been run."""
         self.child.send(":" + line + "\r")
 
     def value(self, name):
@@ -120,7 +120,7 @@ def refusals(tests):
         tests.check("refused: " + says, status == 1 and says in live.raw, live.raw)
 
 
-# key, what the status line says, and a value afterwards
+# key, the status line, and a value afterwards
 KEYS = [("\x1b[C", r"step Fx\+=2 N", "Fx", "2"), ("l", r"step Fx\+=2 N", "Fx", "4"),
         ("\x1b[D", r"step Fx\+=-2 N", "Fx", "2"), ("\x1b[1;2C", r"step Fx\+=200 mN", "Fx", "2.2"),
         ("\x1b[1;2D", r"step Fx\+=-200 mN", "Fx", "2"), ("L", r"step Fx\+=200 mN", "Fx", "2.2"),
@@ -206,7 +206,7 @@ def playing(tests):
 
 
 def repeating(tests):
-    """Cycles that repeat are not computed again: what is lost grows from frame to frame all the same."""
+    """Cycles that repeat are not computed again, and yet the loss grows from frame to frame."""
     live = Live(tests)
     live.wait(r"a +186\.626 um")
     live.key("nnn]]", "FNA 30 N")
@@ -231,7 +231,7 @@ def repeating(tests):
 
 
 def going_on(tests):
-    """A cycle that plays on is one cycle of many periods, about one normal force; after a change it is another one."""
+    """A cycle that goes on playing is one cycle of many periods, about one normal force; after a change it is a new one."""
     live = Live(tests)
     live.wait(r"a +186\.626 um")
     live.key("nn]]" + 18 * "a", "phase of FN against Fx: 0 deg")
@@ -349,7 +349,7 @@ def mouse(tests):
 
 
 def slow_line(tests):
-    """On a line of 9600 baud frames are left out, not keys: nothing piles up that is drawn later."""
+    """On a line of 9600 baud frames are left out, but no keys: output does not queue up."""
     live = Live(tests, command=["/bin/sh", "-c", 'stty speed 9600; exec "$FRET" --live'], FRET=tests.fret)
     live.wait(r"a +186\.626 um")
     seen = set()
@@ -368,7 +368,7 @@ def slow_line(tests):
 
 
 def undisturbed(tests):
-    """A statement that takes long tells how far it is, but not on the screen of `live`."""
+    """The progress of a slow statement is not written onto the screen of `live`."""
     live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
     live.wait("fret>")
     live.child.send("material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N; live\r")
@@ -386,7 +386,7 @@ def undisturbed(tests):
 
 
 def saving(tests):
-    """Keys at random, saved and run again: the same to the last digit; the prompt knows them too."""
+    """Random keys, saved and run again, give the same numbers to the last digit; at the prompt `history` lists their statements."""
     for seed in (1, 2):
         chosen = random.Random(seed)
         live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
@@ -418,7 +418,7 @@ def saving(tests):
 
 
 def recording(tests):
-    """What is done by hand is in a transcript, whether it began before or from within, and comes out again."""
+    """Statements run by keys are recorded, whether the recording began before `live` or in it, and can be replayed."""
     for within in (False, True):
         path = os.path.join(tests.dir, "by-hand-%d.txt" % within)
         live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
@@ -461,7 +461,7 @@ def child_of(pid):
 
 
 def rests(pid):
-    """Waits until it has spent no time for a while: it waits for keys."""
+    """Waits until the process has used no time for a while: it waits for keys."""
     def now():
         with open("/proc/%d/stat" % pid, encoding="ascii") as f:
             row = f.read().rpartition(")")[2].split()
@@ -478,7 +478,7 @@ ENDS = [("q", None), ("\x03", None), ("", signal.SIGINT), ("", signal.SIGTERM), 
 
 
 def endings(tests):
-    """Whatever ends it: the modes of the terminal as before, the cursor seen, its screen back."""
+    """However the mode ends, the terminal has its modes, its cursor and its screen back."""
     for i, (keys_sent, number) in enumerate(ENDS):
         name = number.name if number else repr(keys_sent)
         files = [os.path.join(tests.dir, "stty-%d-%s" % (i, when)) for when in "ab"]
@@ -501,7 +501,7 @@ def endings(tests):
 
 
 def stopping(tests):
-    """Ctrl-Z, and on again by fg."""
+    """Ctrl-Z stops the mode, fg continues it."""
     live = Live(tests, command=["/bin/bash", "--norc", "--noprofile", "-i"], PS1="shell> ", FRET=tests.fret)
     live.wait("shell>")
     live.child.send('stty -a > before; "$FRET" --live\r')
@@ -521,7 +521,7 @@ def stopping(tests):
 
 
 def lessons(tests):
-    """A key per step."""
+    """A lesson of `demo` at the prompt, stepped through by keys."""
     live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"], TERM="xterm")
     live.wait("fret>")
     live.child.send("mu = 0.123\rdemo sticking\r")
@@ -550,7 +550,7 @@ SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
 
 
 def at_prompt(tests, statements):
-    """The full-screen mode of a scene that was made before."""
+    """The full-screen mode, started from the prompt after these statements."""
     live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
     live.wait("fret>")
     live.child.send(statements + "; live\r")
@@ -559,7 +559,7 @@ def at_prompt(tests, statements):
 
 
 def works(pid):
-    """Waits until it has calculated for a while: it does not wait for keys."""
+    """Waits until the process has computed for a while."""
     def spent():
         with open("/proc/%d/stat" % pid, encoding="ascii") as f:
             return int(f.read().rpartition(")")[2].split()[11]) / os.sysconf("SC_CLK_TCK")
@@ -568,7 +568,7 @@ def works(pid):
         time.sleep(0.01)
 
 
-# keys, what is said of it at the last row; None: it takes minutes, and is interrupted
+# keys, message in the last row; None: it takes minutes, and is interrupted
 SAID = [("c", r"^c0 = 200 um"), (":undo\r", "^undo"), ("k", r"^k = 0\.05, c0 = 200 um"), ("u", "^undo"), ("b", "^undo"), ("m", r"^mu = 0\.42$"), ("M", r"^mu = 0\.4$"),
         ("r", "^press FN=100 N"), ("I", r"step FN\+=500 mN"), ("J", r"step FN\+=-500 mN"),
         ("g", "geometry cone"), ("g", "geometry power n=4"), ("g", "geometry flat-rounded"), ("g", "geometry sphere"),
@@ -644,7 +644,7 @@ def typing(tests):
 
 
 def scripted(tests):
-    """Scripts at their ends, of other line ends, in characters of four bytes, and the time it all took."""
+    """Scripts: their ends, CRLF line ends, characters of up to four bytes, in a replay; and the report of `set timing on`."""
     with tests.file("") as path:
         live = Live(tests, path)
         tests.check("an empty script", live.wait("the end of the script") and live.key(" ", "cycle FA|error"), live.screen.text())
@@ -673,7 +673,7 @@ def scripted(tests):
 
 
 def pointing(tests):
-    """The mouse beside the loop, over a page and while a line is typed: nothing moves."""
+    """The mouse does nothing beside the loop, over a page, and while a line is typed."""
     live = Live(tests)
     live.wait(r"a +186\.626 um")
     at = lambda button, x, y, end="M": "\x1b[<%d;%d;%d%s" % (button, x + 1, y + 1, end)  # noqa: E731
@@ -688,7 +688,7 @@ def pointing(tests):
 
 
 def released(tests):
-    """Bodies that no longer touch, and none at all: keys have something to go on from."""
+    """Keys after the bodies have separated, and without any scene."""
     live = at_prompt(tests, SCENE)
     live.says("step FN=0 N")
     tests.check("out of contact", live.wait(lambda s: live.value("FN") == ("0", "N") and live.value("c/a") == ("-", "")) and
@@ -701,13 +701,13 @@ def released(tests):
     live.gone()
 
 
-# said in place of a cycle that has been played and taken back: it is another one, and is not gone on with
+# statements run after a played cycle has been undone: their cycle is another one, which space must not continue
 OTHERS = ("cycle FA=15 N FNA=10 N phase=90 deg", "cycle FA=20 N FNA=12 N phase=90 deg", "cycle FA=20 N FNA=10 N phase=60 deg",
           "cycle FA=20 N FNA=10 N phase=90 deg times 2", "cycle dxA=500 nm", "step Fx=2 N")
 
 
 def gone_on_with(tests):
-    """What space goes on with, and what it begins anew."""
+    """Which cycles space continues, and which it begins anew."""
     live = at_prompt(tests, SCENE + "; cycle FA=5 N")
     live.key("n]]", "FNA 10 N")
     done = lambda s: "> cycle" not in s.row(0)  # noqa: E731
@@ -754,7 +754,7 @@ def gone_on_with(tests):
 
 
 def odd_terminals(tests):
-    """Terminals of few colours, without mouse, with no name, in another locale; no terminal behind it."""
+    """Terminals with few colours, without mouse, without a name, in another locale; and no terminal."""
     live = Live(tests, command=["/bin/sh", "-c", 'unset TERM; exec "$FRET" --live'], FRET=tests.fret)
     tests.check("a terminal without a name", live.gone() == 1 and "(TERM=)" in live.raw and "try: TERM=xterm" in live.raw, live.raw)
     live = Live(tests, command=["/bin/sh", "-c", '"$FRET" --live > not-a-terminal'], FRET=tests.fret)
@@ -774,11 +774,11 @@ def odd_terminals(tests):
 
 
 def hung_up(tests):
-    """A terminal that goes while its end is told to nobody: it leaves by itself."""
+    """A terminal that disappears without SIGHUP: the mode ends by itself."""
     done = os.path.join(tests.dir, "hung-up")  # the exit status
     live = Live(tests, command=["/bin/sh", "-c", 'trap "" HUP; "$FRET" --live; echo $? > %s' % done], FRET=tests.fret)
     live.wait(r"a +186\.626 um")
-    live.child.ptyproc.fileobj.close()  # its own end; nobody closes the number again
+    live.child.ptyproc.fileobj.close()  # closes our end once: pexpect must not close the descriptor again
     live.child.ptyproc.closed = live.child.closed = True
     live.child.child_fd = -1
     end = time.time() + 60
@@ -788,7 +788,7 @@ def hung_up(tests):
 
 
 def long_loads(tests):
-    """More points than the curve keeps, more states than are kept ahead."""
+    """Loads with more points than the curve keeps, and more states than are kept for playing."""
     live = at_prompt(tests, SCENE)
     live.says("cycle FA=20 N FNA=10 N times 9000")
     want = tests.run("-c", SCENE + "; cycle FA=20 N FNA=10 N times 9000; W").stdout.split()
@@ -810,7 +810,7 @@ def long_loads(tests):
 
 
 def in_haste(tests):
-    """Two lines of a script by two keys at once: the second plays, though there was nothing to play on the screen."""
+    """Two keys at once run two lines of a script: the second line plays, although the screen has not shown the first."""
     with tests.file("# Nothing yet\n" + SCENE + "\nstep Fx=20 N\n") as path:
         live = Live(tests, path)
         live.wait("Nothing yet")
@@ -821,7 +821,7 @@ def in_haste(tests):
 
 
 def unseen(tests):
-    """A script that plays without a terminal: to its end, left in its midst, interrupted, without memory for its screen, without a screen."""
+    """Scripts played without a terminal: to the end, with `quit` in them, interrupted, without memory, and without a screen."""
     script = "# What will slip?\n" + SCENE + "\nstep Fx=20 N\n# The loop\ncycle FA=30 N\nstep Fx=50 N\n# The end\n"
     with tests.file(script) as path:
         done = [tests.run("-c", "live %s; dW" % path, env=UTF8) for _ in range(2)]
@@ -880,7 +880,7 @@ def unseen(tests):
 
 
 def stills(tests):
-    """Those of README are what `make figures` makes."""
+    """The pictures in README.md are what `make figures` makes."""
     where = os.path.join(harness.ROOT, "scripts", "paper")
     for name in ("session", "live"):
         again = os.path.join(tests.dir, name + ".svg")
@@ -897,9 +897,9 @@ def stills(tests):
 
 
 def shapes(tests):
-    """Screens of other shapes, and what there is too little room for."""
+    """Screens of other shapes, and views that have too little room."""
     live = at_prompt(tests, SCENE)
-    for rows, cols in ((24, 70), (20, 70)):  # one of both at a time
+    for rows, cols in ((24, 70), (20, 70)):  # first only the columns change, then only the rows
         live.screen.resize(rows, cols)
         live.child.setwinsize(rows, cols)
         live.wait(lambda s: "loop: Fx over dx" in s.text() and "arrows push" in s.row(rows - 2))
@@ -950,7 +950,7 @@ def pages(tests):
 
 
 def readable(tests):
-    """What is longer than a row goes on in the next, below the views and on a page; what is longer than that is a page."""
+    """Long text is wrapped, in the status and on a page; a text too long for the status becomes a page."""
     live = at_prompt(tests, SCENE)
     rows = lambda s: [s.row(i) for i in range(24)]  # noqa: E731
     live.key("?", "push tangentially")
@@ -981,7 +981,7 @@ def readable(tests):
 
 
 def begun(tests):
-    """What a scene has is not set again, and what it lacks is told."""
+    """At the start only inputs that the scene lacks are set; errors of the scene are shown."""
     live = at_prompt(tests, "x = 100 GPa; E0 := 2*x; nu = 0.3; q = 0.15; mu := 2*q")
     tests.check("what follows a definition stays", live.wait(r"a +\d") and "mu 0.3" in live.screen.row(0), live.screen.text())
     live.says("E0, nu, mu")
@@ -996,8 +996,7 @@ def begun(tests):
 
 
 def hostile(tests):
-    """What turns the writing round or commands a terminal is shown, and does nothing: in a script, its statements and what they say,
-    and in a line that is typed."""
+    """Control characters and characters that reverse text are shown escaped: in a script, in answers, and in a typed line."""
     signs = "\u202e \x9b\x1b[2J \u200b"
     shown = "\\u202e \\u009b\\x1b[2J \\u200b"
     with tests.file("# A note %s end\n%s # %s end\n" % (signs, SCENE, signs)) as path:
@@ -1018,7 +1017,7 @@ def hostile(tests):
 
 
 def little(tests):
-    """Forces of less than a newton: half of what slides is pulled, and the normal force swings by tenths of itself."""
+    """Forces below 1 N: the amplitude is half the force of gross slip, and the normal force swings by tenths of itself."""
     live = Live(tests, command=[tests.fret, "-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=1 N; live"])
     live.wait(r"FN +1 N")
     tests.check("FN swings, by little", live.key("n", "the cycle swings FN too"), live.screen.text())
@@ -1030,7 +1029,7 @@ def little(tests):
 
 
 def energies(tests):
-    """The scale of the energies stands a little above the most of them; the places of the views."""
+    """The scale of the energies is a little above the largest one; the places of the views."""
     scene = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=30 N; "
     rows = tests.run("--format=csv", "-c", scene + "table W, U along program").stdout.split()
     most = max(float(cell) for row in rows[1:] if row[0].isdigit() for cell in row.split(",")[1:])
@@ -1046,8 +1045,7 @@ def energies(tests):
 
 
 def completed(tests):
-    """What Tab does to a line: nothing where the candidates have nothing in common, no blank where more belongs to a word, and no
-    more than there is room for."""
+    """Tab in a typed line: candidates with no common beginning, no blank after a word that goes on, a line that is full."""
     live = at_prompt(tests, SCENE)
     for keys_sent, want in ((":\t", ":"), ("\x15press F\t", ":press FN="), ("\x15loss_f\t", ":loss_factor("), ("\x15record of\t", ":record off")):
         tests.check("Tab: %r" % keys_sent, live.key(keys_sent, lambda s, want=want: live.status() == want), live.screen.text())
@@ -1068,7 +1066,7 @@ def completed(tests):
 
 
 def dragged(tests):
-    """Events that come together, and beside the loop on every side; a button that is not asked for."""
+    """Mouse events that come together, events beside the loop on every side, and another button."""
     live = Live(tests)
     live.wait(r"a +186\.626 um")
     at = lambda button, x, y, end="M": "\x1b[<%d;%d;%d%s" % (button, x + 1, y + 1, end)  # noqa: E731
@@ -1091,7 +1089,7 @@ def dragged(tests):
 
 
 def refused_beside(tests):
-    """A comparison of which one side cannot be."""
+    """A comparison with one scene that is not possible."""
     live = at_prompt(tests, SCENE)
     live.says("compare nu = 0.3, 0.7")
     tests.check("a value that no body has", live.wait("nu = 0.7: ") and live.wait(r"a +186\.626 um"), live.screen.text())

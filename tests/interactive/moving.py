@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The full-screen mode while something moves, or takes long: what is shown agrees with the same statements in a plain session,
-nothing jumps, nothing that has been said is lost."""
+"""Tests the full-screen mode while it plays or computes: the numbers agree with those of the same statements in a plain session,
+nothing jumps, no statement is lost."""
 import fcntl
 import math
 import os
@@ -18,7 +18,7 @@ SWUNG = "cycle FA=20 N FNA=10 N phase=90 deg"
 
 
 def scene_of(tests, size, statements, *args, **env):
-    """The full-screen mode after statements, on a screen of another size."""
+    """The full-screen mode after these statements, on a screen of this size."""
     live = Live(tests, command=[tests.fret, "-c", statements + "; live " + " ".join(args)], size=size, **env)
     live.wait(lambda s: s.modes.get(1049) and "q quit  ? keys" in s.text())
     return live
@@ -30,7 +30,7 @@ def plain(tests, statements, name):
 
 
 def curve_ends(live):
-    """Is W at the end of its curve as high as the number says, on a scale that stands a little above it?"""
+    """Does the curve of W end at the height of the number, on a scale a little above it?"""
     rows = live.screen.text().splitlines()
     top, bottom = (next((i for i, row in enumerate(rows) if re.search(what, row)), 0) for what in ("-- energy", "^ FN "))
     unit = {"": 1, "m": 1e-3, "u": 1e-6, "n": 1e-9}
@@ -45,7 +45,7 @@ def curve_ends(live):
 
 
 def energies(tests):
-    """W's curve ends where the number says, also behind periods that repeat those before, and where playing was cut short."""
+    """The curve of W ends at the number's height, also after repeated periods that were skipped, and after playing was cut short."""
     statement = "cycle FA=20 N FNA=10 N times 40"
     want = plain(tests, "%s; %s" % (SCENE, statement), "W")
     for name in ("said", "played"):
@@ -63,7 +63,7 @@ def energies(tests):
 
 
 def compared(tests):
-    """A comparison that begins while a cycle plays, or after one: both sides move by one hand, and end as plain sessions do."""
+    """A comparison that begins while a cycle plays, or after: both sides move together, and end at the values of plain sessions."""
     live = at_prompt(tests, SCENE)
     live.key("]]", " 2/s")
     live.key(" ", "> cycle")
@@ -100,7 +100,7 @@ def compared(tests):
 
 
 def stopped(tests):
-    """While it is stopped no time passes: a period of four seconds, stopped for five, is not over."""
+    """While the program is stopped no time passes: a period of four seconds that is stopped for five is not over."""
     live = at_prompt(tests, SCENE)
     live.key("[", " 0.25/s")
     live.key(" ", lambda s: "> cycle" in s.row(0) and live.value("Fx")[0] not in ("0", "20"))
@@ -119,7 +119,7 @@ def stopped(tests):
 
 
 def measured(tests, rows):
-    """A long measured load, which ends in sliding far."""
+    """Writes a long measured load, which ends in gross slip."""
     path = os.path.join(tests.dir, "measured-%d.csv" % rows)
     with open(path, "w", encoding="ascii") as f:
         f.write("FN [N],Fx [N]\n" + "".join("%.6g,%.6g\n" % (100 + 20 * math.sin(0.7 * i), 25 * math.sin(0.31 * i) * (0.5 + 0.5 * math.sin(0.001 * i)))
@@ -128,7 +128,7 @@ def measured(tests, rows):
 
 
 def long_ways(tests):
-    """Loads of many steps: what moves is not shown at its end before it has begun; the picture has its last part."""
+    """Loads of many steps: the end state is not shown before playing has begun; the picture shows the last part of the curve."""
     for rows in (150, 20001):
         statements = "%s; follow %s; step dx=30 um" % (SCENE, measured(tests, rows))
         live = scene_of(tests, (50, 130), statements)
@@ -144,7 +144,7 @@ def long_ways(tests):
         live.end()
 
 
-# scenes and loads; the last of them under other models
+# scenes and loads; the last ones with other models
 SCENES = (SCENE, SCENE + "; step Fx=20 N; step FN=80 N Fx=10 N", SCENE + "; cycle FA=20 N times 3", SCENE + "; " + SWUNG + " times 2",
           "material E0=70 GPa nu=0.33 k=-0.4 c0=2 mm; geometry cone slope=0.03; friction 0.25; press dz=3 um; step dx=1 um; step dx=-0.2 um",
           "material E0=1 MPa nu=0.5 k=0.8 c0=3 mm; second rigid; geometry flat-rounded b=2 mm R=50 mm; friction 1.2; press FN=3 N; cycle dxA=0.3 mm; step FN=1 N",
@@ -156,7 +156,7 @@ NAMES = ("FN", "Fx", "dx", "dz", "a", "c", "c/a", "W", "U", "dW", "kt")
 
 
 def digits(tests):
-    """What is shown is what a plain session prints, in all digits."""
+    """The numbers on the screen are those of a plain session, in all digits."""
     for scene in tests.some(SCENES):
         live = scene_of(tests, (42, 150), scene + "; set digits 12")
         told = tests.run("--keep-going", "-c", "%s; set digits 12\n" % scene + "".join("%s\n" % name for name in NAMES))
@@ -169,7 +169,7 @@ def digits(tests):
 
 
 def begins_anew(tests):
-    """What is not the cycle that was played last: at another phase, or with a step behind it."""
+    """Space begins a new cycle if the phase has changed or a step has followed the last one."""
     live = at_prompt(tests, SCENE)
     live.key("n]]]", "cycle FA 20 N FNA 10 N 90 deg 4/s")
     done = lambda s: "> cycle" not in s.row(0)  # noqa: E731
@@ -197,7 +197,7 @@ def begins_anew(tests):
 
 
 def read_alike(tests):
-    """A script is read as by `fret FILE`: marks within comments, prompts of lines that go on, long lines, an end that goes on."""
+    """Scripts are read as by `fret FILE`: backslashes in comments, prompts of continued lines, long lines, a backslash at the end."""
     for name, text in (("a comment's mark", "# C:\\\nx = 1 + \\\n 2\ny = x\n"), ("a transcript", "A title\nfret> x = 1 + \\\n....> 2\nx = 3\nfret>\nfret> y = x\n"),
                        ("a long line", "x = 3%s\ny = x\n" % (" + 0" * 200)), ("its end", "x = 3\r\ny = 2 \\\r\n + 1 \\"), ("a form feed", "x = 3 \x0c\ny = 3\n")):
         with tests.file(text) as path:
@@ -207,7 +207,7 @@ def read_alike(tests):
 
 
 def signals(tests):
-    """Sizes and stops that come while a statement runs wait for its end; a terminal that goes while it is stopped."""
+    """Changes of size and Ctrl-Z while a statement runs take effect at its end; a terminal that disappears while the program is stopped."""
     live = Live(tests, command=["/bin/bash", "--norc", "--noprofile", "-i"], PS1="shell> ", FRET=tests.fret, TERM="vt100", LC_ALL="C")
     live.wait("shell>")
     live.child.send('stty -a > before-vt; "$FRET" --live\r')
@@ -236,7 +236,7 @@ def signals(tests):
     side = os.open(os.readlink("/proc/%d/fd/0" % live.child.pid), os.O_RDWR | os.O_NOCTTY)
     termios.tcflow(side, termios.TCOOFF)
     live.child.send("l")
-    time.sleep(0.5)  # in the midst of drawing
+    time.sleep(0.5)  # it is drawing now
     os.kill(live.child.pid, signal.SIGINT)
     time.sleep(0.1)
     termios.tcflow(side, termios.TCOON)
@@ -258,7 +258,7 @@ def signals(tests):
 
 
 def halves(tests):
-    """Only one end of it is a terminal."""
+    """Only standard input, or only standard output, is a terminal."""
     live = Live(tests, command=["/bin/sh", "-c", '"$FRET" --live < /dev/null'], FRET=tests.fret)
     tests.check("keys from elsewhere", live.gone() == 1 and "needs a terminal" in live.raw, live.raw)
     with tests.file("step Fx=20 N\n") as path:
@@ -270,7 +270,7 @@ def halves(tests):
 
 
 def mice(tests):
-    """Beside the loop of the first scene is that of the second, which is not pulled; events that come together."""
+    """The mouse in the loop of the second scene does nothing; events that come together."""
     at = lambda button, x, y, end="M": "\x1b[<%d;%d;%d%s" % (button, x + 1, y + 1, end)  # noqa: E731
     live = at_prompt(tests, SCENE)
     pulled = lambda: re.findall(r" dx {2}(\S+ \S+)", live.screen.text())  # noqa: E731
@@ -291,7 +291,7 @@ def mice(tests):
     live.wait(lambda s: pulled() != first, 5)
     live.child.send(at(32, 30, 12) + at(0, 30, 12, "m"))
     tests.check("several events at a time", live.wait(lambda s: pulled() != first and pulled()[0].endswith("um")), live.screen.text())
-    live.key("f", "forces Fx and FN")  # what came before it has been seen
+    live.key("f", "forces Fx and FN")  # so that all events before it have been read
     before = pulled()
     live.child.send(at(35, 20, 12))
     live.key("f", "displacements dx and dz")
@@ -301,7 +301,7 @@ def mice(tests):
 
 
 def taken(live):
-    """Until the program has read what was sent, which takes a moment to come to it."""
+    """Waits until the program has read all that was sent."""
     time.sleep(0.2)
     side, end = os.open(os.readlink("/proc/%d/fd/0" % live.child.pid), os.O_RDWR | os.O_NOCTTY), time.time() + 60
     while struct.unpack("i", fcntl.ioctl(side, termios.FIONREAD, b"\0" * 4))[0] and time.time() < end:
@@ -310,7 +310,7 @@ def taken(live):
 
 
 def little_room(tests):
-    """A page on four rows, numbers of one digit in little room."""
+    """A page on four rows; numbers reduced to one digit for lack of room."""
     live = at_prompt(tests, SCENE)
     live.key("?", "push tangentially")
     top = live.screen.row(3)
@@ -334,7 +334,7 @@ def little_room(tests):
 
 
 def descriptions(tests):
-    """Descriptions of terminals that say odd things: of what ends the mode as much is sent as there is room for, paddings not."""
+    """Odd terminal descriptions: the bytes that end the mode are cut to the room for them, and sent without padding."""
     if not shutil.which("tic"):
         return
     where = os.path.join(tests.dir, "odd-terminfo")
@@ -352,7 +352,7 @@ def descriptions(tests):
 
 
 def memory(tests):
-    """Memory that runs out while a cycle's periods are said again, or a long way is walked: told of, and nothing that has been said is lost."""
+    """Memory runs out while all periods of a cycle are run as one statement, or a long load is run: an error, and no statement is lost."""
     shim = os.path.join(os.path.abspath(tests.build), "tests", "faults.so")
     if tests.sanitized or not os.path.exists(shim):
         return
@@ -360,7 +360,7 @@ def memory(tests):
         with open(os.path.join(tests.dir, name), "w", encoding="ascii"):
             pass
     fault = {"LD_PRELOAD": shim, "FRET_FAULTS": "1"}
-    answer = 256 + 16  # what takes a statement's answer begins with so many bytes, as arrays grow
+    answer = 256 + 16  # the first allocation for the answer of a statement
     seen = []
     for number in range(1, 6):
         live = Live(tests, FAULT_SIZE=str(answer), FAULT=str(number), **fault)
@@ -381,7 +381,7 @@ def memory(tests):
         tests.check("memory for a cycle that is played, %d" % number, said == want, "%s\n%s\n%s" % (told, said, live.screen.text()))
         seen.append(re.sub(r"\d+$", "", told))
         live.end()
-    # pictures and ways: allocations of just their sizes
+    # pictures and curves: allocations of exactly their sizes
     live = Live(tests, size=(50, 130))
     live.wait(r"a +186\.626 um")
     rows = live.screen.text().splitlines()
@@ -396,7 +396,7 @@ def memory(tests):
     points = 0
     while points < 500:
         points += points + 1 + 16  # as arrays grow
-    grown = str(points * 40)  # points of a way
+    grown = str(points * 40)  # the points of a curve
     live = Live(tests, FAULT_SIZE=grown, FAULT="1", **fault)
     live.wait(r"a +186\.626 um")
     live.says("source arm; follow " + measured(tests, 200))

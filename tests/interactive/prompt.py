@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The prompt in a terminal of its own: editing, history, completion, interrupts."""
+"""Tests the prompt on a terminal of its own: editing, history, pastes, Ctrl-C, Ctrl-Z, lessons, figures, the pager."""
 import io
 import os
 import re
@@ -18,7 +18,7 @@ SCENE = "material steel; geometry sphere R=10 mm; friction 0.4"
 
 
 class Session:
-    """before: a program with arguments that starts it."""
+    """A session at the prompt. before: a command, with arguments, that starts the program."""
 
     def __init__(self, tests, *args, cwd=None, dimensions=(30, 100), before=(), **env):
         self.tests = tests
@@ -33,12 +33,12 @@ class Session:
         self.banner = self.prompt()
 
     def prompt(self):
-        """What came before the next prompt."""
+        """Waits for the next prompt; returns the output before it."""
         self.child.expect(PROMPT)
         return clean(self.child.before)
 
     def say(self, line):
-        """The answer to a line."""
+        """Types a line; returns the answer."""
         self.child.sendline(line)
         return self.prompt().partition("\n")[2].strip()
 
@@ -101,8 +101,8 @@ ASKS = re.escape("(any key: go on, b: back, q: leave)")
 
 
 def to_key(s, guesses=None):
-    """To the next key that a lesson waits for, or its end: whether it waits, and what it said. Questions are answered by guesses,
-    which are taken off, then not at all."""
+    """Waits until a lesson asks for a key, or ends: (whether it asks, its output). Answers questions by the guesses in turn, then by
+    empty lines."""
     text = ""
     while True:
         found = s.child.expect([ASKS, "guess> ", r"2004hfret> $"])
@@ -113,7 +113,7 @@ def to_key(s, guesses=None):
 
 
 def play(s, statement, key=" "):
-    """A lesson to its end; how often it has asked for a key, and what it said."""
+    """Plays a lesson to its end: (how often it asked for a key, its output)."""
     asked = 0
     s.child.sendline(statement)
     waits, text = to_key(s)
@@ -126,14 +126,14 @@ def play(s, statement, key=" "):
 
 
 def guess(s, line):
-    """What is said of it."""
+    """Types a guess; returns the reply."""
     s.child.send(line + "\r")
     s.child.expect(["guess> ", r"2004hfret> $"])
     return clean(s.child.before).replace("\x1b[?", "").partition("\n")[2].strip()
 
 
 def exercises(tests):
-    """Guesses, right and wrong, the hint, and no guess; by hand, in a lesson, recorded and copied."""
+    """`ask`: right and wrong guesses, the hint, no guess; at the prompt, in a lesson, recorded, and in a copy of the terminal."""
     s = Session(tests, "--quiet", "--color=never")
     s.say(SCENE + "; press FN=100 N")
     s.say("record guesses.txt")
@@ -252,7 +252,7 @@ def interrupts(tests):
 
 
 def dropped(tests):
-    """Lines that Ctrl-C drops show it, each on its line, and a copy of the terminal replays."""
+    """Lines dropped by Ctrl-C end in ^C, and a copy of the terminal can be replayed."""
     for name, term in (("xterm", "xterm"), ("a dumb terminal", "dumb")):
         s = Session(tests, TERM=term)
         screen = Screen(30, 100)
@@ -282,12 +282,12 @@ def dropped(tests):
 
 
 def dropped_tall(tests):
-    """A dropped line of two rows, the cursor in its first: the next prompt stands below both."""
+    """After a dropped line of two rows with the cursor in the first, the next prompt stands below both."""
     s = Session(tests, dimensions=(30, 100))
     screen = Screen(30, 100)
     s.child.logfile_read = shown = io.StringIO()
     s.child.send("x = 4; " * 20 + "9\x01")
-    s.child.expect_exact("\x1b[A")  # in the first row; what has not been read is lost to the interrupt
+    s.child.expect_exact("\x1b[A")  # the cursor is in the first row; Ctrl-C now, for it would drop keys not read yet
     time.sleep(0.05)
     s.child.sendintr()
     s.child.expect_exact("^C")
@@ -301,7 +301,7 @@ def dropped_tall(tests):
 
 
 def copied(tests):
-    """Pastes of several lines stand as if they had been typed: a copy of the terminal replays. Ctrl-C drops what is still to come."""
+    """Pastes of several lines look as if they had been typed, and a copy of the terminal can be replayed. Ctrl-C drops the rest of a paste."""
     s = Session(tests, dimensions=(40, 100))
     screen = Screen(40, 100)
     screen.feed(PROMPT)
@@ -365,7 +365,7 @@ def starting(tests):
 
 
 def plain(tests):
-    """A terminal that obeys no escapes is sent none."""
+    """A terminal that knows no escape sequences gets none."""
     for name in ("dumb", "unknown", "", None):
         s = Session(tests, TERM=name, LC_ALL="C.UTF-8")
         s.child.logfile_read = shown = io.StringIO()
@@ -381,7 +381,7 @@ def plain(tests):
 
 
 def figures(tests):
-    """Colours and braille where the terminal has them, and frames in place."""
+    """Figures have colours and braille if the terminal has them; frames of a film replace one another."""
     s = Session(tests, LC_ALL="C.UTF-8", TERM="xterm-256color")
     s.say(SCENE)
     s.say("press FN=100 N; cycle FA=20 N")
@@ -407,7 +407,7 @@ def figures(tests):
 
 
 def sizes(tests):
-    """Plots fit the terminal, where that is a size to plot in, and its kind."""
+    """Plots fit the size of the terminal, if there is room for a plot, and its kind."""
     for rows, columns, wide, high in ((30, 100, 99, 28), (20, 60, 59, 18), (8, 100, 99, 6), (8, 40, 39, 6), (7, 100, 79, 24), (30, 19, 79, 24)):
         s = Session(tests, "--quiet", "--color=never", dimensions=(rows, columns))
         s.say("set pager off")
@@ -416,7 +416,7 @@ def sizes(tests):
         lines = clean(s.child.before).splitlines()[-high:]
         tests.check("a plot in %d rows of %d" % (rows, columns), max(map(len, lines)) <= wide and
                     (max(map(len, lines)) > wide - 10 and "x" in lines[-1] or high < 8), "\n".join(lines))
-        s.prompt()  # a Ctrl-D before the editor has the terminal is lost
+        s.prompt()  # a Ctrl-D before readline has the terminal is lost
         s.child.sendeof()
         s.end()
     for term, braille in (("xterm", True), ("linux", False), (None, False)):
@@ -429,7 +429,7 @@ def sizes(tests):
 
 
 def tables(tests):
-    """Tables at a terminal: every row, in each form, whole beside what tells how far they are."""
+    """Tables at a terminal have every row, in each format, undamaged by the progress line."""
     s = Session(tests, "--quiet", "--color=never")
     s.child.sendline("table x for x = 0 .. 2999 steps 2999; 77*11")
     s.child.expect(r"77\*11 = 847\r\n")
@@ -449,7 +449,7 @@ def tables(tests):
 
 
 def moving(tests):
-    """Frames go in place on the terminal itself; what is recorded holds no going up."""
+    """Frames are drawn in place on the terminal; the recording has no cursor movements."""
     path = os.path.join(tests.dir, "moving.txt")
     s = Session(tests, "--quiet", TERM="xterm-256color")
     s.say(SCENE + "; press FN=100 N; cycle FA=20 N; record " + path)
@@ -457,7 +457,7 @@ def moving(tests):
     s.child.expect(r"77\*11 = 847\r\n")
     shown = s.child.before
     s.prompt()
-    s.say("record off")  # what is typed between two lines may be lost
+    s.say("record off")  # keys typed between two lines may be lost
     s.child.sendeof()
     s.end()
     with open(path, encoding="utf-8") as f:
@@ -478,7 +478,7 @@ def moving(tests):
 
 
 def own(tests):
-    """What only the prompt does: commands of the system, a load too long to show, a start-up file at home."""
+    """What only the prompt does: `!COMMAND`, a shortened list of a long load, a start-up file."""
     home = os.path.join(tests.dir, "at-home")
     os.makedirs(os.path.join(home, ".config", "fret"))
     with open(os.path.join(home, ".config", "fret", "fretrc"), "w", encoding="ascii") as f:
@@ -504,7 +504,7 @@ def own(tests):
 
 
 def strangers(tests):
-    """Nothing of the current directory is read at the start: paths of the environment that are relative are none."""
+    """Nothing in the current directory is read at the start: relative paths in environment variables are ignored."""
     where, home = os.path.join(tests.dir, "stranger"), os.path.join(tests.dir, "stranger-home")
     for at, x in ((os.path.join(where, "fret"), 1), (os.path.join(where, ".config", "fret"), 2), (os.path.join(where, "config", "fret"), 3), (os.path.join(home, ".config", "fret"), 17)):
         os.makedirs(at)
@@ -531,7 +531,7 @@ def strangers(tests):
 
 
 def narrow(tests):
-    """Progress keeps to one row of a terminal that has few columns."""
+    """The progress line stays within one row of a narrow terminal."""
     for columns in (20, 58):
         s = Session(tests, "--quiet", dimensions=(24, columns))
         s.child.sendline("table x for x = 1 .. 2 steps 100000000 to /dev/null")
@@ -545,7 +545,7 @@ def narrow(tests):
 
 
 def kept_lines(tests):
-    """The file of the history: where it is, what is none, what of it is read; who else may read it."""
+    """The history file: where it is, which files are refused, what is read from it, and its permissions."""
     def session(line=None, **env):
         s = Session(tests, "--quiet", **env)
         answer = s.say(line) if line else None
@@ -592,7 +592,7 @@ def kept_lines(tests):
 
 
 def odd_lines(tests):
-    """A history with bytes 0, as a crash leaves them, and with a line longer than anybody types; none such is kept."""
+    """A history file with NUL bytes, as after a crash, and with a very long line: such lines are not kept."""
     state = os.path.join(tests.dir, "odd-history")
     path = os.path.join(state, "fret", "history")
     os.makedirs(os.path.dirname(path))
@@ -617,7 +617,7 @@ def odd_lines(tests):
 
 
 def stopped(tests):
-    """Ctrl-Z at the prompt, and on again; a signal that its starter ignores."""
+    """Ctrl-Z at the prompt, and fg; a signal that the parent ignores."""
     shell = pexpect.spawn("/bin/bash", ["--norc", "--noprofile", "-i"], env={**tests.env, "PS1": "shell> ", "TERM": "xterm", "FRET": tests.fret,
                           "XDG_STATE_HOME": os.path.join(tests.dir, "state-stopped"), "INPUTRC": "/dev/null"}, encoding="utf-8", timeout=60, cwd=tests.dir)
     shell.expect("shell> ")
@@ -647,7 +647,7 @@ def stopped(tests):
 
 
 def paging(tests):
-    """Text that is too long for the terminal goes to $PAGER, to less or to more, or stays."""
+    """Text too long for the terminal goes to $PAGER, less or more; without a pager it is printed."""
     where = os.path.join(tests.dir, "pagers")
     os.mkdir(where)
     for tool in ("sh", "cat", "head"):
@@ -683,16 +683,16 @@ def paging(tests):
 
 
 def letters(tests):
-    """Characters that are not ASCII, from the first of a line on, and the cursor over them, whatever the locale says."""
+    """Non-ASCII characters, also as the first of a line, and cursor moves over them, in every locale."""
     for name, env in (("C", {}), ("POSIX", {"LC_ALL": "POSIX"}), ("none", {"LC_ALL": None}), ("none that is there", {"LC_ALL": "xx_YY.ISO-8859-1"}),
                       ("of the characters alone", {"LC_ALL": None, "LANG": "C.UTF-8", "LC_CTYPE": "C"}), ("UTF-8", {"LC_ALL": "C.UTF-8"})):
         s = Session(tests, "--quiet", TERM="xterm", **env)
-        for again in ("first", "second"):  # readline asks for the locale before every line
+        for again in ("first", "second"):  # readline reads the locale before every line
             told = s.say("\u2212 3")
             tests.check("locale %s: a minus sign, %s" % (name, again), "error: '\u2212' (U+2212) is no character of the language" in told, told)
         told = s.say("\u00fc = 4")
         tests.check("locale %s: an assignment" % name, told == "" and s.say("\u00fc*1").endswith("\u00fc*1 = 4"), told)
-        # back over two, one more, the last away
+        # two characters back, insert one, delete the last
         told = s.say("\u00e4\u20ac\u00fc\x02\x02x\x05\x7f = 6")
         tests.check("locale %s: editing" % name, told == "" and s.say("\u00e4x\u20ac*1").endswith("\u00e4x\u20ac*1 = 6"), told)
         s.child.sendeof()

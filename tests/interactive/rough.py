@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The prompt and its lessons where things go roughly: calls and memory that fail, signals between two keys, terminals without
-size, without room, or gone, a disk that is full."""
+"""Tests the prompt and lessons under adverse conditions: failing system calls and allocations, signals between two keys, terminals
+without a size, without room, or gone, a full disk."""
 import errno
 import fcntl
 import os
@@ -22,7 +22,7 @@ from prompt import PROMPT, SCENE, Session, clean, play, to_key
 
 
 def started(tests, name, text):
-    """A folder of settings with this start-up file."""
+    """A configuration directory with this start-up file."""
     config = os.path.join(tests.dir, name)
     os.makedirs(os.path.join(config, "fret"))
     with open(os.path.join(config, "fret", "fretrc"), "w", encoding="ascii") as f:
@@ -31,7 +31,7 @@ def started(tests, name, text):
 
 
 def armed(tests):
-    """Where `source arm` begins to count."""
+    """Makes the files arm and disarm: `source arm` makes faults.so begin to count."""
     for name in ("arm", "disarm"):
         with open(os.path.join(tests.dir, name), "w", encoding="ascii"):
             pass
@@ -52,7 +52,7 @@ def leaves(s):
     return s.end()
 
 
-# ---- calls of the system that fail --------------------------------------------------------------
+# ---- system calls that fail ---------------------------------------------------------------------
 
 def failing(tests):
     tool = os.path.join(os.path.abspath(tests.build), "tests", "calls")
@@ -70,7 +70,7 @@ def failing(tests):
     def failed(path):
         with open(path, encoding="ascii") as f:
             return "FAILED" in f.read()
-    # while a key is waited for, and read
+    # while the program waits for a key, and reads it
     path, s = session("pselect6", 9, errno.ENOMEM)
     s.say("source arm")
     s.child.send("x = 4 + 3")
@@ -85,27 +85,27 @@ def failing(tests):
         else:
             tests.check("a key that is read again", s.say("x = 45; x").endswith("x = 45") and leaves(s) == 0 and failed(path),
                         clean(s.child.before))
-    # the history, opened behind a start-up file that arms
+    # the history, opened after a start-up file that arms the faults
     config, found = started(tests, "arming", "source arm\n"), []
     for call, code, says in (("fstat", errno.EIO, "no history is kept: .*history is no plain file"), ("newfstatat", errno.EIO, "no history is kept: .*history is no plain file"),
                              ("fchmod", errno.EPERM, "others can read .*history"),
                              ("openat", errno.EACCES, "no history is kept: cannot write .*history: Permission denied"), ("openat", errno.EROFS, "no history is kept: cannot write .*history: Read-only"), ("read", errno.EIO, "^ *$")):
         state, kept = history_of(tests, "kept-%s-%d" % (call, code), "123 + 1\n", 0o644)
         path, s = session(call, 3 if call == "read" else 1, code, XDG_STATE_HOME=state, XDG_CONFIG_HOME=config)
-        if call == "openat":  # what cannot be written can be read
+        if call == "openat":  # a history that cannot be written is still read
             tests.check("a history to read alone", s.say("\x1b[A").endswith("123 + 1 = 124"))
         answer = s.say("\x1b[A\x15\x1b[A4 + 1" if call in ("fstat", "newfstatat", "read") else "4 + 1")
         ended = leaves(s)
         with open(kept, encoding="ascii") as f:
             lines = f.read().splitlines()
-        if call in ("fstat", "newfstatat") and not re.search(says, s.banner):  # a C library asks for a file by one of them, for others by the other
+        if call in ("fstat", "newfstatat") and not re.search(says, s.banner):  # which of the two a C library calls depends on the file
             tests.check("a start where %s fails for another file" % call, answer.endswith("4 + 1 = 5") and ended == 0, "%s\n%s" % (s.banner, answer))
         elif failed(path):
             found.append(call)
             tests.check("a history where %s fails" % call, re.search(says, s.banner) and answer.endswith("4 + 1 = 5") and ended == 0 and
                         lines == ["123 + 1"] + ([] if "no history" in says else ["4 + 1"]), "%s\n%s\n%s" % (s.banner, answer, lines))
     tests.check("a history's calls fail", set(found) >= {"fchmod", "read", "openat"} and {"fstat", "newfstatat"} & set(found), str(found))
-    # other programs cannot be started
+    # failures to start other programs
     for line, says in (("!true", r"^the system's shell fails: No child processes"), ("help pi", "^pi: ")):
         seen = []
         for call, code in (("wait4", errno.ECHILD),) if line == "!true" else (("clone3", errno.ENOMEM), ("clone", errno.ENOMEM), ("vfork", errno.ENOMEM), ("fork", errno.ENOMEM)):
@@ -116,14 +116,14 @@ def failing(tests):
             goes_on = leaves(s) == 0 and goes_on
             seen += [(re.search(says, answer), goes_on)] if failed(path) else []
         tests.check("a program of the system's that fails: " + line, seen and all(told and goes_on for told, goes_on in seen), str(seen))
-    # the modes of the terminal at the question of a lesson
+    # failures to set the terminal's modes at the question of a lesson
     reached = 0
     for number in (1, 2, 3, 4):
         path, s = session("ioctl", number, errno.EIO)
         s.say("x = 5")
         s.child.sendline("source arm; demo pressing")
         s.child.expect("demo pressing")
-        s.child.send("q\r1234\r")  # a key, or a line where no key is asked for
+        s.child.send("q\r1234\r")  # a key, or a line if no key is asked for
         s.child.expect("1234 = 1234")
         s.prompt()
         tests.check("a lesson where ioctl %d fails" % number, s.say("x") == "x = 5" and leaves(s) == 0, clean(s.child.before))
@@ -131,10 +131,10 @@ def failing(tests):
     tests.check("a lesson's calls fail", reached == 4, str(reached))
 
 
-# ---- memory that runs out -----------------------------------------------------------------------
+# ---- allocations that fail ----------------------------------------------------------------------
 
 def memory(tests):
-    """From the first allocation on, and at the prompt: what is answered is right, what is lost is told of."""
+    """Allocations fail at the start and at the prompt: answers that come are right, and what is lost is reported."""
     shim = os.path.join(os.path.abspath(tests.build), "tests", "faults.so")
     if tests.sanitized or not os.path.exists(shim):
         return
@@ -159,7 +159,7 @@ def memory(tests):
     tests.each([lambda i=i, args=args: batch(i, args) for i, args in enumerate((["-c", "help plot"], ["-c", "help files"], ["--version"], ["-c", "1 + 1"]))])
 
     def at_prompt(number):
-        """What it says, and whether there was an end to it."""
+        """Runs a session in which an allocation fails: (did it end well, what it printed)."""
         kept = os.path.join(tests.dir, "kept-%d.fret" % number)
         state, path = history_of(tests, "memory-%d" % number, "1\n")
         s = Session(tests, "--quiet", XDG_STATE_HOME=state, FAULT=str(number), FAULT_COUNT=where, **fault)
@@ -167,13 +167,13 @@ def memory(tests):
         try:
             for line in lines:
                 s.child.send(line + "\r")
-                if "\r" in line:  # goes on, or is dropped
+                if "\r" in line:  # the line is continued, or dropped
                     s.child.expect([r"\.\.\.\.> ", PROMPT])
                     said += s.child.before
                 said += s.prompt()
             said += s.say("x; y")
             ended = leaves(s)
-        except pexpect.EOF:  # readline's own end
+        except pexpect.EOF:  # readline ends the program itself
             said += s.child.before
             s.child.close()
             ended = s.child.exitstatus
@@ -183,7 +183,7 @@ def memory(tests):
                 text = f.read()
         whole = "source arm\n# " + 300 * "y" + "\nx = 5\ny =  \\\n6\nx + y\nsave history %s\n" % kept
         fine = ended == 0 and said.count("= 5") and "y = 6" in said and text == whole
-        lost = "memory" in said and set(text.splitlines()) <= set(whole.splitlines())  # what is dropped has not been run
+        lost = "memory" in said and set(text.splitlines()) <= set(whole.splitlines())  # dropped lines have not been run
         return fine or "virtual memory" in said and ended == 1 or lost and ended == 0, "%d: %s\n%s\n%s" % (number, ended, clean(said), text)
     right = at_prompt(0)
     with open(where, encoding="ascii") as f:
@@ -192,7 +192,7 @@ def memory(tests):
     tests.each([lambda n=n: results.append(at_prompt(n)) for n in range(1, count + 1)])
     wrong = [told for ok, told in results if not ok]
     tests.check("memory at the prompt", right[0] and count > 20 and not wrong, "%s\n%d of %d\n%s" % (right[1], len(wrong), count, "\n".join(wrong[:4])))
-    # a line that is to be kept
+    # a line for the history
     def kept_line(number):
         log = os.path.join(tests.dir, "line-%d.txt" % number)
         script = "record %s\nsource arm\n1%s\nsource disarm\n1234 + 1\n" % (log, "+1" * 400)
@@ -210,7 +210,7 @@ def memory(tests):
         if "1234 + 1 = 1235" not in done.stdout and not unread or done.returncode != refused or not text.endswith("\n") or not refused and text != whole:
             wrong.append("%d: %s%s" % (number, tests.report(done), text[-300:]))
     tests.check("memory for a recorded line", right.returncode == 0 and count > 1 and not wrong, "\n".join(wrong[:3])[:3000])
-    # behind a start-up file that arms: the history and what is typed
+    # after a start-up file that arms the faults: the history and typed lines
     config = started(tests, "arming-memory", "source arm\n")
     for number in range(1, 24):
         s = pexpect.spawn(tests.fret, ["--quiet"], encoding="utf-8", timeout=120, cwd=tests.dir,
@@ -226,14 +226,14 @@ def memory(tests):
                     s.exitstatus == 1 and "memory" in said, "%s %s" % (s.exitstatus, said))
 
 
-# ---- signals at odd moments ---------------------------------------------------------------------
+# ---- signals at unusual moments -----------------------------------------------------------------
 
 def side_of(s):
     return os.open(os.readlink("/proc/%d/fd/0" % s.child.pid), os.O_RDWR | os.O_NOCTTY)
 
 
 def held_back(s):
-    """Ends a line while the terminal shows nothing: the line is read, and cannot be left."""
+    """Ends a line while output to the terminal is stopped: readline has read the line but cannot return it."""
     side = side_of(s)
     termios.tcflow(side, termios.TCOOFF)
     os.write(s.child.child_fd, b"\r")
@@ -250,7 +250,7 @@ def let_go(side):
 
 
 def moments(tests):
-    """Behind the last key of a line, and where whoever stopped the program has changed the terminal."""
+    """Signals after the last key of a line, and a terminal whose modes were changed while the program was stopped."""
     s = Session(tests, "--quiet")
     s.child.send("x = 4711")
     s.child.expect("4711")
@@ -295,14 +295,14 @@ def moments(tests):
 
 
 def hang_up(s):
-    """The terminal goes; nobody closes its number again."""
+    """Closes the terminal; pexpect must not close the descriptor again."""
     s.child.ptyproc.fileobj.close()
     s.child.ptyproc.closed = s.child.closed = True
     s.child.child_fd = -1
 
 
 def gone(tests):
-    """A terminal that goes away, where that is no end by itself."""
+    """A terminal that disappears while SIGHUP is ignored."""
     for name, line, shows in (("at the prompt", "", None), ("in a lesson", "demo pressing\r", "q: leave")):
         done = os.path.join(tests.dir, "gone " + name)
         s = Session(tests, "--quiet", before=("/bin/sh", "-c", 'trap "" HUP; "$@"; echo $? > "%s"' % done, "sh"))
@@ -323,7 +323,7 @@ def pasted(s, text):
 
 
 def pastes(tests):
-    """Transcripts that end in answers; line ends of another system."""
+    """Pasted transcripts that end with answers; line ends of other systems."""
     s = Session(tests, "--quiet")
     pasted(s, "fret> 1 + 1\n1 + 1 = 2")
     s.child.expect(r"pasted: 1 line without a prompt taken for answers")
@@ -349,7 +349,7 @@ def pastes(tests):
 
 
 def histories(tests):
-    """A full disk, a file of two names, and no place at all."""
+    """The history on a full disk, with two links, and with no place to keep it."""
     state, path = history_of(tests, "full", "1 + 1\n" * 20)
     s = Session(tests, "--quiet", XDG_STATE_HOME=state)
     before = resource.prlimit(s.child.pid, resource.RLIMIT_FSIZE, (120, resource.RLIM_INFINITY))
@@ -379,7 +379,7 @@ def histories(tests):
 
 
 def colors(tests):
-    """NO_COLOR, where it says something; and an empty one, which says nothing."""
+    """NO_COLOR turns colours off, unless it is empty."""
     for value, colored in (("1", False), ("", True)):
         s = Session(tests, "--quiet", NO_COLOR=value)
         s.child.sendline("foo")
@@ -389,7 +389,7 @@ def colors(tests):
 
 
 def elsewhere(tests):
-    """Keys from a terminal, answers to a file: no screen, no pager, no questions; and terminals of no size."""
+    """Keys from a terminal and output to a file: no full-screen mode, no pager, no questions; and terminals of size 0."""
     for name, lines, wanted in (("a lesson", "demo pressing\n", "The paper: "), ("a transcript", "record there.txt\n1 + 1\nrecord off\n", "1 + 1 = 2")):
         path = os.path.join(tests.dir, "out")
         s = pexpect.spawn("/bin/sh", ["-c", '"$FRET" --no-rc --quiet > out'], encoding="utf-8", timeout=120, cwd=tests.dir,
@@ -422,7 +422,7 @@ def elsewhere(tests):
 # ---- lessons ------------------------------------------------------------------------------------
 
 def lessons(tests):
-    """By keys to the end, back over what had been done, and all the ways to leave; without keys in JSON."""
+    """Lessons: by keys to the end, back over statements, every way to leave; in JSON, without keys."""
     s = Session(tests, "--quiet", "--color=never")
     text, keys = "", 0
     s.child.sendline("demo pressing")
@@ -431,7 +431,7 @@ def lessons(tests):
         text += more
         s.child.send(" ")
         keys += 1
-        if keys == 2:  # two steps back, over statements
+        if keys == 2:  # two steps back, past statements
             for _ in range(2):
                 text += to_key(s)[1]
                 s.child.send("B")
@@ -471,7 +471,7 @@ def lessons(tests):
 # ---- progress -----------------------------------------------------------------------------------
 
 def wiped(tests):
-    """What tells how far a statement is goes from the screen with it, though the statement itself says nothing."""
+    """The progress line is wiped at the end of a statement, also of one that prints nothing."""
     live = Live(tests, command=[tests.fret, "--no-rc", "--quiet"])
     live.wait("fret>")
     live.child.send(SCENE + "; press FN=100 N; set report off\r")
@@ -489,12 +489,12 @@ def wiped(tests):
 
 
 def thought(tests):
-    """The time that a reader takes over a lesson is no work: nothing tells of it, and nothing is written behind it."""
+    """While a lesson waits for the reader no progress line is shown, and none is left behind."""
     live = Live(tests, command=[tests.fret, "--no-rc", "--quiet", "--color=never"])
     live.wait("fret>")
     live.child.send("demo sliding\r")
     live.wait("q: leave")
-    time.sleep(0.7)  # longer than progress waits
+    time.sleep(0.7)  # longer than it takes until progress is shown
     live.key(" ", "slide\n")
     told = "error: Fx = 50 N exceeds mu*FN = 40 N: gross slip; step by displacement (dx=...) to slide"
     tests.check("a lesson that was thought about", "Ctrl-C stops it" not in live.raw and told in live.screen.text().replace("\n", "") and

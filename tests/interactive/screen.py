@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A terminal to look at: what a program wrote, as rows of characters. Knows what curses sends to an xterm or a vt100."""
+"""A terminal emulator for tests: keeps the output of a program as rows of characters. Knows what curses sends to an xterm or a vt100."""
 import re
 
 CSI = re.compile(r"\x1b\[([?>]?)([0-9;]*)([@A-Za-z`])")
@@ -9,9 +9,9 @@ class Screen:
     def __init__(self, rows, cols):
         self.resize(rows, cols)
         self.pending = self.modes_text = ""
-        self.cleared = 0  # times
+        self.cleared = 0  # how often
         self.modes = {}
-        self.main = None  # the screen that waits, and its cursor
+        self.main = None  # the main screen while the alternate one is shown, and its cursor
 
     def resize(self, rows, cols):
         self.rows, self.cols = rows, cols
@@ -47,7 +47,7 @@ class Screen:
             elif re.match(r"\x1b[78=>MDEHc]", text[i:]):
                 self.escape(text[i + 1])
                 i += 2
-            elif re.match(r"\x1b\[[0-9;?]*\x1b", text[i:]):  # cut off by Ctrl-C
+            elif re.match(r"\x1b\[[0-9;?]*\x1b", text[i:]):  # a sequence that Ctrl-C cut off
                 i = text.index("\x1b", i + 1)
             elif len(text) - i < 24:
                 self.pending = text[i:]
@@ -78,7 +78,7 @@ class Screen:
             self.y += 1
 
     def scroll(self, top, by):
-        """The region from top on: up by so many rows, or down."""
+        """Scrolls the region from row `top` on up by `by` rows, or down."""
         for _ in range(abs(by)):
             blank = [" "] * self.cols
             if by > 0:
@@ -153,7 +153,7 @@ class Screen:
             raise ValueError("an unknown control: %s%s" % (numbers, c))
 
     def other_screen(self, there):
-        """Over to the other screen, which is empty, and back."""
+        """Switches to the alternate screen, which is empty, or back."""
         if there:
             self.main = self.cells, self.y, self.x
             self.cells = [[" "] * self.cols for _ in range(self.rows)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An oscillator on a contact by harmonic balance, from an exported table, and by time integration, in C and in Python, as
-scripts/oscillator.c tells to do it."""
+"""The example of scripts/oscillator.c and its Python twin: an oscillator on a contact by harmonic balance, with an exported
+table, and by time integration; the two must agree."""
 import os
 import re
 import subprocess
@@ -29,7 +29,7 @@ def run(tests):
     by_c = subprocess.run(["./oscillator", "harmonic.csv"], cwd=tests.dir, capture_output=True, text=True, check=False)
     response = rows(by_c.stdout)
     off = [abs(row[3]) for row in response]
-    # up to 1 % where the contact begins to slide, short of the resonance; 0.3 % beyond it
+    # within 1 % below the resonance, where the contact begins to slide; within 0.3 % above it
     tests.check("by time and by one harmonic", len(response) == 28 and max(off) < 0.011 and max(off[1::2]) < 0.003, by_c.stdout + by_c.stderr)
     tests.check("what slips less bends less", off[1::2] == sorted(off[1::2]) and off[1] < 0.0002, by_c.stdout)
     lost = subprocess.run(["./oscillator", "none.csv"], cwd=tests.dir, capture_output=True, text=True, check=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is installed, read and removed again; package names of other systems."""
+"""Tests make install and uninstall, the manual, bash completion, the Debian packages, and scripts/install-deps."""
 import os
 import re
 import shutil
@@ -53,7 +53,7 @@ def installed(tests):
 
 
 def completes(tests, path):
-    """What bash would offer; it parts words at =."""
+    """What bash completion offers; bash splits words at `=`."""
     if not shutil.which("bash"):
         return
     for words, line, want in (("fret --form", "fret --form", "--format=text --format=csv --format=json"),
@@ -67,7 +67,7 @@ def completes(tests, path):
 
 
 def example(tests, where, flags, env=None):
-    """That of fret.h, as an embedder would build it, says what the program says."""
+    """Builds the example of fret.h with the installed library; it must print the program's values."""
     with open(os.path.join(harness.ROOT, "include/fret/fret.h"), encoding="utf-8") as f:
         lines = f.read().splitlines()
     first = next(i for i, line in enumerate(lines) if "#include <fret/fret.h>" in line)
@@ -105,7 +105,7 @@ def elsewhere(tests):
 
 
 def numbered(tests):
-    """The module for Python has the library's version, and loads that one."""
+    """The Python module has the library's version, and loads the library of that version."""
     version = tests.run("--version").stdout.split()[1]
     for path, words in (("pyproject.toml", 'version = "%s"' % version), ("fret/_library.py", '"libfret.so.%s"' % version.split(".")[0])):
         with open(os.path.join(harness.ROOT, "scripts/python", path), encoding="utf-8") as f:
@@ -113,7 +113,7 @@ def numbered(tests):
 
 
 def debian(tests):
-    """The package is built with all that the program links, and nobody is made up as its maintainer."""
+    """The Debian package build-depends on every library that the program links; its maintainer is taken from the environment."""
     with open(os.path.join(harness.ROOT, "scripts/debian/control.in"), encoding="utf-8") as f:
         control = f.read()
     tests.check("what the Debian package is built with", all(name in control for name in (
@@ -122,7 +122,7 @@ def debian(tests):
 
 
 def begins(tests):
-    """`make run` ends with what to type next."""
+    """`make run` ends by saying what to type next."""
     done = subprocess.run(["make", "--no-print-directory", "-n", "B=" + tests.build, "run"], cwd=harness.ROOT,
                           capture_output=True, text=True)
     tests.check("the last words of make run", re.search(r"Now type +%s/fret .*help +there; Ctrl-D leaves" % tests.build,
@@ -130,6 +130,6 @@ def begins(tests):
 
 
 def run(tests):
-    """What is installed is the plain build."""
+    """Installs the normal build."""
     for room in (installed, embedded, elsewhere, numbered, debian, begins):
         room(tests)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The same answers from every build: compilers, optimization, instruction sets and C libraries. What is shown is the same to the
-character; of all digits some units in the last place may differ, as libm does."""
+"""Every build gives the same answers: compilers, optimization levels, instruction sets and C libraries. Printed text is equal; with
+all digits, numbers may differ by some units in the last place, since libm differs."""
 import collections
 import glob
 import os
@@ -28,7 +28,7 @@ def has_fma():
 
 
 def variants():
-    """{name: arguments of make}, of what this machine can build and run."""
+    """{name: arguments of make} of the builds that this machine can make and run."""
     found = {}
     if shutil.which("gcc") and has_fma():
         found["gcc-O3-fma"] = ["CC=gcc", "OPT=-O3 -march=x86-64-v3"]
@@ -48,24 +48,24 @@ def build(name, args):
 
 
 def backwards(statement):
-    """Does it take GSL, which musl has none of and other machines have others of?"""
+    """Does the statement need GSL? It is not built with musl, and its version differs between machines."""
     return re.search(r"\b(solve|maximize|minimize|fit|uncertainty)\b", statement)
 
 
-# Wear goes in blocks of cycles as wide as a tolerance of 1e-3 lets them be: the last bits of another libm may decide whether one
-# is taken or halved.
+# Wear advances in blocks of cycles, as long as a tolerance of 1e-3 allows: the last bits of libm may decide whether a block is
+# accepted or halved.
 TOLERANT = {("musl", "wearing.txt"): 1e-4}
 
 
 def sessions():
-    """{name: (format, script, files, session)}: the statements of each session, in text and with all digits, and the files
-    that it shows; and the hard scenes."""
+    """{name: (format, script, files, session)}: the statements of each session, as text and with all digits, and the files that it
+    reads; and the hard scenes (scenes.py)."""
     found = {}
     for path in sorted(glob.glob(os.path.join(harness.ROOT, "tests/sessions/*.txt"))):
         with open(path, encoding="utf-8") as f:
             files, _, session = transcripts.parts(f.read().splitlines())
         steps = [s for s, _ in harness.read_transcript("\n".join(session)) if not harness.draws(s) and not backwards(s)]
-        if not steps:  # calls of the library alone
+        if not steps:  # a session with calls of the library only
             continue
         name, script = os.path.basename(path), "\n".join(steps) + "\n"
         for form, to in (("text", script), ("json", re.sub(r"\bset (format|digits) \w+", "set format json", script))):
@@ -75,13 +75,13 @@ def sessions():
 
 
 def ordinal(x):
-    """Doubles in their order, counted from 0: differences are ulps."""
+    """The rank of a double among all doubles: differences are units in the last place."""
     bits = struct.unpack("<q", struct.pack("<d", float(x)))[0]
     return bits if bits >= 0 else -(bits & 0x7fffffffffffffff)
 
 
 def describe(want, got):
-    """How many numbers differ, of which quantities, and by how much at most."""
+    """Says how many numbers differ, of which quantities, and by how much at most."""
     lines, worst, total = [], collections.Counter(), 0
     want, got = want.splitlines(), got.splitlines()
     if len(want) != len(got):
@@ -107,7 +107,8 @@ def describe(want, got):
 
 
 def alike(form, want, got, tolerance):
-    """Of differences (Fx) as much of what they are differences of; of local fields, near an edge, what `help exactness` promises."""
+    """Do the numbers agree? Differences such as Fx relative to the larger numbers they come from; local fields near an edge to what
+    `help exactness` promises."""
     if want == got or (form == "text" and not tolerance) or NUMBER.sub("#", want) != NUMBER.sub("#", got):
         return want == got
     for w, g in zip(want.splitlines(), got.splitlines()):
@@ -120,7 +121,7 @@ def alike(form, want, got, tolerance):
 
 
 def answers(tests, form, script, files, env):
-    """In a directory of its own, with the files that it reads: those that it writes are new each time."""
+    """Runs a script in a directory of its own, with the files that it reads; so the files that it writes are always new."""
     with tempfile.TemporaryDirectory(dir=tests.dir) as cwd:
         transcripts.write(cwd, files)
         done = tests.run("--format=" + form, "--keep-going", input=script, env=env, timeout=300, cwd=cwd)
@@ -128,7 +129,7 @@ def answers(tests, form, script, files, env):
 
 
 def plain_prompt(tests):
-    """Where readline is left out."""
+    """Tests the prompt of a build with READLINE=no."""
     s = prompt.Session(tests)
     tests.check("plain prompt: an answer", s.say("1 + 1") == "1 + 1 = 2")
     s.child.sendline("1 + \\")
@@ -144,7 +145,7 @@ def plain_prompt(tests):
 
 
 def without_library(tests):
-    """Where GSL is left out, what needs it says so."""
+    """With GSL=no, statements that need GSL say so."""
     transcripts.write(tests.dir, {"gap.csv": scenes.gap_table()})
     for statement, name in (("maximize x*(1-x) over x = 0 .. 1", "maximize"), ("geometry file gap.csv smooth", "smooth")):
         done = tests.run("-c", statement, cwd=tests.dir)
@@ -155,14 +156,14 @@ def without_library(tests):
 
 
 def without_screen(tests):
-    """Where the full-screen mode is left out, it says so."""
+    """With LIVE=no, `live` says so."""
     done = tests.run("-c", "live\n1 + 1")
     tests.check("without the full-screen mode", done.returncode == 1 and not done.stdout and
                 "built without the full-screen mode (LIVE=no)" in done.stderr, tests.report(done))
 
 
 def threads(tests):
-    """What threads share is only read: ThreadSanitizer sees each touch of the library."""
+    """Threads share only data that they read: the thread test, with ThreadSanitizer on all of the library."""
     program = os.path.join(harness.ROOT, "build/portable/threads")
     os.makedirs(os.path.dirname(program), exist_ok=True)
     sources = [path for name in ("number", "law", "history", "field", "arrays")
@@ -185,7 +186,7 @@ def run(tests):
             builds[name] = harness.Tests(where, name, False)
     tests.check("variants to compare", builds, "gcc, clang and musl-gcc are all missing")
     programs = {"this build": (tests, {}), **{name: (b, {}) for name, b in builds.items()},
-                # the mathematical library chooses its functions by the processor
+                # libm chooses its functions by the processor
                 "this build, no FMA": (tests, {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2"})}
     try:
         said, scripts = {}, sessions()
@@ -193,7 +194,7 @@ def run(tests):
         def ask(variant, script):
             program, env = programs[variant]
             said[variant, script] = answers(program, *scripts[script][:3], env)
-        # what digits look like is the C library's
+        # how numbers are printed is up to the C library
         asked = {s: [v for v in programs if scripts[s][0] == "json" or v in ("this build", "musl")] for s in scripts}
         tests.each([lambda v=v, s=s: ask(v, s) for s in reversed(scripts) for v in asked[s]])
         numbers = 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The module `fret` for Python: what its documentation shows, beside the program, and its examples."""
+"""The Python module `fret`: the examples of its documentation, which must agree with the program, and its example scripts."""
 import functools
 import os
 import shutil
@@ -118,14 +118,14 @@ print("told")
 
 
 def python_of(tests):
-    """Runs a Python that has numpy, with the module; None: there is none, which is told."""
+    """A function that runs a Python with numpy and the module; None if there is no such Python, which is reported."""
     env = dict(tests.env, PYTHONPATH=MODULE, FRET_LIBRARY=os.path.join(harness.ROOT, tests.build, "libfret.so"),
                FRET_PROGRAM=os.path.join(harness.ROOT, tests.fret))
 
     def python(*args, program=sys.executable):
         return subprocess.run([program, *args], capture_output=True, text=True, env=env, cwd=tests.dir, timeout=120)
 
-    # that of the system has the packages of the system, where another one is found first
+    # if another Python is first in PATH, only the system's has the system's packages
     knows = [program for program in (sys.executable, "/usr/bin/python3")
              if shutil.which(program) and not python("-c", "import numpy", program=program).returncode]
     if not knows:
@@ -189,7 +189,7 @@ int main(void) {
 
 
 def cost(tests, python):
-    """A call for a million loads takes 1.2 times as long as in C, at most."""
+    """A call with an array of a million loads takes at most 1.2 times as long as in C."""
     with open(os.path.join(tests.dir, "loads.c"), "w", encoding="ascii") as f:
         f.write(LOADS_C)
     made = subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O2", "-I" + os.path.join(harness.ROOT, "include"), "loads.c",
@@ -197,17 +197,17 @@ def cost(tests, python):
                           cwd=tests.dir, capture_output=True, text=True, check=False)
     tests.check("the same in C compiles", made.returncode == 0, made.stderr)
     ratios = []
-    while not ratios or (min(ratios) > 1.2 and len(ratios) < 5):  # others are at work on this machine
+    while not ratios or (min(ratios) > 1.2 and len(ratios) < 5):  # other work on this machine may disturb a measurement
         by_c = subprocess.run(["./loads"], cwd=tests.dir, capture_output=True, text=True, check=False)
         ratios.append(float(python("-c", LOADS).stdout) / float(by_c.stdout))
     tests.check("a million loads", min(ratios) <= 1.2, str(ratios))
 
 
 def installed(tests, python):
-    """In a virtual environment of its own, by pip, without a compiler."""
+    """Installs the module by pip into a virtual environment; it needs no compiler."""
     program, home = python.keywords["program"], os.path.join(tests.dir, "v")
     shutil.copytree(MODULE, os.path.join(tests.dir, "module"), ignore=shutil.ignore_patterns("__pycache__"))
-    made = python("-m", "venv", "--system-site-packages", home)  # that has numpy
+    made = python("-m", "venv", "--system-site-packages", home)  # for numpy
     if made.returncode or python("-c", "import setuptools").returncode:
         print("left out: installing the module for Python needs venv and setuptools for %s" % program)
         return

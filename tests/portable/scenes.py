@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes that are hard on the last digit: every gap, gradings up to the ends of the range, loads next to gross slip,
-thin slices, fields next to the edge. What a scene cannot have is an error, and the script goes on."""
+"""Scenes whose last digits are hard to get: every gap, gradings up to the ends of the range, loads close to gross slip,
+thin slices, fields close to the edge. A scene that is not allowed is an error, and the script goes on."""
 import math
 import random
 
 GRADINGS = (0.3, -0.9, 0, 0.97, -0.4, 0.75, 1e-9, -0.999)
-# form, range of its number, how many gradings: the quadratures are slow
+# statement, range of its number, number of gradings (few where quadratures are slow)
 GAPS = (("sphere R=%r mm", 0.3, 50, 8), ("cone slope=%r", 0.001, 0.2, 8), ("power n=%r A=30 m^-1.5", 2.5, 2.5, 8),
         ("power n=%r h=1 um r0=1 mm", 0.3, 12, 8), ("sum 2:%r m^-1, 4:2e6 m^-3, 1.5:3 m^-0.5", 1, 100, 4),
         ("flat-cone b=%r mm slope=0.05", 0.01, 2, 2), ("flat-paraboloid b=%r mm R=10 mm", 0.01, 2, 2),
@@ -18,7 +18,7 @@ FIELDS = ("p(%s)", "qx(%s)", "uz(%s)", "ux(%s)")
 
 
 def gap_table():
-    """A sampled gap between a sphere's and a cone's."""
+    """A table of a gap between that of a sphere and that of a cone."""
     rows = ["%r,%r" % (i / 10, 0.05 * (i / 10) ** 2 * 1e3 / (1 + i / 40)) for i in range(31)]
     return "r [mm],f [um]\n" + "\n".join(rows) + "\n"
 
@@ -30,12 +30,12 @@ def history_table():
 
 
 def digits(rng, lo, hi):
-    """Spread evenly over the decades; short, so that the script reads well."""
+    """A random number, uniform in its logarithm, with few digits, so that the script is easy to read."""
     return float("%.4g" % (lo * (hi / lo) ** rng.random()))
 
 
 def scene(rng, gap, k, quick):
-    """One load program, with what can be asked of it on the way."""
+    """The statements of one scene: a load program with questions between its steps."""
     lines = ["reset all", "material E0=%r GPa nu=%r k=%r c0=%r mm" %
              (digits(rng, 1, 400), digits(rng, 0.05, 0.45), k, digits(rng, 0.05, 20)),
              "second " + rng.choice(SECONDS), "geometry " + gap, "friction %r" % digits(rng, 0.05, 1),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program against tables that independent code has made: springs of the one-dimensional model, points of the
-paper's figures, losses under swinging normal forces. (The other tables are read by tests/unit and the room numbers.)"""
+"""Compares the program with tables made by independent code (scripts/reference): springs of the one-dimensional model, points
+of the paper's figures, losses under swinging normal forces. Other tables are read by tests/unit and the room numbers."""
 import csv
 import os
 import re
@@ -10,7 +10,7 @@ import harness
 FIGURE = ("material E0=210 GPa nu=0.3; geometry %s; friction 0.4; press FN=100 N\n"
           "k = %s, c0 := %s*a0\nset format json\n")
 CONE, PARABOLOID = "cone slope=0.05", "paraboloid R=10 mm"
-# What a panel holds: its shape, and what stands for x and y.
+# What the figures show: (shape, (expression of x, expression of y)).
 LOSS = (None, "dW(%s*mu*FN)*E0*a0/(mu*FN)^2")
 FIRST = ("dx(%s*mu*FN)/dx0max", None)
 LOOP = ("dx/dx0max", "Fx/(mu*FN)")
@@ -22,7 +22,7 @@ PANELS = {"4": (CONE, FIRST), "5a": (CONE, FIRST), "5b": (CONE, FIRST), "6a": (C
           "10d": (PARABOLOID, LOSS), "11": (PARABOLOID, ("s1D(0.8*a)", "qx1D(0.8*a)")), "12": (PARABOLOID, LOSS),
           "13": (PARABOLOID, ("E(%s*c0)/E0", None))}
 EXACT = 1e-12
-SINE = 1e-9  # what the limit of chords promises
+SINE = 1e-9  # accuracy that is promised for the limit of infinitely many chords
 
 
 def rows_of(name):
@@ -38,7 +38,7 @@ def grouped(rows, *keys):
 
 
 def compared(tests, name, want, got, tolerance, scales=None):
-    """Each number within a part of itself, or of its scale."""
+    """Checks each number to within `tolerance` of the larger of itself and its scale."""
     if not tests.check(name + ": all have a value", len(want) == len(got) and None not in got,
                        "%d of %d: %s" % (len(got), len(want), got[:5])):
         return
@@ -49,7 +49,7 @@ def compared(tests, name, want, got, tolerance, scales=None):
 
 
 def line(tests):
-    """Springs: displacements on the scale of the largest that there is, loads on that of the softest bound."""
+    """Springs of the 1D model: displacements relative to the largest one, line loads to that of the softest bound."""
     for (setup,), rows in grouped(rows_of("line.csv"), "setup").items():
         names = ("w1D", "u1D", "s1D", "qz1D", "qx1D", "cN", "cT")
         asked = [", ".join("%s(%s*a)" % (name, row["x/a"]) for name in names) for row in rows] + ["dz, dx"]
@@ -86,7 +86,7 @@ def figure(tests, panel, k, ratio, rows):
 
 
 def swinging(tests, i, row):
-    """Within 1e-9; where the contact is nearly lost, W within what `explain` states, which takes a while to ask."""
+    """Losses within 1e-9; W, where the contact is nearly lost, within the error that `explain` states, which takes a while."""
     name = "%s; %s" % (row["setup"], row["cycle"])
     asks = i == 0 or "FNA=85 N" in name or "FNA=75 N" in name
     done = tests.run("-c", "%s\n%s\n%sset format json\nW, dW" % (row["setup"], row["cycle"], "explain dW;" * asks))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of `accuracy`: orders of convergence, what is exact, the advice; never a time. The conditioning that
-`explain` shows, against differences over larger changes."""
+"""Tests `accuracy`: orders of convergence, which models are exact, the advice (times are not checked); and the conditioning of
+`explain`, against difference quotients with larger steps."""
 import csv
 import io
 import json
@@ -16,10 +16,10 @@ SPHERE, CONE = "sphere R=10 mm", "cone slope=0.01"
 
 
 def measured(tests, script, command="accuracy within 0.3"):
-    """The rows by model, as {parameter: row}, and the last object."""
+    """Runs `accuracy`: {model: {parameter: row}}, and the last object."""
     done = tests.run("-c", script + "\nset format json\n" + command)
     lines = harness.told(done.stdout)
-    wide = "warning: a/R = 0.7: beyond 0.3 the bodies are no half-spaces"  # a scene of the tests is, on purpose
+    wide = "warning: a/R = 0.7: beyond 0.3 the bodies are no half-spaces"  # one scene is too wide on purpose
     told = [line for line in done.stderr.splitlines() if not line.startswith(wide)]
     if not tests.check("%s; %s" % (script, command), len(lines) > 1 and not told and done.returncode == 0,
                        tests.report(done)):
@@ -31,7 +31,7 @@ def measured(tests, script, command="accuracy within 0.3"):
 
 
 def order(rows):
-    """Over all sizes: single errors scatter with the place of the slip front within its cell."""
+    """The order of convergence over all sizes; single errors scatter with the place of the slip front within its cell."""
     sizes = sorted(size for size in rows if rows[size]["error"] > 1e-10)
     if len(sizes) < 2:
         return float("nan")
@@ -39,11 +39,11 @@ def order(rows):
 
 
 def stepped_area(k, n, t, M):
-    """(21) over (27): the loop at F = FA cos(pi i/M), by trapezoids, from (17) and (18)."""
+    """The ratio of (21) to (27): the area of the loop from (17) and (18), sampled at F = FA cos(pi i/M), by the trapezoidal rule."""
     q = n / (n + k + 1)
     first = [1 - (1 - t * (1 - math.cos(math.pi * i / M)) / 2) ** q for i in range(M + 1)]
     F = [t * math.cos(math.pi * i / M) for i in range(M + 1)]
-    down = [first[M] - 2 * x for x in first]  # of the amplitude's own dx, over dxmax
+    down = [first[M] - 2 * x for x in first]  # dx over dxmax
     area = sum((a - b) * (f + g) / 2 for a, b, f, g in zip(down, down[1:], F, F[1:])) * -2
     bracket = 1 - (1 - t) ** (1 + q) - (1 + q) / 2 * t * (1 + (1 - t) ** q)
     return area / (8 / (1 + q) * bracket)
@@ -92,16 +92,16 @@ def loads(tests):
                        ("press FN=40 N; step FN=100 N Fx=11 N", "FA = 11 N at FN = 100 N")):
         rows, last = measured(tests, scene + load)
         tests.check("accuracy after %s" % load, rows and last["load"].startswith(says), str(last))
-    # gross slip: by force at the limit, by displacement beyond it
+    # gross slip: by a force at the limit, by a displacement beyond it
     for load in ("FA=30 N", "dxA=5 um"):
         rows, last = measured(tests, GRADED % (-0.3, SPHERE), "accuracy %s within 0.1" % load)
         tests.check("accuracy " + load, rows and rows["closed form"][0]["error"] <= 2e-16 and
                     rows["memory diagram"][0]["error"] <= 2e-16, str(rows))
-    # all of it slides: no part is left for the reference to be uncertain about
+    # all of the contact slides: the reference is exact
     rows, last = measured(tests, "material steel; geometry flat-paraboloid b=1 mm R=10 mm; friction 0.3; "
                           "press FN=1e-30 N; cycle dxA=1 nm", "accuracy within 0.01")
     tests.check("accuracy, all slides", rows and last["agreement"] > 0, str(last))
-    # the same number as dW, and nothing has moved
+    # the same number as dW: there is no error
     done = tests.run("-c", scene + "cycle FA=20 N\nset format json\nW\ndW\naccuracy within 0.1\nW\ndW")
     lines = harness.told(done.stdout)
     tests.check("accuracy takes the last cycle", len(lines) > 10 and
@@ -112,7 +112,7 @@ def loads(tests):
 
 
 def other_models(tests):
-    """Where no closed form holds."""
+    """Scenes without a closed form."""
     rows, last = measured(tests, GRADED % (0.3, SPHERE) + "cycle FA=12 N FNA=20 N phase=90 deg times 2 steps 40",
                           "accuracy within 1")
     tests.check("accuracy, FN swings", rows and set(rows) == {"memory diagram", "loop area (21)", "springs"} and
@@ -148,7 +148,7 @@ def other_models(tests):
 
 
 def advice(tests):
-    """The first springs that err by a millionth at most, and their time beside that of auto's choice."""
+    """The advice names the fewest springs with an error of at most 1e-6, and their time as a multiple of auto's choice."""
     for shape, load in ((SPHERE, "FA=28 N"), (SPHERE, "FA=18 N"), (SPHERE, "FA=12 N"), ("flat-rounded b=0.2 mm R=10 mm", "FA=10 N")):
         rows, last = measured(tests, GRADED % (0.3, shape), "accuracy %s within 0.3" % load)
         springs = rows.get("springs", {})
@@ -162,7 +162,7 @@ def advice(tests):
 
 
 def narrow_gaps(tests):
-    """Springs with midpoint weights need a wider contact where k < 0, which not every gap has."""
+    """For k < 0 springs with midpoint weights need a wider contact, which not every gap has."""
     where = os.path.join(tests.dir, "gap.csv")
     with open(where, "w", encoding="ascii") as f:
         f.write("r [mm],f [um]\n" + "".join("%g,%g\n" % (r / 50, r * r / 50) for r in range(51)))
@@ -175,7 +175,7 @@ def narrow_gaps(tests):
 
 
 def at_the_ends(tests):
-    """Of a table, whose force is no double; of time; and where nothing slips, or nothing is left of the double."""
+    """A table pressed to its last row, more time, losses below the range of double, and a load that does not slip."""
     where = os.path.join(tests.dir, "end.csv")
     for n in (6, 8, 10):
         with open(where, "w", encoding="ascii") as f:
@@ -230,7 +230,7 @@ def pictures(tests):
     tests.check("a.svg", "of all models" in text and "memory diagram" in text and "relative error" in text, text[:500])
 
 
-# Scenes and what they are made of; the last entry is the load.
+# Scenes as lists of statements; the last one is the load.
 CONDITIONED = (
     ("material E0=%(E0)s Pa nu=%(nu)s k=%(k)s c0=%(c0)s m; geometry sphere R=%(R)s m; friction %(mu)s; "
      "press FN=%(FN)s N; step Fx=%(Fx)s N", ("a", "c", "kt"),
@@ -238,7 +238,7 @@ CONDITIONED = (
     ("material E0=%(E0)s Pa nu=%(nu)s k=%(k)s c0=%(c0)s m; geometry sphere R=%(R)s m; friction %(mu)s; "
      "press FN=%(FN)s N; cycle FA=%(FA)s N", ("dW", "W"),
      {"E0": 210e9, "nu": 0.3, "k": 0.5, "c0": 1e-3, "mu": 0.3, "FN": 100, "R": 1e-2, "FA": 25}),
-    # the radius and the force pass through a double on their way
+    # here the radius and the force are rounded to double
     ("material E0=%(E0)s Pa nu=%(nu)s k=%(k)s c0=%(c0)s m; second E0=%(E0_2)s Pa nu=%(nu_2)s; "
      "geometry power n=%(n)s h=%(h)s m r0=%(r0)s m; friction %(mu)s; press a=%(a)s m; cycle dxA=%(dxA)s m",
      ("a0", "dx0max", "Fx", "c", "U"),
@@ -249,7 +249,7 @@ CONDITIONED = (
      {"E0": 210e9, "nu": 0.3, "mu": 0.3, "FN": 100, "R": 1e-2, "FNA": 20, "FA": 10}),
     ("material E0=%(E0)s Pa nu=%(nu)s; geometry flat-rounded b=%(b)s m R=%(R)s m; friction %(mu)s; press dz=%(dz)s m",
      ("FN", "kn"), {"E0": 210e9, "nu": 0.3, "mu": 0.3, "b": 2e-4, "R": 1e-2, "dz": 1e-6}),
-    # names of one's own, one of them through an input, and steps of every kind
+    # the user's own names, one of them bound to an input, and steps of every kind
     ("z = %(z)s; y = %(y)s m; material E0=%(E0)s Pa nu=%(nu)s; geometry sphere R=%(R)s m; mu := z; "
      "press FN=%(FN)s N; step FN=%(step FN)s N Fx=%(Fx)s N", ("dx", "W", "qx(y)"),
      {"E0": 210e9, "nu": 0.3, "R": 1e-2, "FN": 100, "step FN": 80, "Fx": 10, "z": 0.4, "y": 1e-4}),
@@ -269,8 +269,8 @@ CONDITIONED = (
 
 
 def conditioned(tests, scene, quantities, start):
-    """A relative change of 1e-6 of one input at a time; the printed number has two digits. What has no effect and what
-    is below 0.01 comes out as such."""
+    """Compares each condition number (two digits) with the effect of a relative change of 1e-6. Causes without effect, and with
+    condition numbers below 0.01, must be listed as that."""
     def script(values):
         return scene % {name: "%.17g" % value for name, value in values.items()}
 
@@ -299,7 +299,7 @@ def conditioned(tests, scene, quantities, start):
 
 
 def causes(tests):
-    """What is listed as a cause: no name that is 0, unknown or a definition, no step that ends at 0, and some names of many."""
+    """Which causes are listed: not names that are 0, unknown or definitions, nor steps that end at 0; of many names only some."""
     scene = GRADED % (0.3, SPHERE)
     for script, there, absent in (
             (scene + "x = 0; y = 2; z := 3; table a(u) for u = 1 N .. 2 N; explain a*y + x*(1 m) + z*a", ("y",), ("x", "z", "u")),
@@ -316,7 +316,7 @@ def causes(tests):
 
 
 def slow_causes(tests):
-    """What takes too long is left out, and named."""
+    """Causes that would take too long are left out, and named."""
     done = tests.run("-c", GRADED % (0, SPHERE) + "cycle FA=15 N FNA=20 N phase=60 deg times 300; set model springs 3000; explain dW conditioning")
     found = re.findall(r"^    (\w+) \+?= \S+(?: [^ \n]+)? {2,}\S", done.stdout, re.M)
     left = re.findall(r"^    left out after 3 seconds: (.*)$", done.stdout, re.M)
@@ -356,7 +356,7 @@ def conditioning(tests):
 
 
 def models(tests):
-    """`set timing on` names what answered."""
+    """`set timing on` names the model that computed the answer."""
     scene = GRADED % (0.3, SPHERE) + "set timing on\n"
     for script, names in (("a", " (closed form)"), ("friction 0.2", " (closed form)"),
                           ("step Fx=10 N; friction 0.2", " (closed form, memory diagram)"), ("step Fx=10 N; W", " (memory diagram)"), ("1+1", ""),
@@ -372,7 +372,7 @@ def models(tests):
 
 
 def curves(tests):
-    """A law prepared for one curve serves the next one of the same contact, and no other."""
+    """A law prepared for one curve is used for the next curve of the same contact, and of no other."""
     where = os.path.join(tests.dir, "rows.csv")
     with open(where, "w", encoding="ascii") as f:
         f.write("r [mm],f [um]\n")

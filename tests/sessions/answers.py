@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every command in JSON: each line is one object of a kind that programs can rely on, and carries what text carries."""
+"""Tests the JSON output of every command: each line is one object, of the documented kind, and has all that the text output has."""
 import json
 import os
 
@@ -10,7 +10,7 @@ HISTORY = "FN [N],Fx [N]\n100,5\n100,10\n"
 LOOP = "dx [um],Fx [N]\n2,30\n1,-30\n-2,-30\n-1,30\n2,30\n"
 TRANSCRIPT = "fret> 1\n1 = 1\n"
 
-# a command, a statement of it, and the kinds of its lines, in their order; *: any number, at least one
+# a command, a statement with it, and the kinds of its lines in order; *: one or more
 STATEMENTS = (
     ("material", "material steel", ""), ("second", "second rigid; second same", "warning"), ("bulk", "bulk stress=50 MPa; bulk none", "warning"), ("wear", "wear alpha=1e4 um^3/J", ""), ("wear", "wear K=1e-4 H=2 GPa; wear cycles 10", "wear"), ("wear", "wear alpha=1e4 um^3/J; wear limit; wear none", "limit"), ("friction", "friction 0.4", ""), ("rig", "rig stiffness=80 N/um", ""),
     ("geometry", "geometry sphere R=10 mm", ""), ("geometry", "geometry file gap.csv smooth; geometry sphere R=10 mm", "smooth note"),
@@ -71,7 +71,7 @@ def matches(kinds, pattern):
 
 
 def rows_fit_columns(rows):
-    """Rows have the columns that the event before them has named."""
+    """Do the rows have the columns that the event before them names?"""
     columns = None
     for row in rows:
         columns = row.get("columns", columns)
@@ -101,9 +101,9 @@ def run(tests):
         for row in rows:
             wanted = FIELDS.get(row.get("event"), set()) if command == row.get("event") else set()
             if command == "explain" and statement != "explain dW":
-                wanted = set()  # an input has no model, and a whole no formula
+                wanted = set()  # an input has no model, an expression no formula
             tests.check(name + ": fields", wanted <= set(row), str(row))
-        # what is said beside the answers is among them, word for word
+        # messages beside the answers are among the objects, word for word
         said = [row[key] for row in rows for key in MESSAGES if next(iter(row)) == key]
         tests.check(name + ": on standard error too", all(text in done.stderr for text in said) and
                     bool(said) == bool(done.stderr), tests.report(done))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""solve, maximize and minimize against answers of 30 digits, damper functions too, and exported models as they run."""
+"""Tests solve, maximize and minimize and the damper functions against reference answers of 30 digits; and runs exported models."""
 import csv
 import json
 import math
@@ -22,7 +22,7 @@ def run_json(tests, script):
 
 
 def questions(tests):
-    """Answers are good to 1e-12, or to what a rounding of the inputs does to them."""
+    """Answers are accurate to 1e-12, or to the effect of rounding the inputs."""
     asked = {}
     for row in table("backwards.csv"):
         asked.setdefault((row["setup"], row["question"]), []).append(row)
@@ -43,7 +43,7 @@ def questions(tests):
 
 
 def edges(tests):
-    """The best lies where the scene ends, and along that edge."""
+    """The optimum lies at the edge of the possible scenes, and along it."""
     setup = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
     for question, want in (
             ("maximize dW(20 N) over FN = 1 N .. 100 N", {"FN": 50}),
@@ -57,38 +57,38 @@ def edges(tests):
         tests.check(question + ": tells the edge", scene == ("dW" in question), tests.report(done))
 
 
-# what is found, and where where there is one such place; of an edge and of a kink to 1e-7 of the range
+# the optimum, and its place if there is only one; at an edge or a kink to 1e-7 of the range
 OPTIMA = (
-    # the best two places of the grid are as good as each other: it lies between them
+    # two neighbouring places of the grid have the same value: the optimum is between them
     ("minimize (x - 7.5)^4 over x = 0 .. 16", 0, {"x": 7.5}), ("minimize abs(x - 7.5) over x = 0 .. 16", 0, {"x": 7.5}),
     ("maximize min(x, 15 - x) over x = 0 .. 16", 7.5, {"x": 7.5}),
     ("minimize sqrt(abs(x - 7.5)) + 3 over x = 0 .. 16", 3, {"x": 7.5}),
     ("minimize (x - 7)^2*(x - 8)^2 over x = 0 .. 16", 0, {}), ("minimize max(0.1, abs(x - 0.5)) over x = 0 .. 1", 0.1, {}),
     ("minimize max(3, abs(x - 7.5)) over x = 0 .. 16", 3, {}),
-    # a kink that lies evenly between no places
+    # a kink that is not in the middle between two places
     ("maximize -abs(x - 1.887186190787368) over x = 0.017359102229627776 .. 3.2916265746644138", 0, {"x": 1.887186190787368}),
     ("minimize abs(x - 0.556692153727782) over x = 0.05874483491451005 .. 2.378731274184922", 0, {"x": 0.556692153727782}),
     ("maximize -abs(4.438321363549356*(x - 1.8665948314259628)) over x = -1.1233740356335473 .. 4.704637117787868", 0, {"x": 1.8665948314259628}),
-    # several places of the grid are better than those beside them
+    # several local optima on the grid
     ("minimize cos(6*x) + 0.05*(x - 1)^2 over x = -3 .. 3", -0.9886835284767844, {"x": 0.5249184603170129}),
     ("minimize cos(60*x) + 0.05*(x - 1)^2 over x = -3 .. 3", -0.9999986675563383, {"x": 0.9948378170307393}),
     ("maximize cos(3*x)*cos(2*y) - 0.05*((x - 0.1)^2 + (y - 0.2)^2) over x = -1.95 .. 1.5, y = -1.5 .. 2.1",
      0.9975542756343451, {"x": 0.001098954794806794, "y": 0.004878150144751366}),
-    # close to an end
+    # an optimum close to an end
     ("minimize x + 1e-17/x over x = 0 .. 1", 2 * math.sqrt(1e-17), {"x": math.sqrt(1e-17)}),
     ("minimize (x - 7e-5)^2 + (y - 0.5)^2 over x = 0 .. 1, y = 0 .. 1", 0, {"x": 7e-5, "y": 0.5}),
-    # a well that only a step from the end meets
+    # a well that only a step from the end of the range finds
     ("minimize x - max(0, 1 - abs(x - 1e-4)*2e5) + (y - 0.5)^2 over x = 0 .. 1, y = 0 .. 1", 1e-4 - 1, {"x": 1e-4, "y": 0.5}),
-    # a valley that is bent, and steep beside it
+    # a bent valley with steep sides
     ("minimize (x + 0.95162134640691609)^2 + 30*(y - 1.9999666292938245 - (x + 0.95162134640691609)^2)^2 + "
      "30*(z - 6.5344410018999959 - (x + 0.95162134640691609)^2)^2 over x = -1 .. -0.9, y = 1 .. 2, z = 0.001 .. 10", 0, {}),
-    # an edge of the scene, and the end of a range on it
+    # the edge of the possible scenes, and the end of a range on it
     ("maximize 10*y + x + 0*sqrt(1.5 - x - y) over x = 0 .. 1, y = 0 .. 1", 10.5, {"x": 0.5, "y": 1}),
     ("maximize 10*x + y + 0*sqrt(1.5 - x - y) over x = 0 .. 1, y = 0 .. 1", 10.5, {"x": 1, "y": 0.5}))
 
 
 def optima(tests):
-    """What is known without a search."""
+    """Optima that are known analytically."""
     for statement, value, place in OPTIMA:
         values, _, done = run_json(tests, statement + "\n")
         got = {v["name"]: v["value"] for v in values}
@@ -116,7 +116,7 @@ def damper(tests):
                 for n in names:
                     worst = max(worst, abs(next(values) / float(row[n]) - 1))
                 worst = max(worst, abs(next(values) - 1))
-                if row["FA"]:  # F_A has been rounded: close to gross slip that tells
+                if row["FA"]:  # the rounding of F_A matters close to gross slip
                     s = 1 - float(row["FA"]) / 40
                     worst = max(worst, abs(next(values) / float(row["loss_factor"]) - 1) - 1e-15 / max(s, 1e-9))
             tests.check("damper: " + setup, worst < 1e-14, "%.2e" % worst)
@@ -125,7 +125,7 @@ def damper(tests):
 
 
 def other_shapes(tests):
-    """Kp short of gross slip against the midpoint rule, which converges fast on a whole period."""
+    """Kp below gross slip against the midpoint rule, which converges fast over a whole period."""
     count = 600
     for shape in ("flat-cone b=0.1 mm slope=0.01", "flat-rounded b=0.1 mm R=10 mm", "exact-sphere R=10 mm",
                   "sum 2:50 m^-1, 4:2e9 m^-3"):
@@ -140,13 +140,13 @@ def other_shapes(tests):
             tests.check("Kp: " + shape, abs(v[-1] / want - 1) < 1e-12, "%r %r" % (v[-1], want))
 
 
-# Gauss's rule of six points
+# six-point Gauss rule
 GAUSS = [(0.5 + side * x / 2, w / 2) for x, w in ((0.2386191860831969, 0.467913934572691), (0.6612093864662645, 0.3607615730481386),
                                                   (0.932469514203152, 0.1713244923791703)) for side in (-1, 1)]
 
 
 def sharp_turns(tests):
-    """Kp at the amplitude of gross slip of laws that turn sharply: short parts towards both ends and the turns."""
+    """Kp at the amplitude of gross slip for laws with sharp bends, by quadrature in parts that get short towards ends and bends."""
     rows = "r [mm],f [um]\n" + "".join("%g,%g\n" % (0.1 * i, 10 * max(0, 0.1 * i - 0.25) ** 1.5) for i in range(11))
     with tests.file(rows, ".csv") as path:
         for k, shape, a in ((0.2, "sum 1:0.01, 20:1e55 m^-19", 1), (-0.8, "flat-cone b=0.5 mm slope=0.01", 1), (-0.5, "file " + path, 0.95)):
@@ -166,7 +166,7 @@ SHAPES = ("geometry sphere R=10 mm", "geometry flat-cone b=0.1 mm slope=0.01", "
 
 
 def run_elements(elements, path):
-    """F_x along a path of displacements, and the work done on the way."""
+    """F_x along a path of displacements, and the work done, of Jenkins elements (spring and slider) in parallel."""
     force, last, work, out = [0.0] * len(elements), 0.0, 0.0, []
     for d in path:
         before = sum(force)
@@ -179,7 +179,7 @@ def run_elements(elements, path):
 
 
 def jenkins(tests):
-    """The stated error is that of the elements as they run, and of order 2."""
+    """The error stated for a Jenkins model is the error of the elements when they are run, and of order 2."""
     for shape in SHAPES:
         setup = "material steel; friction 0.4; %s; press FN=100 N" % shape
         errors = {}
@@ -200,7 +200,7 @@ def jenkins(tests):
                         "%g, stated %g" % (seen, stated))
             tests.check("jenkins: the elements slide at mu FN", abs(sum(s for _, s in elements) - 40) < 1e-9, str(elements))
         tests.check("jenkins: order 2 (%s)" % shape, 3.5 < errors[8] / errors[16] < 4.6, str(errors))
-        # a loop, step by step; the corners of every element are passed on the way
+        # a loop, step by step, with steps at which each element begins to slide
         d = 0.7 * most
         steps = sorted({s / k for k, s in elements} | {2 * s / k for k, s in elements} | {d * i / 200 for i in range(401)})
         up = [x for x in steps if x <= d] + [d]
@@ -214,7 +214,7 @@ def jenkins(tests):
 
 
 def to_an_amplitude(tests):
-    """Up to FA the energy errs as stated, the force by no more than follows from that, and not at all at FA; the last only sticks."""
+    """A model up to FA: the energy has the stated error, the force what follows from it, and none at FA; the last element only sticks."""
     name = os.path.join(tests.dir, "amplitude.csv")
     for shape in SHAPES:
         setup = "material steel; friction 0.4; %s; press FN=100 N" % shape
@@ -243,7 +243,7 @@ def to_an_amplitude(tests):
 
 
 def exported(tests, setup, what, name):
-    """Rows of a file in SI."""
+    """Exports a model; the rows of the file in SI units."""
     done = tests.run("-c", "%s; export %s" % (setup, what))
     tests.check("export %s, %s" % (what, setup), done.returncode == 0, tests.report(done))
     with open(os.path.join(tests.dir, name), encoding="utf-8") as f:
@@ -252,7 +252,7 @@ def exported(tests, setup, what, name):
 
 
 def harmonics(tests):
-    """The table of K' and K'' beside the first harmonic of exported loops, and its own loss."""
+    """The exported table of K' and K'' against the first harmonic of exported loops, and against its own loss."""
     for shape in SHAPES:
         setup = "material steel; friction 0.4; %s; press FN=100 N" % shape
         (most,), _, _ = run_json(tests, setup + "; dxmax\n")
@@ -289,7 +289,7 @@ def harmonics(tests):
 
 
 def tiny(tests):
-    """Loads whose loss is hardly a number; short of that the error is the same part of it, as the loss goes with F^3."""
+    """Loads whose loss is nearly too small for a double; above that the relative error is constant, since the loss goes with F^3."""
     setup = "material steel; friction 0.4; geometry sphere R=10 mm; press FN=100 N; "
     name = os.path.join(tests.dir, "tiny.csv")
     for load in ("1e-3", "1e-6", "1e-8"):
@@ -304,7 +304,7 @@ def tiny(tests):
 
 
 def header(tests):
-    """The C table compiles and adds up."""
+    """The exported C table compiles, and its values add up."""
     name = os.path.join(tests.dir, "elements.h")
     done = tests.run("-c", "material steel; friction 0.4; geometry sphere R=10 mm; press FN=100 N; export jenkins 5 to %s; "
                      "export jenkins 5 to %s.json FA=20 N" % (name, name))
@@ -323,7 +323,7 @@ def header(tests):
 
 
 def bent(tests):
-    """Where nothing stands at first order, or only close to the present value."""
+    """Uncertainties where the first order vanishes, or holds only close to the present value."""
     for script, deviation, spread in (("x = 0; uncertainty 2*x + 1 with x +- 0.1", 0.2, None),
                                       ("x = 0; uncertainty x^3 with x +- 0.1", 0, math.sqrt(15) * 1e-3),
                                       ("x = 0; uncertainty sin(3*x) with x +- 1", 3, None),
@@ -339,7 +339,7 @@ def bent(tests):
 
 
 def linear(tests):
-    """First order and Monte Carlo agree where nothing bends."""
+    """First order and Monte Carlo agree for a linear expression."""
     values, events, done = run_json(
         tests, "x = 3 N, y = 4 N, z = 5\nuncertainty 2*x - 3*y + 0*x*z with x +- 0.3 N, y +- 10 %, z +- 1\n")
     events = [e for e in events if e["event"] == "uncertainty"]
@@ -358,7 +358,7 @@ def linear(tests):
 
 
 def stays(tests):
-    """Nothing changes in the scene, nor among the names."""
+    """The questions change neither the scene nor the names."""
     setup = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=20 N; v = 3 N; FNA = 0 N; "
     asked = ("solve mu for dW = 1 uJ; solve v for dW(v) = 1 uJ; solve Q for dW(Q) = 1 uJ from 1 N to 30 N; "
              "maximize dW(Q) over Q = 1 N .. 30 N; maximize dW(v) over v = 1 N .. 30 N; uncertainty dW, v with mu +- 0.01, v +- 1 N; "
@@ -370,7 +370,7 @@ def stays(tests):
 
 
 def told(tests):
-    """`set timing on` tells how the answer was found."""
+    """`set timing on` reports how the answer was found."""
     done = tests.run("-c", "material steel; geometry sphere R=10 mm; press FN=100 N; set timing on; solve FN for a = 0.2 mm; "
                      "minimize dz over FN = 20 N .. 100 N")
     tests.check("timing tells method, evaluations and bracket",
@@ -394,7 +394,7 @@ def told(tests):
 
 
 def valleys(tests):
-    """Along the kinked bottom of a valley that bends, to its lowest place."""
+    """The minimum in a bent valley whose bottom is a kink."""
     for steep, x_range, y_range in ((100, "-1.3 .. 3.1", "-2.2 .. 6.3"), (10, "-0.7 .. 2.9", "-1.1 .. 8.4"), (3, "0.2 .. 2.3", "-1.4 .. 5.7")):
         question = "minimize abs(x-1.2345) + %d*abs(y-x^2) over x = %s, y = %s" % (steep, x_range, y_range)
         values, _, done = run_json(tests, question + "\n")
@@ -404,7 +404,7 @@ def valleys(tests):
 
 
 def poles(tests):
-    """All roots beside poles, in order, and no pole among them; and pairs of roots between places of the scan."""
+    """All roots beside poles, in order, without the poles; and pairs of roots between two places of the scan."""
     def tangent(L, lo, hi):
         return [x for x in (math.atan(L) + n * math.pi for n in range(20)) if lo < x < hi]
     asked = [("tan(x) = %r from %r to %r" % at, tangent(*at)) for at in

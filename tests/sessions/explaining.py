@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `explain` tells of parts, definitions, loads and models: each line that must be there, and what must not."""
+"""Tests `explain` for parts of expressions, definitions, loads and models: lines that must be there, and lines that must not."""
 import os
 import re
 
@@ -9,7 +9,7 @@ STEEL = "material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4\n"
 PRESSED = STEEL + "press FN=100 N\n"
 SUM = "material steel; friction 0.4; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=10 N; cycle FA=1 N FNA=1 N\n"
 FLAT = "material steel; friction 0.4; geometry flat-rounded b=0.1 mm R=10 mm; press FN=10 N\n"
-# a scene, what is explained, lines that are there (as regular expressions), and those that are not
+# a scene, what is explained, lines that must be there (regular expressions), and lines that must not
 TOLD = (
     (PRESSED, "2*dW(20 N)", ("dW: energy dissipated per cycle", r"    dW\(20 N\) = 1\.90646 uJ", r"    2\*dW\(20 N\) = 3\.81291 uJ"), ()),
     (PRESSED, "c((10 N)*2)/a", ("c: stick radius", r"    c\(\(10 N\)\*2\) = 148\.125 um|    c\(\(10 N\)\*2\) = ", "a: contact radius"), ()),
@@ -25,7 +25,7 @@ TOLD = (
     (PRESSED + "c0 = 1 mm\n", "(dW(5 N) at k=0.2)/dW(20 N)", (r"    dW\(20 N\) = 1\.90646 uJ",), (r"    dW\(5 N\) = ",)),
     (PRESSED + "y := 1 + dW((dW(2 N)/dW(2 N))*20 N)/(1 J)\n", "y", (r"    dW\(2 N\) = .*",), ()),
     (PRESSED, "2*(a at k=0) conditioning", (r"    2\*\(a at k=0\) = 373\.251 um", "    no effect: mu"), ("a: contact radius",)),
-    # a load that acts by a definition, a value of 0, and no load at all
+    # a load by a definition, a value of 0, and no load
     (STEEL + "c0 = 1 mm; press FN=100 N; k := FN/(1 kN)\n", "kappa conditioning", ("    k = 0.1", "    FN = 100 N .*"), ("    FN now",)),
     (PRESSED, "Fx*dx", ("Fx: tangential force", "    FN now = 100 N", "    Fx = 0 N", "    Fx\\*dx = 0 J"), ()),
     (STEEL, "dz(0 N)", (r"    dz\(0 N\) = 0 m",), ("    FN now",)),
@@ -45,13 +45,13 @@ TOLD = (
     (FLAT + "step FN=12 N Fx=1 N\n", "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
     (FLAT + "step Fx=1 N; step dz=2 um\n", "W", ("    law of the gap: polynomials, good to [1-9]e-1[5-9]",), ()),
     (FLAT + "step FN=12 N; step Fx=1 N\n", "W", ("    model: memory diagram.*", "    law of the gap: polynomials, good to [1-9]e-1[5-9]"), ()),
-    # what the answer is good to, always; conditioning on request
+    # the error, always; the conditioning, on request
     (PRESSED, "dW(20 N)", ("    error: below 3e-16 of the value",), ("    conditioning", "    no effect")),
     (PRESSED, "dW(20 N) conditioning", ("    error: below 3e-16 of the value", "    conditioning .*", "    argument FA = 20 N .*"), ()),
     (PRESSED, "2*dW(20 N)/dW(10 N)", ("    error: below 3e-16 of the value",), ("    conditioning", "    no effect")),
     (PRESSED, "2*dW(20 N) at mu=0.5 conditioning", ("    mu = 0.5 .*  \\S+", "    conditioning .*"), ()),
     (PRESSED, "mu", ("    mu = 0.4",), ("    error: ",)),
-    # no bound: a cone near gross slip, k = -0.7, comes to 1.1e-2 from its limit
+    # not a bound: for a cone near gross slip with k = -0.7 the value is 1.1e-2 from its limit
     (PRESSED + "cycle FA=10 N; wear alpha=1e4 um^3/J; Nw = 10\n", "Vwear", ("    error: some 1e-03 of the largest value so far",), ("    error: below",)),
     (PRESSED, "u1D(0.1 mm)", ("    error: below 1e-13 of the largest value",), ()),
     (PRESSED, "E(1 mm)", ("    error: below 3e-16 of the value",), ()),
@@ -60,7 +60,7 @@ TOLD = (
     (PRESSED + "geometry exact-sphere R=10 mm\n", "a", ("    error: below 1e-13 of the value",), ()),
     (SUM, "W", ("    error: below 1e-13 of the largest value so far",), ()),
     (PRESSED + "set model springs 50\n", "W", ("    error: 0 J, beside the exact value",), ()),
-    # what was given before, and is not the geometry's
+    # inputs that were given before, and that the geometry does not have
     (PRESSED + "c0 = 1 mm; geometry cone slope=0.1\n", "a", ("    slope = 0.1",), ("    c0 = ", "    R = ")),
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "dW(5 N) conditioning", ("    FN now = 110 N", "    FNA = 10 N", "    no effect: .*FA.*"), ("    FA = 9 N",)),
 )
@@ -80,7 +80,7 @@ def told(tests):
 
 
 def many(tests):
-    """More quantities than a page remembers, some of them once more by a definition."""
+    """Many quantities, some of them a second time through a definition."""
     known = "c0 = 1 mm; second E0=70 GPa nu=0.3; k = 0.1; cycle FA=9 N\n"
     names = [name for name in MANY if tests.run("-c", PRESSED + known + name).returncode == 0]
     done = tests.run("-c", PRESSED + known + "again := a + dz; explain (%s)*again" % "*".join("(1+%s-%s)" % (n, n) if n in ("phase", "time") else
@@ -91,7 +91,7 @@ def many(tests):
 
 
 def bare(tests):
-    """Every quantity by its name, in an empty scene and in a whole one."""
+    """Every quantity by its name alone, in an empty scene and in a complete one."""
     names = re.findall(r"^    (\w+)(?:\(\w+\))?  ", tests.run("-c", "help quantities").stdout, re.M)
     for page in re.split(r"^(?=\w+: )", tests.run("-c", "\n".join("help " + name for name in names)).stdout, flags=re.M):
         formulas = [re.sub(r"  [(\[].*", "", text) for text in re.findall(r"^    (\S.*)", page, re.M)]
@@ -106,7 +106,7 @@ def bare(tests):
 
 
 def typeset(tests):
-    """Where the terminal has the letters."""
+    """Formulas in Unicode, in a UTF-8 locale."""
     script = PRESSED + "step FN=90 N dx=0.1 um\nexplain W"
     for locale, plane in (("C", "(delta_z, delta_x)"), ("C.UTF-8", "(\u03b4_z, \u03b4_x)")):
         done = tests.run("-c", script, env={"LC_ALL": locale})
@@ -114,7 +114,7 @@ def typeset(tests):
 
 
 def at_length(tests):
-    """Many calls of one function: the formula once, and each value."""
+    """Many calls of one function: the formula is shown once, with the value of each call."""
     calls = ["dW(%d N)" % i for i in range(1, 40)]
     done = tests.run("-c", PRESSED + "explain %s + FN*a + c(1 N)*(1 N)" % " + ".join(calls))
     told_of = re.findall(r"^    (\w+\([^()]*\)) = ", done.stdout, re.M)
@@ -123,7 +123,7 @@ def at_length(tests):
 
 
 def repeating(tests):
-    """Periods that repeat the last one are told, and count: W grows by dW in each."""
+    """Repeated periods, which are not computed, are reported and counted: W grows by dW in each."""
     swung = PRESSED + "cycle FA=9 N FNA=10 N times %d\nset digits 15\n"
     W = {times: float(tests.run("--format=csv", "-c", swung % times + "W").stdout.split()[-1]) for times in (4, 5, 1000)}
     tests.check("repeated periods", abs(W[1000] - W[4] - 996 * (W[5] - W[4])) < 1e-12 * W[1000], str(W))
@@ -145,7 +145,7 @@ def mixed(tests):
 
 
 def springs(tests):
-    """What springs make of a value, beside the exact one: as large as it is said to be."""
+    """The error that is shown for springs is the difference to the exact value."""
     for count, load, name in ((50, "cycle FA=20 N", "dW"), (1000, "cycle FA=20 N", "c"), (80, "step Fx=20 N; step FN=90 N dx=0.3 um", "Fx"),
                               (300, "cycle FA=9 N FNA=10 N", "dW"), (50, "k = 0.2, c0 = 1 mm; step Fx=-10 N", "dx")):
         scene = PRESSED + load + "\n"
@@ -167,8 +167,8 @@ SWINGS = ("dx", "W", "U", "dW", "c", "qx(0.15 mm)")
 
 
 def swung(tests):
-    """What chords of a swinging load are said to be good to holds. Rows on a parabola, which their interpolation meets, make
-    them necessary; without them the load is taken as the sine itself, its fields by curves in 640 straight parts."""
+    """The error stated for the chords of a swinging load is right. A gap given as rows on a parabola, which are interpolated
+    exactly, needs chords; the same gap as a formula is computed for the sine itself, its fields from 640 straight parts."""
     rows = os.path.join(tests.dir, "parabola.csv")
     with open(rows, "w") as f:
         f.write("r [m],f [m]\n" + "".join("%.17g,%.17g\n" % (1e-5 * i, 50 * (1e-5 * i) ** 2) for i in range(101)))
@@ -185,7 +185,7 @@ def swung(tests):
         told = [float(text) for text in re.findall(r"^    error: below (\S+) of ", pages.stdout, re.M)]
         tests.check("and its error is no less: " + load, len(told) == len(stated) and all(map(float.__ge__, told, stated)), "%s\n%s" % (told, stated))
         for name, x, y, good in zip(SWINGS, exact, got, stated):
-            known = 1e-13 if "(" not in name else 2e-5  # the exact one's fields
+            known = 1e-13 if "(" not in name else 2e-5  # accuracy of the fields for the sine itself
             tests.check("%s of %s is as good as is said" % (name, load), abs(x - y) <= max(good, known) * abs(x) and good < 0.05,
                         "%.17g, not %.17g; said %.0e" % (y, x, good))
     tests.each([lambda row=row: one(*row) for row in tests.some(SWUNG)])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures in files and in the terminal: their form, hostile names, and what must not stay behind."""
+"""Tests pictures in files and in the terminal: their format, hostile names, and that no temporary files are left."""
 import os
 import tempfile
 import re
@@ -25,7 +25,7 @@ def folder(tests, name):
 
 
 def clean(tests, name, where, wanted=()):
-    """Nothing but the wanted files there, nothing among the temporary files."""
+    """Checks that only the wanted files are there, and no temporary files."""
     tests.check("%s: files" % name, sorted(os.listdir(where)) == sorted(wanted), str(os.listdir(where)))
 
 
@@ -65,7 +65,7 @@ def forms(tests):
 
 
 def captions(tests):
-    """The scene and the program below a figure, in pictures of all kinds and in the terminal."""
+    """The caption below a figure (scene and load), in pictures of all kinds and in the terminal."""
     where = folder(tests, "captions")
     plots = "set plot caption on\nplot loop | pressure to a.%s\nplot map dWd(d) for FN = 1 N .. 2 N for d = 1 um .. 2 um to m.%s\n"
     done = tests.run("-c", SCENE + "".join(plots % (e, e) for e in ENDINGS if e != "gif") + "plot pressure", cwd=where)
@@ -96,13 +96,13 @@ def tex(tests, where):
 
 
 def points_of(path):
-    """Each block of points of a kept script."""
+    """The blocks of points in a gnuplot script that was kept."""
     blocks = re.findall(r"^\$data\S+ << END\n(.*?)^END$", read(path).decode(), re.S | re.M)
     return [[tuple(map(float, line.split())) for line in block.splitlines()] for block in blocks]
 
 
 def points(tests):
-    """As many points as were asked for, where they belong."""
+    """Figures have as many points as were asked for, at the right places."""
     where = folder(tests, "points")
     done = tests.run("-c", "plot x^2 for x = 0 .. 1 steps 4 to a.gp; plot x, 2*x for x = 0 .. 2 to b.gp\n" + SCENE +
                      "plot loop to c.gp; set format json; dx in um, Fx", cwd=where)
@@ -140,7 +140,7 @@ def points(tests):
 
 
 def names(tests):
-    """Names that a shell or gnuplot would run, also where the directory is deeper than any fixed buffer."""
+    """File names that a shell or gnuplot would execute, also in a directory with a path longer than any fixed buffer."""
     where = folder(tests, "names")
     wanted = ["|touch pwned #.png", "`touch pwned`.svg", "$(touch pwned).png", "a'b.png", "%s.png", "-x.svg", "é µ.svg"]
     for name in wanted:
@@ -187,7 +187,7 @@ def targets(tests):
 
 
 def stopped(tests):
-    """gnuplot hangs; a signal ends the program, gnuplot and all files."""
+    """gnuplot hangs: a signal ends the program and gnuplot, and all files are removed."""
     where = folder(tests, "stopped")
     fake = folder(tests, "stopped-bin")
     with open(os.path.join(fake, "gnuplot"), "w", encoding="ascii") as f:
@@ -213,7 +213,7 @@ def stopped(tests):
         tests.check(name, job.returncode == status, "%d\n%s" % (job.returncode, (out + err).decode()))
         clean(tests, name, where)
         clean(tests, name + ": temporary", tmp)
-        for _ in range(1000):  # the killed are gone when the kernel gets to them
+        for _ in range(1000):  # killed processes take a moment to end
             if not alive(group):
                 break
             time.sleep(0.01)
@@ -234,7 +234,7 @@ def alive(group):
 
 
 def messages(tests):
-    """What gnuplot says is text to be shown, not to be obeyed."""
+    """Messages of gnuplot are shown with control characters escaped."""
     fake = folder(tests, "messages-bin")
     with open(os.path.join(fake, "gnuplot"), "w", encoding="ascii") as f:
         f.write("#!/bin/sh\nprintf 'line 3: \\033[31mred\\007 \\342\\200\\256back\\n' >&2; exit 1\n")
@@ -245,7 +245,7 @@ def messages(tests):
 
 
 def foreign_terminal(tests):
-    """A terminal of the user's for gnuplot, which may not even be there, is not what a plot is drawn with."""
+    """The user's setting of gnuplot's terminal (GNUTERM), which may not exist, is not used for plots."""
     want = tests.run("-c", SCENE + "plot loop")
     for terminal in ("qt", "nonsense", "png"):
         done = tests.run("-c", SCENE + "plot loop", env={"GNUTERM": terminal})

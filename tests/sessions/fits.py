@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""fit on data from a model of our own: springs, stepped one by one, with noise. It shares nothing with the program but
-the physics: two equal homogeneous bodies, a paraboloid."""
+"""Tests fit on noisy data from an independent model, springs stepped one by one: two equal homogeneous bodies, a paraboloid. It shares
+only the physics with the program."""
 import json
 import math
 import os
@@ -14,7 +14,7 @@ SETUP = "material E0=%g GPa nu=0.3; geometry paraboloid R=10 mm; friction %g; pr
 
 
 def springs_of(E0):
-    """Contact radius, depth, and for each spring its place, normal force bound and tangential stiffness."""
+    """Contact radius, depth, and for each spring its place, its normal force and its tangential stiffness."""
     cN = E0 / (2 * (1 - NU ** 2))
     eta = (2 - NU) / (2 * (1 - NU))
     a = (3 * FN * R / (4 * cN)) ** (1 / 3)  # F_N = 2 c_N int_0^a (a^2-x^2)/R dx
@@ -27,7 +27,7 @@ def springs_of(E0):
 
 
 def loop(mu, E0, path):
-    """F_x at each displacement of a path from rest."""
+    """F_x at each displacement of a path that starts at rest."""
     rows = springs_of(E0)
     force = [0.0] * len(rows)
     out, last = [], 0.0
@@ -45,7 +45,7 @@ def loop(mu, E0, path):
 
 
 def path_of(amplitude, count):
-    """Up, and through a whole loop."""
+    """A path of displacements: to the amplitude, then through a whole loop."""
     up = [amplitude * i / count for i in range(count + 1)]
     down = [amplitude * (1 - 2 * i / count) for i in range(1, count + 1)]
     return up + down + [-d for d in down]
@@ -73,7 +73,7 @@ def answers(tests, script):
 
 
 def noisy_loops(tests, count):
-    """mu and E0 within two standard errors, in at least nine of ten sets; `make fits` has more of them."""
+    """mu and E0 are within two standard errors in at least nine of ten data sets; `make fits` takes more sets."""
     mu, E0 = 0.35, 200e9
     path = path_of(0.8e-6, 25)
     clean = loop(mu, E0, path)
@@ -94,7 +94,7 @@ def noisy_loops(tests, count):
 
 
 def drifting(tests):
-    """Residuals that are no noise are told of: an offset, a drift; noise and what is exact are not."""
+    """A warning if residuals are not noise: with an offset, with a drift; none for noise, or for exact data."""
     mu, E0 = 0.35, 200e9
     path = path_of(0.8e-6, 25)
     clean = loop(mu, E0, path)
@@ -110,7 +110,7 @@ def drifting(tests):
 
 
 def closed_loop(tests):
-    """A loop that begins in its midst."""
+    """A closed loop whose rows do not begin at a turning point."""
     mu, E0 = 0.35, 200e9
     path = path_of(0.8e-6, 40)
     rows = list(zip(path, loop(mu, E0, path)))[41:]
@@ -134,7 +134,7 @@ def closed_loop(tests):
 
 
 def noisy_in_both(tests):
-    """Noise in the driving column too: mu within its stated error, from starts that are wrong by decades."""
+    """Noise in the driving column as well: mu within its stated error, from starts that are wrong by orders of magnitude."""
     mu, E0 = 0.62, 210e9
     path = [2e-6 * math.sin(2 * math.pi * i / 200) for i in range(251)]
     clean = loop(mu, E0, path)
@@ -164,7 +164,7 @@ def noisy_in_both(tests):
 
 
 def sharp_drive(tests):
-    """A drive of constant speed turns in a corner, a sine in a round: neither biases what is fitted, whose errors are near as small."""
+    """Triangular and sinusoidal drives: the sharp or round turning points do not bias the fit, and the errors are about equal."""
     mu, E0, stated = 0.62, 210e9, {}
     for shape in ("corners", "rounds"):
         path = path_of(2e-6, 50)[:-50] if shape == "corners" else [2e-6 * math.sin(2 * math.pi * i / 200) for i in range(251)]
@@ -181,7 +181,7 @@ def sharp_drive(tests):
 
 
 def by_cycle(tests):
-    """A row for each cycle; mu falls from one to the next. The table has the energy of each, and gaps where a cycle tells nothing."""
+    """A fit for each cycle, with mu falling from cycle to cycle. The table has the energy of each, and gaps for cycles without result."""
     path = [1.2e-6 * math.sin(2 * math.pi * i / 100) for i in range(126)]
     rows, noise, true = [], random.Random(9), (0.5, 0.45, 0.4)
     for i, mu in enumerate(true):
@@ -207,7 +207,7 @@ def by_cycle(tests):
 
 
 def told_apart(tests):
-    """Two names that a loop shows together, and what to measure instead."""
+    """Two names that a loop cannot separate: the message says what to measure instead."""
     path = [1.2e-6 * math.sin(2 * math.pi * i / 100) for i in range(126)]
     noise = random.Random(2)
     rows = [(d * 1e6 + noise.gauss(0, 0.005), f + noise.gauss(0, 0.3)) for d, f in zip(path, loop(0.5, 200e9, path))]
@@ -221,7 +221,7 @@ def told_apart(tests):
 
 
 def at_the_rig(tests):
-    """Readings of a rig of 80 N/um with offsets: without noise to the last digits, with it within the stated errors."""
+    """Data from a rig of 80 N/um with offsets: exact without noise, within the stated errors with noise."""
     mu, E0, K = 0.4, 210e9, 80e6
     path = [2.6e-6 * math.sin(2 * math.pi * i / 200) for i in range(251)]
     clean = [((d + f / K) * 1e6, f) for d, f in zip(path, loop(mu, E0, path))]
@@ -238,7 +238,7 @@ def at_the_rig(tests):
     values, event, done = answers(tests, scene + "fit mu, E0, K_rig, d0, F0 along " + name)
     tests.check("fit: the rig and E0 from one loop", event and abs(values["K_rig"] - K) < 2 * event["deviation"]["K_rig"]
                 and "hardly tell E0 and K_rig apart: measure K_rig" in done.stderr, tests.report(done))
-    # two turns from a peak, by Masing's rule: sought starts end where all slides and d0 does not show
+    # two reversals from a peak, by the Masing rule: a search for starts would end at gross slip, where d0 has no effect
     mu, E0, K, peak = 0.5, 205e9, 60e6, 1.2e-6
     estar = E0 / (2 * (1 - NU ** 2))
     dxmax = mu * (2 - NU) / (2 * (1 - NU)) * (3 * FN / (4 * estar)) ** (2 / 3) / R ** (1 / 3)
@@ -258,7 +258,7 @@ def at_the_rig(tests):
 
 
 def kept_at_the_rig(tests):
-    """What `history to FILE` writes with a rig can be followed again; readings drive by drig, their offsets taken off."""
+    """A file written by `history to FILE` with a rig can be followed again: drig drives, less the offsets."""
     scene = SETUP % (210, 0.4) + "; rig stiffness=80 N/um%s; "
     kept = os.path.join(tests.dir, "kept-rig.csv")
     done = tests.run("--format=json", "-c", scene % "" + "step Fx=20 N; step drig=-0.5 um; cycle drigA=1 um steps 8; history to %s; dx, Fx, W" % kept)
@@ -279,7 +279,7 @@ def kept_at_the_rig(tests):
 
 
 def moved_starts(tests):
-    """A start that a row cannot have, and one that lies far off, are moved."""
+    """Starts are moved if a row has no value there, or if they are far off."""
     rows = [(q, 1e6 * loss) for q, loss in ((q, dissipated(0.7, 210e9, q)) for q in (10, 20, 30, 40, 50, 60))]
     name = write(tests, "losses-Q.csv", "Q [N],Ed [uJ]", rows)
     for start in (0.05, 0.4, 2):
@@ -290,7 +290,7 @@ def moved_starts(tests):
     tests.check("fit: a start of the wrong sign", event and abs(values["s"] * 6 ** (1 / 3) - 1) < 1e-6, tests.report(done))
     noise = random.Random(2)
     name = write(tests, "wave.csv", "t,y", [(0.1 * i, 2 * math.sin(0.3 * i) + noise.gauss(0, 0.1)) for i in range(100)])
-    for w in (1, 2, 3, 3.3, 6, 10):  # all but two of them have a least of their own beside them
+    for w in (1, 2, 3, 3.3, 6, 10):  # near all but two of these there is a local minimum
         values, event, done = answers(tests, "q = 1; w = %g; fit q, w for y = q*sin(w*t) to %s" % (w, name))
         tests.check("fit: the least of several, from w = %g" % w, event and all(
             abs(values[n] - true) < 2 * event["deviation"][n] for n, true in (("q", 2), ("w", 3))), tests.report(done))
@@ -310,8 +310,8 @@ def moved_starts(tests):
 
 
 def dissipated(mu, E0, FA):
-    """Per cycle, of a paraboloid: 18 mu^2 F_N^2/(5 a G*) {1-l^(5/3) - 5 F_A/(6 mu F_N) (1+l^(2/3))}, l = 1-F_A/(mu F_N), with
-    the tangential stiffness 2 a G* (Mindlin and Deresiewicz, for both bodies)."""
+    """Energy dissipated per cycle by a paraboloid (Mindlin and Deresiewicz, for both bodies; tangential stiffness 2 a G*):
+    18 mu^2 F_N^2/(5 a G*) {1-l^(5/3) - 5 F_A/(6 mu F_N) (1+l^(2/3))}, l = 1-F_A/(mu F_N)."""
     cN = E0 / (2 * (1 - NU ** 2))
     a = (3 * FN * R / (4 * cN)) ** (1 / 3)
     eta = (2 - NU) / (2 * (1 - NU))
@@ -321,7 +321,7 @@ def dissipated(mu, E0, FA):
 
 
 def equations(tests):
-    """Depth against force; what cannot be told apart."""
+    """Fits of equations, such as depth against force; names that cannot be separated."""
     E0 = 180e9
     cN = E0 / (2 * (1 - NU ** 2))
     force = [2.0 * i for i in range(1, 61)]
@@ -346,7 +346,7 @@ def equations(tests):
 
 
 def many_rows(tests):
-    """10^4 rows."""
+    """A fit to 10^4 rows."""
     path = path_of(0.8e-6, 50)
     clean = loop(0.35, 200e9, path)
     noise = random.Random(7)
@@ -360,7 +360,7 @@ STRAIGHT = ((1, 2), (2, 4), (3, 6), (4, 8), (5, 10.5))
 
 
 def straight_lines(tests):
-    """Against the normal equations: a slope, and a slope with an offset from 0; and data that are met exactly."""
+    """Straight lines against the normal equations: a slope, a slope with an offset from 0, and exact data."""
     name = write(tests, "line.csv", "u,y [mm]", STRAIGHT)
     exact = write(tests, "exact.csv", "u,y", STRAIGHT[:4])
     n, u, y = 5, [row[0] for row in STRAIGHT], [1e-3 * row[1] for row in STRAIGHT]
@@ -393,7 +393,7 @@ def straight_lines(tests):
 
 
 def begun_at_the_end(tests):
-    """What is left of data that the program wrote is rounding, and a fit of noisy ones ends where it begins."""
+    """Residuals of data written by the program are rounding; a fit that starts at its result ends there."""
     name = os.path.join(tests.dir, "own-loop.csv")
     scene = SETUP % (210, 0.4) + "; "
     tests.run("-c", scene + "table dx in um, Fx along cycle FA=30 N steps 60 to " + name)
@@ -411,7 +411,7 @@ def begun_at_the_end(tests):
 
 
 def offset_power(rows):
-    """s and h0 of y = s (x - h0)^1.5 with their deviations, by Gauss and Newton with derivatives by hand."""
+    """s and h0 of y = s (x - h0)^1.5 and their deviations, by the Gauss-Newton method with analytic derivatives."""
     s, h0 = rows[-1][1] / rows[-1][0] ** 1.5, 0.0
     for _ in range(100):
         slopes = [((x - h0) ** 1.5, -1.5 * s * (x - h0) ** 0.5) for x, _ in rows]
@@ -425,7 +425,7 @@ def offset_power(rows):
 
 
 def from_zero(tests):
-    """A start at 0, or at next to nothing, says nothing of how large a name is: the answer is that of other starts."""
+    """A start at 0, or nearly 0, gives no scale for the name; the result must be that of other starts."""
     rows = ((300, 5), (600, 16), (900, 26), (1200, 43), (1500, 57))
     name = write(tests, "indents.csv", "x [nm],y [nN]", rows)
     want = offset_power([(x * 1e-9, y * 1e-9) for x, y in rows])
@@ -434,7 +434,7 @@ def from_zero(tests):
         got = (values["s"], values["h0"], event["deviation"]["s"], event["deviation"]["h0"]) if event else ()
         tests.check("fit: begun at s = %s, h0 = %s nm" % (s, h0), event and all(abs(a / b - 1) < 1e-5 for a, b in zip(got, want)) and
                     "note: the data hardly determine h0\n" in done.stderr, "%s, not %s\n%s" % (got, want, tests.report(done)))
-    # names of other dimensions than the data; a row where one side of 0 has no value; the answer 0 itself
+    # names with other dimensions than the data; a row that has a value on one side of 0 only; a result of 0
     rows = [(x, 3.0 * x * (1 + 0.002 * x)) for x in range(100, 1000, 100)]
     name = write(tests, "bent.csv", "x [nm],y [nN]", rows)
     for q in ("0", "1e-30", "1", "1e9"):
@@ -450,10 +450,10 @@ def from_zero(tests):
 
 
 def least_squares(rows, values):
-    """Parameters, their deviations and correlations by the normal equations, in fractions."""
+    """Parameters, their deviations and correlations, by the normal equations in exact fractions."""
     n, m = len(rows), len(rows[0])
     table = [[sum(Fraction(r[i]) * Fraction(r[j]) for r in rows) for j in range(m)] + [Fraction(i == j) for j in range(m)] for i in range(m)]
-    for i in range(m):  # the inverse, by Gauss and Jordan
+    for i in range(m):  # the inverse, by Gauss-Jordan elimination
         table[i] = [v / table[i][i] for v in table[i]]
         for j in set(range(m)) - {i}:
             table[j] = [a - table[j][i] * b for a, b in zip(table[j], table[i])]
@@ -466,7 +466,7 @@ def least_squares(rows, values):
 
 
 def parabolas(tests):
-    """What is said of three names, in every order: how sure, how alike, and which the data hardly determine or tell apart."""
+    """Three names in every order: their deviations, correlations, and warnings if the data hardly determine or separate them."""
     powers = {"off": "off", "s": "s*u", "q": "q*u^2"}
     for what, data in (("near", ((-3, "-5.9"), (-2, "-3.8"), (-1, "-2.1"), (0, "0.1"), (1, "1.9"), (2, "4.2"), (3, "5.9"))),
                        ("far", ((10, "1"), (11, "3"), (12, "3"), (13, "6"), (14, "8")))):
@@ -494,7 +494,7 @@ def parabolas(tests):
 
 
 def loops_with_loads(tests):
-    """A loop's own load stands for the press: by F_N, and by the depth that it makes."""
+    """A loop with a column for the load, which replaces the press: by F_N, or by the depth."""
     rows = ((0, 0), (0.1, 4), (0.5, 15), (0.2, 5))
     bare = write(tests, "bare.csv", "dx [um],Fx [N]", rows)
     force = write(tests, "force.csv", "dx [um],Fx [N],FN [N]", [row + (100,) for row in rows])
@@ -513,14 +513,14 @@ def loops_with_loads(tests):
 
 
 def edges(tests):
-    """Begun next to the end of the scene, or at it: there the slope is taken to the side that has values."""
+    """Starts next to the end of the possible scenes, or at it: derivatives are taken to the side that has values."""
     E0, path = 180e9, path_of(0.4e-6, 40)
     rows = [(d * 1e6, f) for d, f in zip(path, loop(0.35, E0, path))]
     name = write(tests, "edge.csv", "dx [um],Fx [N]", rows)
     force = SETUP % (180, 0.35) + "; q = %s; FN := %s; fit q along " + name
     for start, definition, want in (("2.00001", "80 N*sqrt(q - 2)", 3.5625), ("2", "80 N*(1 + sqrt(q - 2))", 2.0625),
                                     ("1.99999", "80 N*sqrt(2 - q)", 0.4375), ("2", "80 N*(1 + sqrt(2 - q))", 1.9375),
-                                    ("10", "80 N*sqrt(q - 2)", 3.5625)):  # the last one is to overshoot
+                                    ("10", "80 N*sqrt(q - 2)", 3.5625)):  # the last start makes the first step overshoot
         values, event, done = answers(tests, force % (start, definition))
         tests.check("fit: from %s, FN := %s" % (start, definition), event and abs(values["q"] / want - 1) < 1e-5, tests.report(done))
     swung = SETUP % (210, 0.4) + "; cycle FA=15 N FNA=%s N phase=60 deg; "
@@ -532,7 +532,7 @@ def edges(tests):
 
 
 def shapes(tests):
-    """A sphere that is a sum, or a table of points, is a sphere; along its own load too, however it was pressed."""
+    """A sphere given as a sum, or as a table of points, gives the result of a sphere; also with a column for the load."""
     mu, E0, path = 0.35, 180e9, path_of(0.4e-6, 40)
     rows = [(d * 1e6, f) for d, f in zip(path, loop(mu, E0, path))]
     bare = write(tests, "shape-bare.csv", "dx [um],Fx [N]", rows)
@@ -556,7 +556,7 @@ def shapes(tests):
 
 
 def not_closed(tests):
-    """A path that comes back to where its rows begin, with another force, is no closed loop."""
+    """A path that returns to its first displacement with another force is no closed loop."""
     mu, E0 = 0.35, 180e9
     path = [0.6e-6 * i / 20 for i in range(21)] + [0.6e-6 + 1e-6 * i / 30 for i in range(1, 31)] + [1.6e-6 - 1e-6 * i / 30 for i in range(1, 31)]
     rows = [(d * 1e6, f) for d, f in zip(path, loop(mu, E0, path))][20:]
@@ -585,9 +585,9 @@ def refusals(tests):
             ("s = 1; q = 2; t = 3; fit s, q, t for y + u^2 = s*q*u + s*t*u^2 to {exact}", "the data cannot tell s, q and t apart"),
             ("s = 1; fit s for y = s*u + sqrt(-(s - 1)^2) to {exact}",
              "no value close beside s = 1, for the derivative: the square root of a negative number is not real"),
-            # the least is a kink, which no slope tells
+            # the minimum is a kink, which derivatives do not show
             ("s = 1; fit s for y = 15 + max(s - 1, (1 - s)/10) to {exact}", "the fit does not settle"),
-            # as many names as there may be
+            # the largest number of names
             ("; ".join(["s = 1", "w = 22.5 deg"] + ["x%d = 1" % i for i in range(1, 8)]) + "; fit s, x1, x2, x3, x4, x5, x6, x7 "
              "for y = 15 + max(s - 1, (1 - s)/10) + x1*sin(u*w) + x2*cos(u*w) + x3*sin(2*u*w) + x4*cos(2*u*w) + x5*sin(3*u*w) "
              "+ x6*cos(3*u*w) + x7*sin(4*u*w) to {waves}", "the fit does not settle"),
@@ -631,8 +631,8 @@ def refusals(tests):
 
 
 def columns(tests):
-    """All columns of a file are names, whatever they are called; inputs among them are set row by row; names that had been
-    taken back are so again."""
+    """All columns of a file are names, whatever they are called; those that are inputs are set row by row; names that had been undone
+    are so again afterwards."""
     wide = ["v%02d" % i for i in range(24)]
     path = write(tests, "wide.csv", ",".join(wide), [[(r + 1) * (i + 1) for i in range(24)] for r in range(4)])
     back = "; ".join("%s = 1" % name for name in wide) + "\n" + "undo\n" * 24
@@ -642,7 +642,7 @@ def columns(tests):
     done = tests.run("--keep-going", "-c", back + "plot %s to x.gp\nshow" % " | ".join("%s for %s = 1 .. 2" % (n, n) for n in wide))
     tests.check("names of a refused plot", "more than 6 figures" in done.stderr and done.stdout == "# nothing is set yet; try: demo, or help\n",
                 tests.report(done))
-    # a column of an input, beside some that are no names of this language
+    # a column that is an input, and some whose names are no names of the language
     path = os.path.join(tests.dir, "rows.csv")
     depth = tests.run("--format=csv", "-c", SETUP % (190, 0.4) + "\ntable dz for FN = 50 N .. 200 N steps 3").stdout.splitlines()[1:]
     rows = [line.split(",") for line in depth]
@@ -654,7 +654,7 @@ def columns(tests):
     tests.check("fit: an input on the left alone", event and abs(values["q"] / 125 - 1) < 1e-9, tests.report(done))
 
 
-    # inputs of other shapes are columns like others
+    # inputs of other geometries are ordinary columns
     rows = [(20, 1.21), (50, 2.28), (80, 3.09), (120, 4.09)]
     alone = write(tests, "alone.csv", "force [N],depth [um]", rows)
     beside = write(tests, "beside.csv", "n,A [mm^2],slope,b [mm],h [um],force [N],depth [um]", [(i, 3, 1, 2, 3, *row) for i, row in enumerate(rows)])
@@ -665,7 +665,7 @@ def columns(tests):
 
 
 def wide_ranges(tests):
-    """Squares leave the range of double where what they are of does not; what has no value is null in JSON."""
+    """Residuals whose squares leave the range of double; numbers without a value are null in JSON."""
     def told(script):
         done = tests.run("--format=json", "-c", script)
         return [json.loads(line) for line in done.stdout.splitlines() if "event" in line] or [{}], done
@@ -679,7 +679,7 @@ def wide_ranges(tests):
 
 
 def units(tests):
-    """In the unit that is asked for: the value, its deviation, and their columns."""
+    """The value, its deviation, and their columns in the unit that is asked for."""
     scene = SETUP % (210, 0.4) + "; "
     plain, asked = (tests.run("-c", scene + "uncertainty a%s with E0 +- 5 %%" % unit).stdout.splitlines() for unit in ("", " in mm"))
     tests.check("an estimate in mm", plain[0] == "a = 186.626 um +- 3.11 um" and asked[0] == "a = 0.186626 mm +- 0.00311 mm" and plain[1] == asked[1],
@@ -698,7 +698,7 @@ def units(tests):
 
 
 def drawn(path):
-    """Panels of a kept figure: lists of series, each a list of points."""
+    """The panels of a figure in a kept script: lists of series, each a list of points."""
     panels, points = {}, None
     with open(path, encoding="utf-8") as f:
         for line in f:
@@ -713,7 +713,7 @@ def drawn(path):
 
 
 def figure(tests):
-    """Points, the curve of the fitted values, what is left over below, and the values with their errors in the key."""
+    """The figure of a fit: data, fitted curve, residuals below, and the values with their errors in the key."""
     done = tests.run("-c", "plot fit")
     tests.check("plot fit: none yet", done.returncode == 1 and "there is no fit yet: fit INPUT, ... along FILE.csv" in done.stderr, tests.report(done))
     mu, E0, noise = 0.62, 210e9, random.Random(1)
@@ -750,8 +750,8 @@ def figure(tests):
 
 
 def uneven(tests):
-    """Intervals from the profile of the sum of squares, against one by our own formula: y = s (1 - exp(-q u)), whose s follows from
-    q by a line. Even ones stay as they are."""
+    """Asymmetric intervals from the profile of the sum of squares, against an independent computation for y = s (1 - exp(-q u)), whose
+    s is linear. Symmetric ones are not changed."""
     def profile(rows, q, s=None):
         g = [1 - math.exp(-q * u) for u, _ in rows]
         s = sum(a * y for a, (_, y) in zip(g, rows)) / sum(a * a for a in g) if s is None else s

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inputs that follow definitions: what is asked in a table over what they depend on, by `at`, by `with`, and after a statement that
-sets it, is the same to the last digits."""
+"""Tests inputs bound to definitions: values are the same to the last digits whether what the input depends on is changed in a table,
+by `at`, by `with`, or by a statement."""
 import random
 
 import harness
 
 GEOMETRIES = ("sphere R=10 mm", "cone slope=0.02", "exact-sphere R=10 mm", "flat-rounded b=0.02 mm R=10 mm", "power n=3 A=50 m^-2")
-# An input that follows, and what it follows with two values of that.
+# A bound input, and the name it depends on with two values.
 FOLLOWING = (("c0 := a0", "FN", ("40 N", "70 N")), ("k := 0.1 + FN/(1 kN)", "FN", ("40 N", "70 N")),
              ("E0 := 200 GPa*(1 + mu)", "mu", ("0.3", "0.7")), ("nu := mu/3", "mu", ("0.3", "0.7")),
              ("k := x/10", "x", ("1", "2")), ("mu := 0.3 + FN/(1 kN)", "FN", ("40 N", "70 N")),
@@ -15,7 +15,7 @@ ASKED = ("a", "dz", "kt", "kn", "dW(1 N)", "Fx(0.01 um)", "p(0.01 mm)", "uz(1 mm
 
 
 def values(done):
-    """Those that are reported, else those of the rows."""
+    """The values reported, or else those of the rows."""
     lines = harness.told(done.stdout)
     told = [line["value"] for line in lines if "name" in line and "value" in line]
     return told or [[row[name] for name in ASKED] for row in lines if "event" not in row]

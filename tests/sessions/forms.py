@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files in the forms that rigs, tribometers, indenters, profilometers and programs write (tests/sessions/forms, each named by
-its form): read, and what was understood, or refused and what to write. And what `loop` says of a file, against formulas."""
+"""Files in the formats of rigs, tribometers, indenters, profilometers and programs (in tests/sessions/forms, named by format): they are
+read, and what was understood is reported; or refused, with advice. And the results of `loop`, against formulas."""
 import csv
 import io
 import itertools
@@ -15,7 +15,7 @@ HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "forms")
 SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; "
 NUMBERS = itertools.count()
 NAMED, ONE = "11 rows from line 2", ", 1 cycle"
-# the same loop as plain.csv: what is said of it
+# other files with the loop of plain.csv, and the messages about them
 SAME = {
     "plain.csv": NAMED + ONE, "in-parentheses.csv": NAMED + ONE, "behind-in.csv": NAMED + ONE, "behind-slash.csv": NAMED + ONE,
     "behind-underscore.csv": NAMED + ONE, "unit-row.csv": "11 rows from line 3" + ONE,
@@ -76,7 +76,7 @@ REFUSED = {
     "geometry file profile-both-sides.csv": "is below f(0) = 0: f is the gap and grows outward; the sign or the apex may be the cause\n",
     "geometry file profile-apex.csv smooth": "which is no noise: f is the gap and grows outward; the sign or the apex may be the cause\n",
 }
-# statements, what they print and say
+# statements, their output and messages
 READ = (
     (SCENE + "follow plain.csv; dx, Fx", "dx = 2 um\nFx = 40 N\n", "note: Fx of the file is 10.7737 N (rms) from Fx here\n"),
     (SCENE + "follow pull-is-negative.csv; FN, Fx, W", "FN = 120 N\nFx = -15 N\nW = 328.223 nJ\n",
@@ -99,7 +99,7 @@ READ = (
 
 
 def table(tests, statement, cwd=HERE):
-    """The rows of `loop ... to FILE`."""
+    """The rows that `loop ... to FILE` writes."""
     path = os.path.join(tests.dir, "cycles%d.csv" % next(NUMBERS))
     done = tests.run("-c", "%s to %s" % (statement, path), cwd=cwd)
     if done.returncode:
@@ -163,7 +163,7 @@ def write(tests, name, rows, head="dx [um],Fx [N]\n"):
 
 
 def polygons(tests):
-    """Corners of a loop that slides: area, amplitudes, stiffness and centre are those of the polygon."""
+    """Loops that are polygons, given by their corners: area, amplitudes, stiffness and centre are those of the polygon."""
     dice = random.Random(4)
     for many in 1, 5, 40:
         A, F, K, x0, F0 = dice.uniform(1, 9), dice.uniform(5, 90), dice.uniform(20, 90), dice.uniform(-1, 1), dice.uniform(-3, 3)
@@ -184,7 +184,7 @@ def polygons(tests):
 
 
 def sampled(tests):
-    """Loops of the program's own, of M rows a cycle: dW is (2 pi/M)^2/6 too small at most, the rest is its own."""
+    """Loops computed by the program, M rows per cycle: dW is too small by a part of (2 pi/M)^2/6 at most, the rest is exact."""
     for FA, M in (15, 40), (30, 100), (38, 400):
         path = os.path.join(tests.dir, "own.csv")
         done = tests.run("--format=json", "-c", SCENE + "cycle FA=%d N times 3 steps %d; history to %s; dW, dx, Ksec(%d N), kn*(2-nu)^-1*2*(1-nu)"
@@ -198,7 +198,7 @@ def sampled(tests):
 
 
 def drifting(tests):
-    """What drifts takes nothing from dW, and adds nothing: neither of the two readings, from whichever turning point on."""
+    """A drift of either reading does not change dW, whichever turning point the cycles begin at."""
     for begins, turned in ((1, ""), (-1, "-")):
         for drift in (0.0, 0.0), (6.0, 0.0), (0.0, 0.2), (-4.0, 0.3):
             path = os.path.join(tests.dir, "drifting.csv")
@@ -220,7 +220,7 @@ def loop_of(phase, slip=0.6, K=40.0, F=30.0):
 
 
 def wrong_way(tests):
-    """A loop that gives energy is no contact's: one reading lags."""
+    """A loop that would supply energy is no contact's: the message says that one reading lags."""
     rows = [loop_of(2 * math.pi * i / 60) for i in range(61)]
     for name, some, wrong in (("as it is", rows, False), ("the wrong way round", rows[::-1], True)):
         done = tests.run("-c", "loop " + write(tests, "way.csv", some))
@@ -228,7 +228,7 @@ def wrong_way(tests):
 
 
 def noisy(tests):
-    """Within the noise, whatever the draw; turning points are found above it, and a cycle begins where one should."""
+    """Noisy loops: results within the noise for each draw; turning points are told from noise, and cycles begin where they should."""
     M, cycles, sx, sF = 200, 5, 0.01, 0.5
     K, F, slip = 40.0, 30.0, 0.6
     A, dW = F / K * (1 + slip), 4 * F * (F / K) * slip
@@ -240,7 +240,7 @@ def noisy(tests):
             rows.append((x + 0.05 * i / M + dice.gauss(0, sx), f + 0.3 * i / M + dice.gauss(0, sF)))
         path = write(tests, "noisy.csv", rows)
         got, done = table(tests, "loop " + path)
-        # the area of M noisy rows: sum of F dx, each with the noise of the other
+        # noise of the area of M rows, sum of F dx: each factor times the noise of the other
         spread = math.hypot(sF * math.sqrt(2) * A * math.pi / math.sqrt(M), 2 * sx * F * math.sqrt(2 * 2 / M) * 4 + sx * sF * math.sqrt(M))
         ok = len(got) == cycles and all(
             abs(r["dW"] * 1e6 - dW) < 5 * spread and abs(r["dxA"] * 1e6 - A) < 3 * sx and abs(r["FA"] - F) < 3 * sF and
@@ -252,7 +252,7 @@ def noisy(tests):
 
 
 def much_noise(tests):
-    """A twentieth of the amplitude, and the last turning point just before the end: no row beyond it is read."""
+    """Noise of a twentieth of the amplitude, and the last turning point just before the end: no row beyond the end is read."""
     M, s = 400, 0.05
     for seed in range(6):
         dice = random.Random(seed)
@@ -263,7 +263,7 @@ def much_noise(tests):
 
 
 def where_cycles_begin(tests):
-    """At a turning point, in the midst, with or without the way there; what does not close is told."""
+    """Files that begin at a turning point or between two, with or without the first loading; loops that do not close are reported."""
     M = 60
     turn = [loop_of(2 * math.pi * i / M) for i in range(M + 1)]
     ways = {"from a turning point": turn, "from its midst": turn[20:-1] + turn[:21], "from its other turning point": turn[30:-1] + turn[:31],
@@ -281,7 +281,7 @@ def where_cycles_begin(tests):
 
 
 def rows_compared(tests):
-    """The rows of a file as a range: one without a value is left out, and the others keep their lines."""
+    """Rows of a file as a range: a row without a value is left out, and the others keep their line numbers."""
     path = os.path.join(tests.dir, "compared.csv")
     with open(path, "w", encoding="utf-8") as f:
         f.write("measured today\nLast [N];Tiefe [um];gut\n-20;1,21;ja\n;2;nein\n-80;3,09;ja\n-90;;nein\n-100;3,6;ja\n")
@@ -312,7 +312,7 @@ def rows_compared(tests):
 
 
 def many_rows(tests):
-    """A long test: the time of a row does not grow with their number."""
+    """A long file: the time per row does not grow with the number of rows."""
     path = write(tests, "long.csv", [(2 * math.sin(i / 60), 30 * math.sin(i / 60 + 0.3)) for i in range(100000)])
     rows, done = table(tests, "loop " + path)
     tests.check("loop of 100000 rows", len(rows) == 265 and all(near(r["dW"], math.pi * 60e-6 * math.sin(0.3), 1e-3) for r in rows), done.stderr)

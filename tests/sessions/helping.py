@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `help` and `apropos` say: each text's example must come out as printed."""
+"""Tests `help` and `apropos`: the example in each help text must give the output that is printed there."""
 import re
 
 import harness
 import transcripts
 
-# what apropos must find
+# words, and names that apropos must find by them
 APROPOS = {"loop": "cycle, plot, dW", "hysteresis": "cycle, dW", "dissipation": "dW, W", "csv": "history, table, follow",
            "export": "history, table, plot", "stress": "p(r), qx(r)", "steel": "material, material steel",
            "Hertz": "press, geometry sphere, a", "unit": "help units, Pa", "Mindlin": "explain, dW",
@@ -16,18 +16,18 @@ HELPED = ("sphere", "springs", "flat-rounded", "format", "pager", "GPa", "cm", "
           "material steel", "p(r)", "dW(20 N)", "FN=100 N", "set format")
 
 
-ERRS = ("reset",)  # whose example is about an error
+ERRS = ("reset",)  # commands whose example is about an error
 
 
 def is_at_work(lines):
-    """Does an example say anything but errors, where it says something?"""
+    """Does an example print anything but errors, if it prints anything?"""
     begin = next((i for i, line in enumerate(lines) if line.startswith((harness.PROMPT, "$ fret "))), len(lines))
     said = [line for line in lines[begin:] if line.strip() and not line.startswith((harness.PROMPT, "$ ", "  "))]
     return not said or not all("error:" in line for line in said)
 
 
 def pictures(tests):
-    """What a replay spares, a drawing and times, is as it comes but for the characters and the times."""
+    """Drawings and times, which a replay does not compare: they are as printed but for the characters and the times."""
     scene = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\nset digits 5; set plot 50x12\n"
     plot, accuracy = (tests.run("-c", "help " + topic).stdout for topic in ("plot", "accuracy"))
     statement, *shown = plot.partition("set plot 50x12\n")[2].partition("\n\n")[0].splitlines()
@@ -40,7 +40,7 @@ def pictures(tests):
 
 
 def run(tests):
-    """Each help text of a command, a topic, a setting, a geometry or a model ends with an example; it must come out so."""
+    """Runs the example that ends each help text of a command, topic, setting, geometry or model."""
     def one(topic):
         done = tests.run("-c", "help " + topic)
         tests.check("help " + topic, done.returncode == 0 and done.stdout and not done.stderr, tests.report(done))

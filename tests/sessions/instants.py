@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inputs changed at an instant of a load, `(W at k=0)` along it: the value of the changed scene at the same instant. Against
-the same load run in that scene, and against that scene at the end of a load that is cut there."""
+"""Tests inputs changed by `at` along a load, as in `(W at k=0)`: the value of the changed scene at the same instant. It is compared
+with the same load run in that scene, and with that scene at the end of a load that is cut there."""
 import math
 import os
 import random
@@ -9,7 +9,7 @@ import re
 import harness  # noqa: F401
 
 MATERIALS = ("material E0=200 GPa nu=0.3; c0 = 1 mm", "material E0=200 GPa nu=0.3 k=0.2 c0=1 mm", "material E0=200 GPa nu=0.3 k=-0.4 c0=1 mm")
-# A geometry, and what it may have instead.
+# A geometry, and changes that it allows.
 GEOMETRIES = (("sphere R=10 mm", "R=12 mm"), ("cone slope=0.02", "slope=0.03"), ("exact-sphere R=10 mm", "R=8 mm"),
               ("flat-paraboloid b=0.2 mm R=10 mm", "b=0.1 mm"), ("power n=3 A=50 m^-2", "A=40 m^-2"),
               ("sum 2:50 m^-1, 4:2e6 m^-3", "nu=0.2"))
@@ -26,7 +26,7 @@ ASKED = ("Fx", "dx", "W", "a", "c", "U", "dW", "FN", "dz", "kt", "kn", "p(0 m)",
 
 
 def rows(tests, script):
-    """The rows of the table that the script ends with, and what went wrong; time is rounded."""
+    """The rows of the table at the end of the script, with rounded times, and the run."""
     done = tests.run("--format=json", "-c", script)
     found = harness.told(done.stdout)
     found = [list(row.values()) for row in found if "time" in row and "event" not in row]
@@ -36,7 +36,7 @@ def rows(tests, script):
 
 
 def changed(rng):
-    """A scene with a load, a load to look at, how to change the scene."""
+    """A random scene with a load, the load along which it is evaluated, and a change of the scene."""
     geometry, other = rng.choice(GEOMETRIES)
     press = rng.choice(PRESSES)
     force = "FN=" in press
@@ -50,7 +50,7 @@ def changed(rng):
 
 
 def against_with(tests):
-    """The column of `at` is that of the curve of `with`, to the last digit; nested, and by a definition, too."""
+    """The column of `at` equals that of `with`, to the last digit, also nested and through a definition."""
     rng = random.Random(20)
     compared = []
 
@@ -60,7 +60,7 @@ def against_with(tests):
         want, as_with = rows(tests, head + x + tail + " with " + change)
         got, as_at = rows(tests, head + "(%s at %s)" % (x, change) + tail)
         name = setup + ": (%s at %s)%s" % (x, change, tail)
-        if as_with.returncode:  # nothing there; where the load of the scene itself cannot be either, no table
+        if as_with.returncode:  # no value there; no table if the load is impossible in the scene itself, too
             tests.check(name + " is refused", as_at.returncode and not any(row[1] is not None for row in got), tests.report(as_at))
             return
         compared.append(name)
@@ -77,7 +77,7 @@ def against_with(tests):
 
 
 def against_cut(tests):
-    """At the end of each step the state is that of a program that ends there."""
+    """At the end of each step the state is that of a load program that ends there."""
     steps = ["step Fx=20 N", "step FN=130 N Fx=10 N", "step dx+=0.2 um", "step Fx=-15 N", "step FN=90 N"]
     for change in ("k=0", "mu=0.5, k=-0.3", "R=20 mm", "FN=115 N"):
         for setup in ("material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N",
@@ -94,7 +94,7 @@ def against_cut(tests):
 
 
 def many(tests):
-    """More instants, and more changed scenes, than are kept at a time; a value that is another one at each."""
+    """More instants, and more changed scenes, than are kept at a time; and a change that differs at each instant."""
     scene = "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N; step Fx=20 N; cycle FA=30 N"
     swings = scene + "; cycle FA=15 N FNA=20 N phase=60 deg"
     for setup, steps in ((scene, 20000), (swings, 1500)):
@@ -120,7 +120,7 @@ def many(tests):
 
 
 def curves(tests, script, name):
-    """The curves that a plot of the script's last statement draws: [[(x, y)]]."""
+    """The curves that the script's last statement plots: [[(x, y)]]"""
     done = tests.run("-c", script + " to %s.gp" % name)
     if not tests.check("drawn: " + name, done.returncode == 0, tests.report(done)):
         return []
@@ -130,7 +130,7 @@ def curves(tests, script, name):
 
 
 def turning_points(tests):
-    """A figure has the turning points of the load, where another scene may not turn: there it is asked, too."""
+    """A figure has points at the turning points of the load, also for a changed scene that does not turn there."""
     press = "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=10 mm; friction 0.4; press FN=100 N"
     drawn = curves(tests, press + "; cycle FA=20 N FNA=15 N phase=70 deg; plot W, (W at FNA=0 N) along program steps 4", "turns")
     between = [(x, y) for x, y in (drawn[1] if len(drawn) == 2 else ()) if x % 0.3125 > 1e-9]
@@ -141,7 +141,7 @@ def turning_points(tests):
         want = harness.printed_values(done.stdout)[-1]
         tests.check("W at the turn at %g" % x, abs(1e-6 * y - want) <= 1e-8 * want, "%g %g" % (y, want))
     load = press + "; cycle FA=20 N; plot W, (W at FNA=10 N, phase=70 deg) along program steps 4"
-    drawn = curves(tests, load, "chords")  # chords, which do not turn
+    drawn = curves(tests, load, "chords")  # the ends of chords are no turning points
     want, done = rows(tests, press + "; cycle FA=20 N FNA=10 N phase=70 deg; table W along program steps 5")
     want = {at: W for at, W in want}
     found = [(x, y) for x, y in (drawn[1] if len(drawn) == 2 else ()) if x in (0.25, 0.75)]
@@ -150,7 +150,7 @@ def turning_points(tests):
 
 
 def kept_instants(tests):
-    """Of a load with many steps a figure takes what has been kept of each, unless it asks for more than forces."""
+    """For a load with many steps a figure takes the state kept for each step, unless it plots more than forces."""
     with tests.file("FN [N],Fx [N]\n" + "".join("%.17g,%.17g\n" % (100 + i % 3, 15 * math.sin(0.37 * i)) for i in range(400)), ".csv") as path:
         followed = "material steel; geometry sphere R=10 mm; friction %s; press FN=100 N; follow " + path + "; plot %s along program steps 20"
         both = curves(tests, followed % ("0.4", "W, (W at mu=0.5)"), "both")
@@ -168,21 +168,21 @@ def kept_instants(tests):
 
 
 def by_definitions(tests):
-    """What an input is made of, changed at an instant: as the input itself is."""
+    """Changing a name that an input is bound to has the effect of changing the input."""
     got, done = rows(tests, "material steel; geometry sphere R=10 mm; press FN=100 N; y = 0.4; mu := y; step FN=90 N Fx=10 N; cycle FA=10 N; "
                      "table W, (W at y=0.5), (W at mu=0.5) along program steps 6")
     tests.check("what mu is made of", len(got) == 7 and all(row[2] == row[3] for row in got) and got[-1][1] > got[-1][2] > 0, tests.report(done))
 
 
 def same_but_for_a_dimension(tests):
-    """Scenes that differ by a name of the same number, of another kind: each has its own."""
+    """Scenes that differ only in the dimension of a name, not in its number, have values of their own."""
     got, done = rows(tests, "x = 1; material steel; geometry sphere R=10 mm; press FN=100 N; mu := 0.4 + 0.1*atan(x/x - 1 + (x - x)/x); step Fx=10 N; "
                      "step Fx=-5 N; table (W at x=3), (x at x=3 N)/(1 N), (W at x=3 N), W along program steps 4")
     tests.check("3 and 3 N", len(got) == 5 and all(row[1] == row[3] == row[4] and row[2] == 3 for row in got), tests.report(done))
 
 
 def periods(tests):
-    """Of a power law under a swinging load: at the end of each period the table has what the load has that ends there."""
+    """A power law under a swinging load: at the end of each period the table has the values of a load that ends there."""
     asked = "Fx, dx, W, U, dW, c, kt, FN, dz, a, u1D(0.05 mm), qx(0.12 mm)"
     rng = random.Random(11)
 
@@ -205,7 +205,7 @@ def periods(tests):
 
 
 def told_apart(tests):
-    """Values of the same number that are changed at one instant: told apart by their names and units."""
+    """Changes with the same number at one instant are told apart by their names and units."""
     got, done = rows(tests, "%s; geometry sphere R=10 mm; friction 0.4; press FN=100 N; x = 1 m; y = 2 m; cycle FA=10 N; table W, (W*x at x=3 m), "
                      "(W*x at x=3 N), (W*y at y=3 m), (W*x at y=3 m), (W*x at mu=0.5), (W*x at x=0.5 m) along program steps 5" % MATERIALS[0])
     wrong = [row for row in got if not all(math.isclose(v, by * row[1], rel_tol=1e-15) for v, by in zip(row[2:6], (3, 3, 3, 1))) or
@@ -214,7 +214,7 @@ def told_apart(tests):
 
 
 def beyond(tests):
-    """Along a load that leaves the table: refused at once, or where it does; the scene stays."""
+    """Along a load that leaves the table of the gap: refused at once, or where it leaves it; the scene stays as it was."""
     path = os.path.join(tests.dir, "short.csv")
     with open(path, "w", encoding="ascii") as f:
         f.write("r [mm],f [um]\n" + "".join("%g,%g\n" % (0.02 * i, 0.02 * i * i) for i in range(26)))

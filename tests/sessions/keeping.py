@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sessions kept and run again: save, record, replay, copies of a terminal; JSON whatever the command."""
+"""Tests save, record, replay and copies of a terminal; and the JSON output of such sessions."""
 import json
 import os
 import random
@@ -11,7 +11,7 @@ import harness
 
 SCENE = "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
 
-# what a copy of a terminal looks like: reports, carets, hints, times, drawings, continuation lines, a bare last prompt
+# a copy of a terminal: reports, carets, hints, times, drawings, continuation lines, an empty last prompt
 TERMINAL = """$ fret
 fret: partial-slip contact of graded elastic solids; try `demo` or `help`.
 fret> material steel; geometry sphere R=10 mm; friction 0.4
@@ -76,7 +76,7 @@ SCENES = (
     "material steel; second rigid; geometry sum 2:50 m^-1, 4:2e6 m^-3; mu = 0.2; press a=0.1 mm; step dz=1 um dx=20 nm",
     "material PTFE; geometry flat-rounded b=1 mm R=10 mm; friction 0.1; press dz=1 um",
     "k = 0.5, c0 = 2 mm",
-    "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=5 mm; friction 0.4; press FN=100 N; most = dxmax",  # of more digits than are kept
+    "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=5 mm; friction 0.4; press FN=100 N; most = dxmax",  # dxmax has more digits than fit
 )
 ASKED = "show\nshow variables\nset digits 17\nFN, dz, a\nFx, dx, c, W, U\ndW\nkt, kn\nhistory"
 
@@ -210,7 +210,7 @@ def recorded(tests):
 
 
 def quoted(tests):
-    """File names that the language needs quotes for, one that has some, and the longest."""
+    """File names that need quotation marks, one that contains some, and the longest name."""
     where = os.path.join(tests.dir, "quoted")
     os.mkdir(where)
     for name, written in (("a b.csv", '"a b.csv"'), ('a"b.csv', 'a"b.csv')):
@@ -220,7 +220,7 @@ def quoted(tests):
         again = tests.run("-c", "source s.fret; f(0.5 mm)", cwd=where)
         tests.check("saved: " + name, done.returncode == again.returncode == 0 and again.stdout.startswith("f(0.5 mm) = "),
                     tests.report(done) + tests.report(again))
-    # as a name was typed, so it is written: quotes, marks of comments, of ends and of continuation within
+    # names are written as they were typed, with ", #, ; and \ in them
     for name in ('a"b;c.csv', 'a"#b.csv', 'a"b\\', "a\\", "a;b.csv"):
         with open(os.path.join(where, name), "w", encoding="ascii") as f:
             f.write("r [mm],f [um]\n" + "".join("%g,%g\n" % (i / 2, 12.5 * i * i) for i in range(8)))
@@ -269,8 +269,8 @@ def saved(tests):
 
 
 def reordered(tests):
-    """What is shown makes the same scene again: names each after those that they use, angles to the last bit, inputs that no
-    command carries, and definitions of several lines."""
+    """The output of `show` makes the same scene again: names after those that they use, angles to the last bit, inputs that are no
+    arguments of a command, definitions of several lines."""
     for script, want in (
             ("x := 1; y := 2; x := y + 1", "y := 2\nx := y + 1\n"), ("E0 = 210 GPa", "E0 = 210 GPa\n"), ("nu = 0.3", "nu = 0.3\n"),
             ("z := 1 + \\\n2", "z := 1 +   2\n"), ("z := 1 + \\\r\n2", "z := 1 +   2\n"), ("z := 1 + \\\r\r\n2", "z := 1 +    2\n"), ("z := 1 +\r2", "z := 1 + 2\n"),
@@ -295,7 +295,7 @@ PRESSED = "+   FN = 100 N, a = 186.626 um, dz = 3.48291 um"
 
 
 def judged(tests):
-    """What makes a transcript fail and what does not: places of errors, long lines, tables, times, files, an end without answer."""
+    """Differences that make a replay fail, and others: places of errors, long lines, tables, times, files, a missing last answer."""
     long = "set digits 17; table x, " + ", ".join("x^%d" % i for i in range(2, 12)) + " for x = 1 .. 3 steps 2"
     table = tests.run("-c", long).stdout
     accuracy = tests.run("-c", SCENE + "accuracy within 0.001").stdout
@@ -309,7 +309,7 @@ def judged(tests):
             ("fret> %s\nx\n" % long, 0, 1), ("fret> 1 + \\\r\r\n....> 1\n1 + 1 = 2\n", 1, 0), ("fret> x = 2\n....> x\nx = 2\n", 2, 0),
             ("fret> 1\n1 = 1%s\n" % (" 1" * 150), 0, 1), ("fret> 1\n\n  \n1 = 1\n", 0, 1), ("fret> 1\n1 = 1\n\n  \n", 1, 0), ("fret> 1\n", 0, 1),
             ("fret> x = 1\nmore\n", 0, 1), ("fret> 1 + \\\n....> 1 + \\\n....> 1\n1 + 1 + 1 = 3\n", 1, 0),
-            # the next line continues it, by whatever prompt; where there is none it is run as it stands
+            # a continued line takes the next line, with any prompt; at the end of the transcript it is run as it is
             ("fret> 1 + \\\nfret> 2\n1 + 2 = 3\n", 1, 0), ("fret> 1 + \\\n2\n1 + 2 = 3\n", 1, 0), ("fret> x = 2\nfret> x + 1 \\\n", 1, 1), ("fret> x = 2\nfret> y = x + 1 \\\n", 2, 0),
             (press + "\nfret> accuracy within 0.001\n" + accuracy + "fret> 1\n1 = 1\n", 3, 0),
             (press + "\nfret> accuracy within 0.001\nanything\nfret> 1\n1 = 2\n", 2, 1),
@@ -323,7 +323,7 @@ def judged(tests):
     done = tests.run("--format=json", "-c", "replay in.txt; set format text; replay in.txt", cwd=where)
     tests.check("a replay in JSON", done.stdout == '{"text":"in.txt: 1 passed, 0 failed\\u000a"}\nin.txt: 1 passed, 0 failed\n', tests.report(done))
     scene = "fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
-    for lines, now in (  # reports of a terminal have their line beside them; a transcript that has none is not told of them
+    for lines, now in (  # of a failed answer the terminal's reports are shown only if the transcript has some
             ("fret> press FN=100 N\n  FN = 100 N, a = 188 um, dz = 3.48291 um\n", [PRESSED]),
             ("fret> press FN=100 N; cycle FA=20 N\n" + PRESSED[2:] + "\n  dW = 3 uJ, dx = 625.995 nm, c = 148.125 um\n",
              [PRESSED, "+   dW = 1.90646 uJ, Fx = 20 N, dx = 625.995 nm, c = 148.125 um"]),
@@ -363,7 +363,7 @@ def pure(tests):
 
 
 def bytes_in_json(tests):
-    """A file name may hold any byte; JSON only characters."""
+    """A file name may hold any bytes, but JSON only valid characters."""
     name = b"g\xff\xf0\x9f\x98\x80\x7f.csv"
     with open(os.path.join(os.fsencode(tests.dir), name), "wb") as f:
         f.write(b"r [mm],f [um]\n0,0\n1,50\n")
@@ -389,7 +389,7 @@ def targets(tests):
                 text("t.json"))
     tests.check(".txt", "x [mm]" in text("t.txt").splitlines()[0] and text("t.txt").count("\n\n") == 1, text("t.txt"))
     tests.check(".dat", text("t.dat") == text("t.txt"), text("t.dat"))
-    # of two names: a block for each value of the second, upwards and downwards, a value of which may come again
+    # a table over two names: a block for each value of the second, upwards and downwards; a value may come again
     for way, second in (("upwards", "1 .. 3"), ("downwards", "3 .. 1"), ("in one place", "2 .. 2")):
         done = tests.run("-c", "table x*y for x = 1 .. 2 steps 1 for y = %s steps 2 to g.dat" % second, cwd=where)
         blocks = [[list(map(float, row.split())) for row in block.splitlines()] for block in text("g.dat").partition("\n")[2].split("\n\n")]
@@ -414,7 +414,7 @@ def targets(tests):
 
 
 def no_room(tests):
-    """No room for a transcript: told at once, what is there is whole lines, the session goes on; long lines; no room at any moment."""
+    """A full disk while recording: an error at once, the file has only whole lines, the session goes on; long lines; at any moment."""
     where = os.path.join(tests.dir, "no-room")
     os.mkdir(where)
     path = os.path.join(where, "full.txt")
@@ -461,7 +461,7 @@ def no_room(tests):
 
 
 def in_use(tests):
-    """What is open for writing is no target, by whatever name: the file of a recording, and standard output."""
+    """Files that are open for writing are refused as targets under any name: the recording, and standard output."""
     where = os.path.join(tests.dir, "in-use")
     os.mkdir(where)
     data = "FN [N],Fx [N]\n100,0\n100,10\n"

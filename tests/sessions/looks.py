@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures as statements: their points, their looks, measured points, maps, animations, and how the terminal shows them."""
+"""Tests figures: their points, their looks, measured points, maps, animations, and figures in the terminal."""
 import math
 import os
 import random
@@ -15,7 +15,7 @@ A, R = 1.8662555784086242e-4, 0.01
 
 
 def script(tests, name, plots, head=SCENE):
-    """The gnuplot script of a plot, and its data: one list of points a series, None for a gap."""
+    """The gnuplot script of a plot, and its data: a list of points per series, with None for a gap."""
     path = os.path.join(tests.dir, name.replace(" ", "-") + ".gp")
     done = tests.run("-c", head + plots + " to " + path)
     if not tests.check(name, done.returncode == 0, tests.report(done)):
@@ -34,7 +34,7 @@ def fails(tests, statement, message, head=SCENE):
 
 
 def points(tests):
-    """Enough points where a curve bends, no more than asked for, gaps where there is no value."""
+    """Curves have enough points where they bend, no more than asked for, and gaps where there is no value."""
     text, (kink,) = script(tests, "a kink", "plot abs(x-1/3) for x = 0 .. 1")
     tests.check("points at a kink", min(abs(x - 1 / 3) for x, _ in kink) < 1e-3 and len(kink) < 300, str(len(kink)))
     text, (line,) = script(tests, "a line", "plot 2*x for x = 0 .. 1")
@@ -124,7 +124,7 @@ def looks(tests):
 
 
 def parts(tests):
-    """What an axis, a curve and a frame are named and made of where that is not the usual."""
+    """Unusual labels of axes, curves and frames, and what they are made of."""
     text, series = script(tests, "springs of two gradings", "plot springs with k = 0, 0.5")
     titles = re.findall(r'title "(.*?)"', text.rpartition("plot ")[2])
     tests.check("stick and slip of each, bounds as lines", [re.sub(r"[{}/:]|Italic ", "", t) for t in titles] ==
@@ -150,7 +150,7 @@ def parts(tests):
 
 
 def ranges(tests):
-    """A figure over another range than its own; a name with a value is an expression."""
+    """Figures over another range than their own; a name that has a value is taken as an expression."""
     _, (whole,) = script(tests, "the loop", "plot loop")
     _, (last,) = script(tests, "the last period of it", "plot loop along cycle")
     tests.check("a period begins at its peak", whole[0] == (0, 0) and last[0] == last[-1] == whole[-1], str(last[0]))
@@ -272,7 +272,7 @@ def maps(tests):
 
 
 def beside_numbers(tests):
-    """The label of a map's y stands beside its numbers, whatever their width, and within the picture."""
+    """The y label of a map stands beside its numbers, however wide these are, and within the picture."""
     number = re.compile(r'translate\(([\d.]+),[\d.]+\)"[^>]*font-size="([\d.]+)"\s+text-anchor="end">\s*<text>(.*?)</text>')
     label = re.compile(r'translate\(([\d.]+),[\d.]+\) rotate\(270[.0]*\)"[^>]*font-size="([\d.]+)"')
     path = os.path.join(tests.dir, "map.svg")
@@ -357,7 +357,7 @@ def moving(tests):
 
 
 def histories(tests):
-    """Of long ones no turning point is left out between the points that were asked for."""
+    """Figures of long histories leave out no turning point between the points that were asked for."""
     random.seed(11)
     path = os.path.join(tests.dir, "history.csv")
     forces = [(FN, random.uniform(-0.35, 0.35) * FN) for FN in (random.uniform(60, 140) for _ in range(600))]
@@ -404,7 +404,7 @@ def terminals(tests):
 
 
 def formulas(tests):
-    """Signs for words where the locale has them; a transcript of one locale comes out again in another."""
+    """Unicode signs in formulas if the locale has them; a transcript of one locale can be replayed in another."""
     done = tests.run("-c", SCENE + "explain W; explain cN", env={"LC_ALL": "C.UTF-8"})
     plain = tests.run("-c", SCENE + "explain W; explain cN")
     tests.check("a sum of something is English, a sum is a sign", "W = sum of the friction work of all springs, \u222b |c_T u|" in done.stdout and
@@ -419,7 +419,7 @@ def formulas(tests):
 
 
 def gnuplots(tests):
-    """What some versions of gnuplot put around a picture: the cursor sent home, colours that reach over lines."""
+    """What some versions of gnuplot add to a picture: a cursor movement, colours that extend over lines."""
     where = os.path.join(tests.dir, "gnuplots")
     os.mkdir(where)
     path = os.path.join(where, "gnuplot")
@@ -441,7 +441,7 @@ def gnuplots(tests):
 
 
 def bodies(tests):
-    """What leaves the half-space is said, once each time."""
+    """A warning, once each time, if a contact is too wide for half-spaces."""
     head = "material steel; geometry sphere R=10 mm; friction 0.4\n"
     for statements, count in (("press a=2 mm", 0), ("press a=4 mm", 1), ("press a=4 mm; press a=5 mm", 1),
                               ("press a=4 mm; press a=1 mm; R = 2 mm", 2), ("geometry cone angle=19 deg; press FN=1 N", 0),
@@ -453,7 +453,7 @@ def bodies(tests):
 
 
 def pages(tests):
-    """In the terminal: a map of ranges that fall, tics up to the end of a tall page, lines that leave the frame, limits below 0."""
+    """Figures in the terminal: a map over falling ranges, tics up to the end of a tall page, lines that leave the frame, limits below 0."""
     rising, falling = (tests.run("-c", "set plot 60x20; plot map x^2 + 1.37*y + 0.123 for x = %s for y = %s" % ranges).stdout
                        for ranges in (("1 .. 3", "0 .. 5"), ("3 .. 1", "5 .. 0")))
     tests.check("a map of falling ranges is that of rising ones", rising == falling and re.search("4.*5.*6", rising), rising + falling)
@@ -488,8 +488,8 @@ def pages(tests):
 
 
 def regimes(tests):
-    """Borders by Hertz and Mindlin: delta_max = mu (2-nu)/(2 (1-nu)) a^2/R, a^3 = 3 F R/(4 E*); c = a/2 at 3/4 of it, and at
-    7/8 of mu F, which a rig adds over its stiffness."""
+    """`plot regimes` against Hertz and Mindlin: delta_max = mu (2-nu)/(2 (1-nu)) a^2/R, a^3 = 3 F R/(4 E*); c = a/2 at 3/4 delta_max, and
+    at 7/8 mu F; a rig adds the force over its stiffness."""
     for i, ranges in enumerate(("for dxA = 0 um .. 3 um for FN = 1 N .. 200 N", "for FN = 1 N .. 200 N for dxA = 0 um .. 3 um",
                                 "for drigA = 0 um .. 4 um for FN = 1 N .. 200 N")):
         across, per_K = i % 2, 1e6 / 80e6 if "drigA" in ranges else 0

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers that do not come from the program: a published table at full precision, formulas written
-afresh (Mathematics 2022, 10, 3641), quadrature of the definitions, and a plain model of many springs."""
+"""Compares the program with independent numbers: a published table at full precision, the formulas of the paper (Mathematics 2022,
+10, 3641) programmed again, quadrature of the definitions, and a simple model of many springs."""
 import functools
 import math
 import os
@@ -19,7 +19,7 @@ STEEL = dict(E0=210e9, nu=0.3, c0=1e-3, mu=0.4, FN=100.0)
 
 
 def values(tests, script):
-    """What the script prints, by name, in SI."""
+    """The values that the script prints, {name: value in SI units}."""
     done = tests.run("--format=json", "-c", script)
     if done.returncode:
         tests.check("numbers: " + script, False, tests.report(done))
@@ -34,7 +34,7 @@ def close(tests, name, want, got, tolerance):
 
 
 def coefficients(k, nu):
-    """h_N, h_T (A1)-(A3), as printed."""
+    """h_N and h_T by (A1)-(A3), as printed."""
     beta = math.sqrt((1 + k) * (1 - k * nu / (1 - nu)))
     C = 2 ** (1 + k) * gamma((3 + k + beta) / 2) * gamma((3 + k - beta) / 2) / (pi * gamma(2 + k))
     ck, sb, G = math.cos(k * pi / 2), math.sin(beta * pi / 2), gamma(1 + k / 2)
@@ -44,7 +44,7 @@ def coefficients(k, nu):
 
 
 def integral(f, a, b, power=1.0):
-    """int_a^b f, tanh-sinh; f(x, distance to a, distance to b) may be singular at the ends."""
+    """int_a^b f by tanh-sinh quadrature; f(x, distance to a, distance to b) may be singular at the ends."""
     h, total = 1 / 64, 0.0
     for i in range(-64 * 5, 64 * 5 + 1):
         t = i * h
@@ -90,15 +90,14 @@ def published(tests):
     for name, want in {"a": 0.148125e-3, "dz": 4.38819e-6, "c/a": 0.79370, "dx": 0.591529e-6,
                        "dW(15 N)": 1.35112e-6}.items():
         close(tests, "two spheres: " + name, want, got.get(name), 1e-5)
-    # A spring model taken in 80 steps gives 280.2 and 1319.6 nJ, as published; the sine itself gives these, by
-    # scripts/reference/swinging.py:
+    # A spring model in 80 steps gives 280.2 and 1319.6 nJ, as published; the exact sine gives these (scripts/reference/swinging.py):
     for phase, want in ((0, 2.7815519029552038301e-7), (90, 1.3565415339292387208e-6)):
         got = values(tests, spheres + "cycle FA=12 N FNA=30 N phase=%d deg times 2 steps 80; dW" % phase)
         close(tests, "two spheres, swinging normal force, phase %d: dW" % phase, want, got.get("dW"), 1e-10)
 
 
 def corners(tests):
-    """The corners of the domain, through the language: every scalar within one unit in the last place."""
+    """The corners of the domain, by statements: every scalar within one unit in the last place."""
     path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../reference/corners.csv")
     with open(path, encoding="ascii") as f:
         rows = [line.rstrip("\n").split(",") for line in f if not line.startswith("#")]
@@ -137,7 +136,7 @@ def material(tests):
 
 @functools.lru_cache(None)  # once for both builds
 def by_quadrature(command, k):
-    """A contact of radius 0.3 mm that sticks within c: depth, F_N, c, F_x, delta_x, loss of a closed cycle."""
+    """A contact of radius 0.3 mm with stick radius c: depth, F_N, c, F_x, delta_x, loss of a closed cycle."""
     slope, start = SHAPES[command]
     hN, hT = coefficients(k, 0.3) if k else (1, 2 / (1.3 * 1.7))
     cN = hN * 210e9 / (2 * (1 - 0.09)) * 1e-3 ** -k
@@ -176,7 +175,7 @@ def shapes(tests):
 
 
 def gap_file(tests):
-    """Equal steps of a paraboloid, which the interpolation brings back: f itself, and what follows from it."""
+    """A table of a paraboloid in equal steps, which the interpolation reproduces: f, and the quantities of the contact."""
     where = os.path.join(tests.dir, "paraboloid.csv")
     with open(where, "w", encoding="ascii") as f:
         f.write("r [mm],f [um]\n" + "".join("%d,%d\n" % (r, 50 * r * r) for r in range(9)))
@@ -205,8 +204,8 @@ def numbers_of(tests, script):
 
 
 def dense_file(tests):
-    """So many rows that the law of the gap is that of all of them together: what follows is that of the formula. Nine
-    digits of f leave less."""
+    """A table with so many rows that its law is fitted to all of them: the results are those of the formula; with f to nine digits,
+    less accurate."""
     statements = """press FN=100 N; dz, a; dW(2 N), dW(10 N), dWd(1 um); step Fx=20 N; c, dx, W
         step FN=90 N Fx=-12 N; c, dx, W; table dW(F), c(F) for F = 5 N .. 35 N steps 40
         press FN=100 N; cycle FA=15 N FNA=20 N phase=60 deg; dW"""
@@ -227,7 +226,7 @@ def dense_file(tests):
 
 
 def dense_fields(tests):
-    """The same for what is told of places: of so many rows pieces are made, whose second derivative tells."""
+    """The same for local fields: so many rows are replaced by pieces, whose second derivative matters."""
     where = os.path.join(tests.dir, "dense-sum.csv")
     with open(where, "w", encoding="ascii") as f:
         f.write("r [m],f [m]\n")
@@ -246,7 +245,7 @@ def dense_fields(tests):
 
 
 def tip_in_rows(tests):
-    """The middle of a contact, where rows of a table meet: as of the cone whose rows they are."""
+    """The centre of a contact with a table of a cone: as for the cone."""
     where = os.path.join(tests.dir, "tip.csv")
     with open(where, "w", encoding="ascii") as f:
         f.write("r [m],f [m]\n" + "".join("%.17g,%.17g\n" % (i * 1e-5, i * 2e-7) for i in range(60)))
@@ -258,7 +257,7 @@ def tip_in_rows(tests):
 
 
 def whole_gap(tests):
-    """A contact that reaches the last row of its gap is carried when its own depth or load is given back."""
+    """A contact that reaches the last row of its table is possible when pressed again by its own depth or load."""
     where = os.path.join(tests.dir, "whole.csv")
     with open(where, "w", encoding="ascii") as f:
         f.write("r [mm],f [um]\n" + "".join("%.17g,%.17g\n" % (i / 7, 50 * (i / 7) ** 2) for i in range(8)))
@@ -275,8 +274,8 @@ def whole_gap(tests):
 
 
 def swinging_rows(tests):
-    """Rows of six digits under forces that both swing, by little: what slips is thinner than the digits of a load.
-    The power law that they are rounded from is not far."""
+    """A table with six digits, with both forces swinging a little: the slip annulus is thinner than the digits of a load resolve. The
+    results are close to those of the power law that was rounded."""
     where = os.path.join(tests.dir, "rounded.csv")
     with open(where, "w", encoding="ascii") as f:
         f.write("r [mm],f [um]\n" + "".join("%.6g,%.6g\n" % (i / 25, 30 * (i / 25) ** 1.5) for i in range(51)))
@@ -289,7 +288,7 @@ def swinging_rows(tests):
 
 
 def hardly_moved_rows(tests):
-    """An edge that moves by little more than the digits of its place dissipates as one that stays."""
+    """A contact edge that moves by little more than the rounding of its position dissipates as one that does not move."""
     where = os.path.join(tests.dir, "hardly.csv")
     with open(where, "w", encoding="ascii") as f:
         f.write("r [m],f [m]\n0,0\n1e-4,1e-8\n2e-4,7e-8\n5e-4,6e-7\n")
@@ -304,7 +303,7 @@ def hardly_moved_rows(tests):
 
 
 class Springs:
-    """A plain model: many springs, each slides when its force would exceed mu times its normal force."""
+    """A simple model: many springs, each of which slides when its force would exceed mu times its normal force."""
 
     def __init__(self, count, k=0.0, eta=1.0):
         self.eta, self.count = eta, count
@@ -334,7 +333,7 @@ class Springs:
             self.dz, self.dx = z, x
 
     def to_rig(self, dz, d, K):
-        """To delta_x + F_x/K = d, in one step: by the secant, on copies."""
+        """Goes to delta_x + F_x/K = d in one step, found by the secant method on copies."""
         before, last = (self.u[:], self.dz, self.dx, self.W), (self.dx, d)
         for _ in range(12):
             off = []
@@ -367,7 +366,7 @@ def by_springs(k):
 
 
 def histories(tests):
-    """Oblique histories by displacement, against springs."""
+    """Oblique histories by displacements, against springs."""
     for k in tests.some((0.5, 0.0, -0.3)):
         script = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry sphere R=10 mm; friction 0.4; press dz=3 um\n" % k
         for i, ((z, x), (FN, Fx, W)) in enumerate(zip(PATH, by_springs(k))):
@@ -383,8 +382,7 @@ def histories(tests):
 
 
 def rig(tests):
-    """By the displacement at the rig a history is the same; a loop over it has the same area; a swinging F_N against
-    springs."""
+    """A history driven at the rig is the same history; a loop over drig has the same area; a swinging F_N, against springs."""
     K, names = 80e6, ("Fx", "dx", "dz", "W", "U", "c")
     for k in tests.some((0.5, 0.0, -0.3)):
         scene = "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry sphere R=10 mm; friction 0.4; rig stiffness=80 N/um\n" % k
@@ -397,7 +395,7 @@ def rig(tests):
             for name in names:
                 close(tests, "rig, k = %g, step %d: %s" % (k, i + 1, name), want[name], got.get(name), 1e-13 if name != "W" else 1e-12)
             close(tests, "rig, k = %g, step %d: drig" % (k, i + 1), want["dx"] + want["Fx"] / K, want["drig"], 1e-15)
-        for amplitude in ("1.3 um", "4 um"):  # some slips; all slides
+        for amplitude in ("1.3 um", "4 um"):  # partial slip; gross slip
             M = 400
             done = tests.run("--format=json", "-c", scene + "press dz=3 um; cycle drigA=%s\ntable drig, dx, Fx, dW along cycle steps %d" % (amplitude, M))
             rows = [row for row in harness.told(done.stdout) if "time" in row]
@@ -431,7 +429,7 @@ RAMPS = ("FN=180 N dx=-0.3 um", "dz=2 um Fx=8 N", "FN=60 N dx+=0.5 um", "dz=6 um
 
 
 def on_the_way(tests):
-    """Points on the way change no end, and between them F_x does the work that is stored and dissipated."""
+    """Intermediate points do not change the end state, and between them the work of F_x is what is stored and dissipated."""
     scene = "material E0=210 GPa nu=0.3 k=0.3 c0=1 mm; geometry %s; friction 0.35; press FN=100 N\n"
     for shape in tests.some(("flat-rounded b=0.1 mm R=10 mm", "sphere R=10 mm", "exact-sphere R=10 mm")):
         before = scene % shape
@@ -454,11 +452,11 @@ def on_the_way(tests):
 
 
 def integrals(tests):
-    """The pressure bears the force, whatever the shape; for k < 0 it is infinite at the edge of a flat end."""
+    """The integral of the pressure is the force, for every shape; for k < 0 the pressure is infinite at the edge of a flat end."""
     shapes = list(SHAPES) + ["flat-cone b=0.2 mm slope=0.001", "flat-paraboloid b=0.2 mm R=500 mm"]
     for command, k in tests.some(((command, k) for k in (-0.9, -0.5, -0.2, 0.0, 0.3, 0.8) for command in shapes), 12):
         if k < -0.5 and "flat-" in command and "0.001" not in command and "500" not in command:
-            continue  # it ends with the flat end, to the last digit
+            continue  # the contact ends at the flat end, to the last digit
         got = values(tests, "material E0=210 GPa nu=0.3 k=%g c0=1 mm; geometry %s; friction 0.4; press FN=100 N\nstep Fx=25 N\n"
                      "(integral 2*pi*r*p(r) for r = 0 m .. a), (integral pi*abs(r)*p(abs(r)) for r = -2*a .. a), "
                      "(integral 2*pi*r*qx(r) for r = 0 m .. a)" % (k, command))
@@ -469,8 +467,8 @@ def integrals(tests):
 
 
 def slivers(tests):
-    """Of a contact that reaches but a hair beyond a flat end p has two laws there, one nearer than the hair: the integral holds
-    as long as a radius tells the hair; below, what `explain` says of it, or it is refused."""
+    """A contact that reaches only a little beyond a flat end: p follows another law within that distance. Its integral is right as long
+    as a double resolves the distance; below, within the error that `explain` states, or it is refused."""
     steep = ("flat-cone b=0.2 mm slope=0.05", "flat-cone b=0.2 mm slope=1", "flat-paraboloid b=0.2 mm R=1 mm",
              "flat-paraboloid b=0.2 mm R=10 mm", "flat-paraboloid b=0.2 mm R=100 mm", "flat-rounded b=0.2 mm R=0.1 mm")
     told = 0
@@ -494,8 +492,8 @@ def slivers(tests):
 
 
 def stiffened(tests):
-    """A rigid punch that sticks is (1-nu) ln(3-4nu)/(1-2nu) times as stiff (Mossakovskii; Handbook of Contact Mechanics, (2.141);
-    any shape, Spence 1968): what the warning says of it, and that it says nothing where there is nothing to say."""
+    """The warning for dissimilar bodies: without slip a rigid punch is (1-nu) ln(3-4nu)/(1-2nu) times as stiff (Mossakovskii; Handbook
+    of Contact Mechanics, (2.141); any shape, Spence 1968). No warning where this does not apply."""
     for nu in (-0.3, 0.0, 0.1, 0.2, 1 / 3, 0.4, 0.45):
         part = 100 * ((1 - nu) * math.log(3 - 4 * nu) / (1 - 2 * nu) - 1)
         done = tests.run("-c", "material E0=1 GPa nu=%.17g; second rigid; geometry sphere R=10 mm; friction 0.4; press FN=1 N; step Fx=0.1 N" % nu)

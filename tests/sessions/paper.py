@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scripts of the paper's figures: their numbers against tests/reference/figures.csv, and what must be seen in them."""
+"""Tests the scripts of the paper's figures: their numbers against tests/reference/figures.csv, and the trends that they show."""
 import csv
 import decimal
 import glob
@@ -23,7 +23,7 @@ def scripts():
 
 
 def reference():
-    """By panel and curve: rows of numbers."""
+    """{panel: {curve: rows of numbers}}"""
     rows = {}
     with open(os.path.join(harness.ROOT, "tests/reference/figures.csv"), encoding="utf-8") as f:
         for row in csv.DictReader(line for line in f if not line.startswith("#")):
@@ -33,12 +33,12 @@ def reference():
 
 
 def objects(done):
-    """What is printed, without what press and cycle report of themselves."""
+    """The JSON objects printed, without the reports of press and cycle."""
     return [row for row in harness.told(done.stdout) if "event" not in row]
 
 
 def table_of(plot, steps):
-    """The plot as a table of its abscissa and its ordinate, and the values of its curves."""
+    """A table statement with the abscissa and ordinate of the plot, and the values of its curves."""
     if plot.startswith("plot E with"):
         plot = plot.replace("plot E", "plot z/c0 against E(z)/E0 for z = 0 m .. 2*c0")
     found = re.match(r"plot (.*?)(?: against (.*?))? (for|along) (.*?)(?: with (\w+)=(.*?))?(?: xlabel .*)?$", plot)
@@ -49,7 +49,7 @@ def table_of(plot, steps):
 
 
 def curves_of(tests, panel, lines, steps):
-    """The points of each curve as the script's plot makes them."""
+    """The points of each curve of the script's plot."""
     table, values, name = table_of(lines[-1], steps)
     done = tests.run("--format=json", "-c", "\n".join(lines[:-1] + [table]))
     if not tests.check("fig. %s runs" % panel, done.returncode == 0, tests.report(done)):
@@ -65,7 +65,7 @@ def curves_of(tests, panel, lines, steps):
 
 
 def near(want, got, scale):
-    """To 1e-12 of the number, or of the curve where it goes through 0."""
+    """Equal to 1e-12 of the number, or, near a zero of the curve, of the curve?"""
     return got is not None and abs(want - got) <= TOLERANCE * max(abs(want), 0.01 * scale)
 
 
@@ -90,7 +90,7 @@ def ordered(tests, name, ends):
 
 
 def seen(tests, all_curves):
-    """Larger k: softer, more loss; larger c0: for k > 0 softer and more loss, for k < 0 stiffer and less."""
+    """Trends: larger k is softer with more loss; larger c0 is softer with more loss for k > 0, stiffer with less for k < 0."""
     ks = ("-0.7", "-0.5", "0", "0.5", "0.7")
     ratios = ("0.5", "1", "2")
     for n in ("7", "9"):
@@ -111,7 +111,7 @@ def seen(tests, all_curves):
 
 
 def losses(tests, found):
-    """(27) against the loop that is run, W1D against (22), and Mindlin and Deresiewicz (28)."""
+    """(27) against the loop that is run, W1D against (22), and (28), Mindlin and Deresiewicz."""
     for name in ("fig07b", "fig09b"):
         for k in ("-0.7", "-0.5", "0", "0.5", "0.7"):
             script = "\n".join(found[name][:-1] + [
@@ -145,7 +145,7 @@ def losses(tests, found):
 
 
 def demos(tests, found):
-    """Each plays from inside the program, in any folder; undo brings back the scene before it."""
+    """`demo` plays each script, in any directory; undo brings back the scene before it."""
     def one(name):
         done = tests.run("-c", "mu = 0.123\ndemo %s\nundo; mu" % name, cwd=tests.dir)
         drawn = found[name][-1].startswith("animate") or "+--" in done.stdout
@@ -157,7 +157,7 @@ def demos(tests, found):
     tests.check("a demo that is none", "did you mean fig07a?" in wrong.stderr, tests.report(wrong))
 
 
-# The equation that `explain` must name: of a power law on first loading and later, of another shape, of a history.
+# Equations that `explain` must cite: for a power law on first loading and later, another shape, a history.
 PRESSED = "material E0=100 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=10 mm; friction 0.5; press FN=100 N"
 SHAPED = PRESSED.replace("sphere", "exact-sphere")
 BY_CASE = (
@@ -179,7 +179,7 @@ BY_CASE = (
 
 
 def equations(tests):
-    """`help paper` lists every number, and `explain` names the right one."""
+    """`help paper` lists every equation, and `explain` cites the right one."""
     want = ["(%d)" % i for i in range(1, 29)] + ["(A%d)" % i for i in range(1, 4)]
     listed = tests.run("-c", "help paper").stdout.split("Slips", 1)[0]
     numbers = re.findall(r"^(\(A?\d+\))  +\S", listed, re.M)
@@ -211,7 +211,7 @@ def run(tests):
         if name == "11":
             continue
         curves[name] = panel(tests, name, found[panels[name]], want[name])
-    # the spring of figure 11: its load over its bound, and its slip
+    # the spring of figure 11: its force over its bound, and its slip
     lines = found["fig11"][:-1] + ["plot qx1D(x1) against s1D(x1) along cycle FA=0.9*mu*FN"]
     panel(tests, "11", lines, want["11"])
     if all(curves.values()):

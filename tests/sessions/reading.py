@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables as spreadsheets and instruments write them."""
+"""Tests reading tables in the variants that spreadsheets and instruments write."""
 
 SCENE = "material steel; friction 0.4; "
 PLAIN = b"r [mm],f [um]\n0,0\n0.5,12.5\n1,50\n"
-# the same gap as PLAIN
+# other texts of the gap of PLAIN
 SAME = {
     "a byte-order mark, semicolons, decimal commas, CR LF": b"\xef\xbb\xbfr [mm];f [um]\r\n0;0\r\n0,5;12,5\r\n1;50\r\n",
     "quoted fields, the micro sign of Latin-1": b'"r [mm]","f [\xb5m]"\n0,0\n"0,5","12,5"\n1,50\n',
@@ -109,7 +109,7 @@ WRONG = {
 
 
 def scripts(tests):
-    """Scripts and transcripts as Windows' editors save them."""
+    """Scripts and transcripts as saved by editors on Windows."""
     for coding in "utf-8", "utf-16-le", "utf-16-be":
         script = "\ufefffret> x = 3 \u00b5m\r\nx # \u20ac\r\nfoo\r\n".encode(coding)
         with tests.file(script) as path:

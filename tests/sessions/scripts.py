@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program in scripts: files, options, output files, pictures, the demos."""
+"""Tests the program in scripts: input files, options, output files, pictures, tables, lessons."""
 import csv
 import glob
 import json
@@ -157,7 +157,7 @@ def pictures(tests):
 
 
 def read_tables(tests):
-    """A gap and a history from CSV: the same answers as by formula and by hand; what is wrong is named."""
+    """A gap and a history from CSV give the same answers as a formula and typed steps; errors name what is wrong."""
     gap = "r [mm],f [um]\n" + "".join("%.17g,%.17g\n" % (1e-2 * i, (1e-2 * i) ** 2 * 50) for i in range(101))
     names = "a, dz, c, dx, dW(20 N), g(0.5 mm)"
     with tests.file(gap) as path:
@@ -169,7 +169,7 @@ def read_tables(tests):
         tests.check("a table too short", "FN = 1 MN cannot be carried: the gap supports contact radii up to 1 mm"
                     in done.stderr and done.returncode == 1, tests.report(done))
     rounded = "r [mm],f [um]\n" + "".join("%.7g,%.6g\n" % (i / 1e4, (i / 1e4) ** 2 * 100 / 3) for i in range(10001))
-    rippled = SCENE + "c0 = 1 mm; k = -0.9; geometry file %s" # as that of a gap is, but for the rounding of its rows
+    rippled = SCENE + "c0 = 1 mm; k = -0.9; geometry file %s" # as the formula's gap is, but for the rounding of its rows
     with tests.file(rounded) as path:
         done = tests.run("-c", rippled % path)
         tests.check("a profile that ripples", "begins to fall" in done.stderr and "it has risen again" in done.stderr and
@@ -202,7 +202,7 @@ def read_tables(tests):
         done = tests.run("--keep-going", "-c", SCENE + "follow %s\nFN, Fx" % path)
         tests.check("follow all or nothing", done.stdout == "FN = 100 N\nFx = 0 N\n" and "(row 2 of " in done.stderr,
                     tests.report(done))
-    # more rows than are taken together, against steps one by one
+    # more rows than are processed together, against single steps
     rows = ["%.6f,%.6f" % (100 + 10*math.sin(0.013*i), 15*math.sin(0.37*i) + 8*math.sin(0.0113*i)) for i in range(9000)]
     steps = "\n".join("step FN=%s N Fx=%s N" % tuple(row.split(",")) for row in rows)
     with tests.file("FN [N],Fx [N]\n" + "\n".join(rows)) as path:
@@ -239,7 +239,8 @@ def read_tables(tests):
 
 
 def histories(tests):
-    """What `history` writes has both pairs of columns. The forces drive, or dx where it is held or the contact slides; what does not agree is told."""
+    """A file written by `history` has forces and displacements. The forces drive, or dx if it is held or the contact slides; rows that
+    do not agree are reported."""
     where = os.path.join(tests.dir, "histories")
     os.makedirs(where)
     bare = SCENE.rsplit(";", 1)[0]
@@ -277,7 +278,7 @@ def histories(tests):
 
 
 def table_rows(done):
-    """Heads and rows of a CSV table, as text."""
+    """The heads and rows of a CSV table, as text."""
     rows = list(csv.reader(done.stdout.splitlines()))
     return rows[:1], rows[1:]
 
@@ -326,7 +327,7 @@ def long_tables(tests):
 
 
 def gaps_in_tables(tests):
-    """A value that cannot be had is a gap, also in the middle of a block, and one note says why."""
+    """A value that does not exist is a gap, also in the middle of a block, and one note says why."""
     for expression, sweep, gap, why in (
             ("dW(F)", "F = 1 N .. 71 N steps 1400", lambda i: i > 780, "gross slip"),
             ("F, c(F)", "F = 0.05 N .. 60.05 N steps 1200", lambda i: i >= 800, "gross slip"),
@@ -350,7 +351,7 @@ def gaps_in_tables(tests):
 
 
 def failing_tables(tests):
-    """Dimensions that do not fit end a table: the rows before it are there, and the message names its row."""
+    """A wrong dimension ends a table: the rows before are written, and the message names the row."""
     for expression, sweep, rows, where in (
             ("(2 m)^x in m", "x = 1 .. 2 steps 1000", 1, "cannot be shown in m (at x = 1.001)"),
             ("x + 1 mm", "x = 0 .. 1 N steps 1000", 0, "cannot add a length (1 mm) to a force (x) (at x = "),
@@ -363,7 +364,7 @@ def failing_tables(tests):
 
 
 def digits(tests):
-    """Numbers of tables are written as printf writes them."""
+    """Numbers in tables are those of printf."""
     sweeps = ("x, -x for x = 1e-30 .. 1e30 steps 3000 log", "x for x = -2 .. 2 steps 1000", "x for x = 0 .. 1e17 steps 997",
               "x+0.5, x*1e5+0.5 for x = 0 .. 700 steps 700", "10^x, 10^x-10^(x-17) for x = -40 .. 40 steps 80",
               "x for x = 1e-308 .. 1e-300 steps 300", "x for x = 0.99999949 .. 0.99999951 steps 400")
@@ -379,7 +380,7 @@ def digits(tests):
 
 
 def shown_scenes(tests):
-    """What show prints makes the same scene again, to the last digit."""
+    """The output of `show` makes the same scene again, to the last digit."""
     scene = ("material E0=210.123456789 GPa nu=1/3 k=-0.1 c0=1.1 um; second E0=1e11/3*1 Pa nu=0; friction 1/3\n"
              "geometry sum 2:50.00000001 m^-1, 4.5:2e6/7*1 m^-3.5; press FN=100/3*1 N; x = -1/3*1 m\n"
              "step Fx+=-1/7*1 N dz+=1 nm; cycle FA=1.23456789 N FNA=1 N phase=33.3 deg times 3\n")
@@ -391,7 +392,7 @@ def shown_scenes(tests):
 
 
 def waiting_steps(tests):
-    """Steps that wait for a question give the answers of steps that are asked one by one."""
+    """Steps that are run only when a question comes give the answers of steps run one by one."""
     steps = ["step dx=1 um", "step dx=-0.3 um", "step dx=0.4 um", "step Fx=3 N", "step dx=0.2 um", "step dx+=0.1 um",
              "step FN=80 N", "step dx=-3 um", "k = 0.2; c0 = 1 mm", "c0 = 1 mm; k = 0.2", "step dx=0.5 um",
              "cycle dxA=0.4 um", "step dx=1 um", "press FN=50 N", "step dx=1 um", "step dx=-1 um", "mu = 0.2",
@@ -411,7 +412,7 @@ def waiting_steps(tests):
 
 
 def taken_back(tests):
-    """A script and a history are one change each, whatever they hold; a script that fails has changed what it says."""
+    """For undo a script (`source`) or a history (`follow`) is one change; a script that fails has made the changes before its error."""
     with tests.file("k = 0.3, c0 = 1 mm\nx = 5\nmu = 0.2\npress FN=30 N\nundo\nx = 6\n") as script, \
             tests.file("foo = 1\nmu = 7 N\n") as bad, tests.file("FN [N],Fx [N]\n100,0\n100,10\n90,5\n") as rows:
         done = tests.run("-c", SCENE + "source %s\nk, x, mu, FN\nundo\nk, mu, FN\nx" % script)
@@ -439,7 +440,7 @@ def many_variables(tests):
 
 
 def demos(tests):
-    """Each lesson is a transcript; `demo` plays it, drawings included; its scene stays, the settings and names are the user's."""
+    """Each lesson is a transcript that `demo` plays, drawings included; the scene stays, but settings and names are the user's."""
     paths = sorted(glob.glob(os.path.join(harness.ROOT, "scripts", "demos", "*.txt")))
     tests.check("there are demos", len(paths) > 10)
     listed = tests.run("-c", "show demos").stdout.splitlines()
@@ -452,7 +453,7 @@ def demos(tests):
 
 
 def path_of_lessons(tests, listed):
-    """The teacher's page has them all."""
+    """`help teaching` lists all lessons."""
     names = [row.split()[0] for row in listed]
     order = ["pressing", "sticking", "sliding", "loop", "memory", "energy", "grading", "shapes", "swinging", "damper"]
     tests.check("the lessons' order", names[1:11] == order, str(names))
@@ -482,7 +483,7 @@ MISTAKES = ((3, "unknown command 'materal'"), (5, "b is no parameter"), (6, "exp
 
 
 def own_lessons(tests):
-    """A stranger's file: played, or refused line by line; a page of it."""
+    """A lesson in a file of the user: played, or refused with the mistakes of each line; and written to a page."""
     ball = "A ball\n\n# How wide?\nmaterial steel; geometry sphere R=10 mm; friction 0.4\npress FN=100 N\nask \"a?\" = a within 5 % hint \"Hertz <&>\"\nplot pressure\nstep Fx=50 N # refused\n"
     as_transcript = "A ball\n\n" + "".join("fret> %s\n%s" % (line, "a = 3 um\n" if line == "press FN=100 N" else "") for line in ball.split("\n")[2:-1])
     said = []
@@ -538,7 +539,7 @@ def own_lessons(tests):
 
 
 def handout(tests, name, path, questions, figures):
-    """One file, well-formed, nothing fetched; its words."""
+    """A lesson as an HTML page: one well-formed file that loads nothing, and its text."""
     with open(path, encoding="utf-8") as f:
         text = f.read()
     root = xml.etree.ElementTree.fromstring(text)
@@ -571,7 +572,7 @@ def lesson(tests, path, row, after):
                     steps[0][0].startswith("#") and any("?" in s for s in remarks) and
                     any(s.startswith("# The paper: (") for s in remarks) and any(map(harness.draws, statements)), text)
         tests.check("%s has questions" % name, len(questions) > 1 and all(" hint " in s for s, _ in questions), text)
-        minutes = sum(len(s.split()) for s in remarks) / 200 + 0.25 * len(statements) + len(questions)  # silent reading, a look, a guess
+        minutes = sum(len(s.split()) for s in remarks) / 200 + 0.25 * len(statements) + len(questions)  # time to read, to look, to guess
         tests.check("%s takes ten minutes" % name, minutes < 10, "%.1f" % minutes)
     tests.check("%s fits 80 columns" % name, all(len(s) <= 78 for s in remarks), "\n".join(remarks))
     done = tests.run("-c", "demo " + name)
@@ -607,7 +608,7 @@ def lessons_aside(tests):
 
 
 def own_words(tests):
-    """A word of a command stays one behind a number where it is a variable, too."""
+    """A word of a command after a number is that word, even if it is a variable, too."""
     where = os.path.join(tests.dir, "own words.csv")
     for word, statement, row in (("to", 'table x^2 for x = 1 .. 2 steps 1 to "%s"' % where, "2,4"),
                                  ("with", 'table x^2 for x = 1 .. 2 steps 1 with y = 1 to "%s"' % where, "2,1,4"),
@@ -620,7 +621,7 @@ def own_words(tests):
 
 
 def published(tests):
-    """Numbers of others agree, and one that does not is seen."""
+    """scripts/published: published numbers agree, and a wrong one is noticed."""
     env = {**tests.env, "FRET": tests.fret}
     path = os.path.join(harness.ROOT, "scripts", "published")
     done = subprocess.run(["sh", path], capture_output=True, text=True, env=env)

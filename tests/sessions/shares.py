@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""fret --part I/N: what the shares write, one after the other, is what the whole run writes, whatever N."""
+"""Tests fret --part I/N: for every N the output of all shares, one after the other, is the output of the whole run."""
 import os
 import re
 import shutil
@@ -32,14 +32,14 @@ def share(tests, number, of, script, form):
 
 
 def put_together(tests, of, script, form):
-    """By cat, if none has failed."""
+    """The output of all shares, joined, if none has failed."""
     done = [share(tests, i + 1, of, script, form) for i in range(of)]
     failed = [one for one in done if one.returncode]
     return tests.report(failed[0]) if failed else "".join(one.stdout for one in done)
 
 
 def rows_alone(text):
-    """Without the rms of a comparison: no share has seen all rows."""
+    """The text without the rms of a comparison, which needs all rows."""
     return "".join(line for line in text.splitlines(keepends=True) if "rms" not in line)
 
 
@@ -50,21 +50,21 @@ def tables(tests):
     for statement in ROWS:
         script = "%s; %s" % (GRADED, statement)
         for form in ("csv", "json"):
-            # the values of a map are those of the table over its ranges
+            # a map has the values of a table over its ranges
             whole = tests.run("--format=" + form, "-c", re.sub("plot map (.*) title [^;]*", r"table \1", script))
             for of in COUNTS:
                 got, want = put_together(tests, of, script, form), rows_alone(whole.stdout) if of > 1 else whole.stdout
                 tests.check("%s, %s, by %d" % (statement, form, of), whole.returncode == 0 and got == want, harness.diff(want, got))
     script = "%s; %s" % (GRADED, GAPS)
     whole = tests.run("--format=csv", "-c", script).stdout
-    for of in COUNTS:  # some shares have no value at all
+    for of in COUNTS:  # some shares have no value
         tests.check("gaps by %d" % of, put_together(tests, of, script, "csv") == whole)
     sizes = [len(share(tests, i, 5, GRADED + "; table a for k = 0 .. 0.5 steps 11", "csv").stdout.splitlines()) for i in range(1, 6)]
     tests.check("shares of a size", sizes == [1 + 3, 3, 2, 2, 2], str(sizes))
 
 
 def samples(tests):
-    """The sum of the shares' samples is the answer of who draws them all."""
+    """The samples of all shares together are those of the whole run."""
     script = "%s; %s" % (GRADED, SAMPLES)
     whole = tests.run("-c", script)
     drawn = {}
@@ -79,7 +79,7 @@ def samples(tests):
     rows = [line.split(",") for line in drawn[1].splitlines()[1:]]
     radii = [float(row[1]) for row in rows if row[1]]
     tests.check("no two alike", len(set(radii)) == len(radii))
-    # mean and deviation of a straight question, of 1e5 samples: within four standard errors
+    # mean and deviation of a linear expression from 1e5 samples: within four standard errors
     done = tests.run("--format=json", "-c", "x = 3; y = 1; uncertainty x + 0*y, y - x with x +- 0.5, y +- 2 samples 100000")
     events = [row for row in harness.told(done.stdout) if "event" in row]
     for event, mean, deviation in zip(events, (3, -2), (0.5, 4.25 ** 0.5)):
@@ -127,7 +127,7 @@ def refused(tests):
     tests.check("a share and a full disk", done.returncode == 1 and "No space left" in done.stderr, done.stderr)
 
 
-# The first time share 2 breaks off, half of it written.
+# At the first attempt share 2 fails after half of its output.
 FAILING = """#!/bin/sh
 case " $* " in *" --part 2/"*)
     if mkdir failed 2> /dev/null; then "$FRET" "$@" | head -c 100; exit 1; fi ;;
@@ -137,7 +137,7 @@ exec "$FRET" "$@"
 
 
 def by_others(tests):
-    """Under GNU parallel as README has it, and as a SLURM array as help has it."""
+    """Shares run by GNU parallel, as in README.md, and as a SLURM array, as in help."""
     with open(os.path.join(harness.ROOT, "README.md"), encoding="utf-8") as f:
         readme = f.read()
     parallel = re.search(r"^    (seq 8 \| parallel .*)$", readme, re.M).group(1)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Work shared among processes: the same characters from any number of them, whatever becomes of them, and none left."""
+"""Tests work shared among processes (`set cores`): the output is the same for any number of processes, also if some die, and no process
+is left behind."""
 import errno
 import os
 import re
@@ -18,8 +19,7 @@ ROWS = "material steel; geometry file rows.csv; friction 0.4; press FN=100 N"
 ROUGH = "material steel; geometry file rough.csv; friction 0.4; press FN=100 N"
 HISTORY = "; step Fx=20 N; step FN=90 N Fx=5 N; step FN=110 N Fx=20 N"
 
-# What takes long enough to be shared; a table of gaps, one whose dimension changes on its way, a map, a fit and samples
-# among them.
+# Statements long enough to be shared, among them a table of gaps, one whose dimension changes, a map, a fit and samples.
 STATEMENTS = (
     (GRADED, "table a, dW, hN for k = -0.9 .. 0.9 steps 6000"),
     (GRADED, "table a, c for E0 = 1 GPa .. 500 GPa log steps 5000 with k=-0.3,0,0.3"),
@@ -38,7 +38,7 @@ STATEMENTS = (
     (OBLIQUE, "maximize dW over phase = 1 deg .. 170 deg, mu = 0.3 .. 0.4"),
     (GRADED, "uncertainty dW, a with k +- 0.01, mu +- 5 %, FN +- 30 N samples 8000"),
     (GRADED, "fit E0, k for depth = dz(force) to indent.csv"),
-    # values that begin, or end, when it is shared; and a dimension that is found then, by each for itself
+    # values that begin or end after the work is shared; and a dimension that each process must find by itself
     (GRADED, "table sqrt(q - 0.4), W at k=q for q = -0.5 .. 0.95 steps 3000"),
     (GRADED, "table W at k=q, sqrt(0.4 - q) for q = -0.5 .. 0.95 steps 3000"),
     (GRADED, "table (1 m)^(2 + 0*sqrt(q - 0.4)), W at k=q for q = -0.5 .. 0.95 steps 3000"),
@@ -51,7 +51,7 @@ STATEMENTS = (
 
 
 def alone(tests):
-    """Where the system has no socket or no process for others, one does it all."""
+    """If the system gives no socket or no further process, one process does all."""
     calls = os.path.join(os.path.abspath(tests.build), "tests/calls")
     can_fail = faults.can_filter(os.path.dirname(calls))
     def one(setup, statement):
@@ -72,7 +72,7 @@ def alone(tests):
 
 
 def past_a_range(tests):
-    """A table that goes on beyond the range of an input: as far as it goes it is the one that ends there."""
+    """A table that goes beyond the range of an input has, up to there, the rows of a table that ends there."""
     ends, far = [], []
     for end, steps, to in (("0.5", 3000, ends), ("0.6", 6000, far)):
         done = tests.run("--format=csv", "-c", GRADED.partition("; cycle")[0] + "; table a, dz for nu = 0.4 .. %s steps %d" % (end, steps))
@@ -86,12 +86,12 @@ def past_a_range(tests):
 
 
 def shown(done):
-    """All but times."""
+    """The output without times."""
     return done.stdout, re.sub(r"(?m)^time: .*?ms", "", done.stderr), done.returncode
 
 
 def children(pid):
-    """Processes that one has begun and that have not ended."""
+    """The living children of a process."""
     with open("/proc/%d/task/%d/children" % (pid, pid), encoding="ascii") as f:
         return [int(word) for word in f.read().split()]
 
@@ -109,7 +109,7 @@ def data(tests):
 
 
 def same(tests):
-    """By one, two and five."""
+    """The output with one, two and five processes."""
     def one(setup, statement):
         script = "%s; set timing on; %s" % (setup, statement)
         want, *results = [shown(tests.run("--format=csv", "-c", "set cores %d" % n, "-c", script)) for n in (1, 2, 5)]
@@ -121,7 +121,7 @@ def same(tests):
 
 
 class Running:
-    """A table of a minute that goes to a file, once it is shared."""
+    """A table to a file that takes a minute, running, and shared."""
 
     def __init__(self, tests, cores):
         self.out = os.path.join(tests.dir, "shared.csv")
@@ -144,7 +144,7 @@ class Running:
 
 
 def signals(tests):
-    """An interrupt ends all of them; so does whatever ends the program."""
+    """Ctrl-C ends all processes, and so does any signal that ends the program."""
     for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, -signal.SIGTERM), (signal.SIGKILL, -signal.SIGKILL)):
         r = Running(tests, 3)
         name = signal.Signals(number).name
@@ -158,7 +158,7 @@ def signals(tests):
 
 
 def losses(tests):
-    """A process that is killed on its way leaves no gap."""
+    """If a process is killed, no row is missing."""
     script = OBLIQUE + "; set cores %d; table dW for phase = 0 deg .. 60 deg steps 40"
     want = shown(tests.run("-c", script % 1))
     process = subprocess.Popen([tests.fret, "-c", script % 2], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

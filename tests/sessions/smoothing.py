@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Noisy profiles made smooth: against least squares and splines of our own, and against what the noise allows."""
+"""Tests `smooth` on noisy profiles: against independent least squares and splines, and against the noise."""
 import itertools
 import math
 import os
@@ -11,10 +11,10 @@ import harness
 NOISE = 0.05  # um
 
 
-# ---- least squares of our own: f in um over r in mm ---------------------------------------------------------------
+# ---- independent least squares: f in um over r in mm --------------------------------------------------------------
 
 def solve(A, b):
-    """Gauss with pivots."""
+    """Gaussian elimination with pivots."""
     n = len(b)
     rows = [list(A[i]) + [b[i]] for i in range(n)]
     for i in range(n):
@@ -30,7 +30,7 @@ def solve(A, b):
 
 
 def householder(X, y):
-    """Least squares; also the squares that are left, and the inverse of the normal matrix."""
+    """Least squares by Householder: solution, sum of squares, inverse of the normal matrix."""
     n, p = len(X), len(X[0])
     columns = [[row[j] for row in X] for j in range(p)] + [list(y)]
     for j in range(p):
@@ -55,7 +55,7 @@ def ends(rows, pieces):
 
 
 def powers(r, knots):
-    """Cubics that begin with f = f' = 0, with jumps of f''' at the knots; the offset last."""
+    """Truncated powers: cubics with f = f' = 0 at r = 0 and jumps of f''' at the knots; the offset last."""
     return [r ** 2, r ** 3] + [max(r - t, 0) ** 3 for t in knots[1:-1]] + [1]
 
 
@@ -96,7 +96,7 @@ AT = (0.05, 0.2, 0.31, 0.5, 0.77, 0.99)
 
 
 def smooth(tests, rows, how=""):
-    """The event, f in um at AT."""
+    """Smooths rows: the event of `geometry`, and f in um at AT."""
     with tests.file(text_of(rows), ".csv") as path:
         done = tests.run("--format=json", "-c", "geometry file %s smooth %s\n%s" %
                          (path, how, ", ".join("f(%g mm)" % r for r in AT)))
@@ -112,10 +112,10 @@ def close(a, b, tolerance):
 
 
 def squares(tests):
-    """The nearest spline, by another basis and another method."""
+    """The least-squares spline, by another basis and another method."""
     hollow = [(i / 100, 13.523 * (i / 100) ** 2 / (1 + (i / 100) ** 2) + 0.1 * (i / 100) ** 4) for i in range(150)]
     sphere_rows = profile(sphere)
-    # where f is hollow, r f' goes on growing: that is no noise, and stays
+    # f is concave there, but r f' still grows: this is no noise, and stays
     for rows, pieces in (*((sphere_rows, n) for n in (1, 2, 5, 9)), (hollow, 2), (hollow, 4)):
         event, got = smooth(tests, rows, str(pieces))
         knots = ends(rows, pieces)
@@ -130,7 +130,7 @@ def squares(tests):
 
 
 def hollows(tests):
-    """Where r f' falls within a piece it becomes convex, as far as the noise allows."""
+    """If r f' falls within a piece, the piece is made convex, as far as the noise allows."""
     rows = [(i / 100, 18.688 * (i / 100) ** 2 / (1 + 5 * (i / 100) ** 2) + 20 * (i / 100) ** 4) for i in range(150)]
     event, got = smooth(tests, rows, "2")
     slopes = [(b - a) / (s - r) for a, b, r, s in zip(got, got[1:], AT, AT[1:])]
@@ -147,7 +147,7 @@ def hollows(tests):
 
 
 def noise(tests):
-    """A known sphere under known noise comes back within its standard error, and the misfit is the noise."""
+    """A known sphere with known noise is found within its standard error, and the misfit is the noise."""
     for seed in range(2, 7):
         rows = profile(sphere, seed=seed)
         n = len(rows)
@@ -177,7 +177,7 @@ def noise(tests):
 
 
 def convex(tests):
-    """Where the nearest spline falls within the noise: the nearest convex one, by all sets of bends that vanish."""
+    """If the least-squares spline falls within the noise: the nearest convex one, found by trying all sets of vanishing bends."""
     rows = profile(lambda r: 50 * max(r - 0.5, 0) ** 2, n=80, seed=3)
     for pieces in 2, 4, 5:
         event, got = smooth(tests, rows, str(pieces))
@@ -185,7 +185,7 @@ def convex(tests):
         at, lines = greville(knots), [bases(abs(r), knots) for r, _ in rows]
         count = len(at) - 2
 
-        def spline(line, at=at, count=count):  # of the bends, then of the offset
+        def spline(line, at=at, count=count):  # parameters: the bends, then the offset
             return [sum((at[i + 2] - at[j + 1]) * line[i + 2] for i in range(j, count)) for j in range(count)]
         X = [spline(line) + [1] for line in lines]
         y = [f for _, f in rows]
@@ -210,7 +210,7 @@ def convex(tests):
 
 
 def contacts(tests):
-    """Rows without noise are the spline that they came from: the contact is that of the formula."""
+    """Rows of a spline without noise give that spline: the contact is that of the formula."""
     rows = [(r, 50 * r ** 2 + 20 * r ** 3) for r in (i / 300 for i in range(301))]
     ask = "friction 0.3; press FN=50 N; step Fx=5 N; FN, dz, a, dx, c, kt, W, p(0.1 mm), dW(3 N)\nk = 0.4, c0 = 1 mm; dz, a, c"
     want = harness.printed_values(tests.run("--format=json", "-c", "material steel; geometry sum 2:50 m^-1, 3:2e4 m^-2; " + ask).stdout)
@@ -234,7 +234,7 @@ def contacts(tests):
 
 
 def apexes(tests):
-    """A profile of both sides: its apex and tilt are told where they are, and not where chance or rounding alone tells of them."""
+    """A profile of both sides: apex and tilt are reported if they are there, but not if only noise or rounding suggests them."""
     def told(f, n, noise, seed=1):
         rows = [(r, f(r) + error) for r, error in profile(lambda r: 0, noise, n, both=True, seed=seed)]
         with tests.file(text_of(rows), ".csv") as path:
@@ -251,7 +251,7 @@ def apexes(tests):
 
 
 def kept(tests):
-    """show, save, record and undo restore it to the last bit."""
+    """show, save, record and undo restore the smoothed gap to the last bit."""
     where = os.path.join(tests.dir, "smoothed")
     os.mkdir(where)
     with open(os.path.join(where, "p.csv"), "w", encoding="ascii") as f:
@@ -306,7 +306,7 @@ def refused(tests):
         with tests.file(text_of(rows), ".csv") as path:
             done = tests.run("-c", "geometry file %s smooth" % path)
         tests.check("smooth: " + message, message in done.stderr and done.returncode == 1, tests.report(done))
-    # r^2 (1 - r) has its top at 2/3: one cubic is all of it
+    # r^2 (1 - r) has its maximum at 2/3; it is a single cubic
     with tests.file(text_of([(i / 40, 50 * (i / 40) ** 2 * (1 - i / 40)) for i in range(41)]), ".csv") as path:
         for how in ("1", "1 mm"):
             done = tests.run("-c", "geometry file %s smooth %s" % (path, how))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The transcripts of tests/sessions, run in every way that there is, and those of README."""
+"""Runs the transcripts of tests/sessions in every way (replay, file, -c, pipe), and the examples in README.md."""
 import glob
 import os
 import re
@@ -12,7 +12,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def plots_of(tests, name, steps):
-    """A transcript's plots: the picture must come last and bear its axis labels."""
+    """The plots of a transcript: each picture must come last in its answer and have its axis labels."""
     for i, (statement, out) in enumerate(steps):
         if not harness.draws(statement) or any("error:" in line for line in out):
             continue
@@ -26,7 +26,7 @@ def plots_of(tests, name, steps):
 
 
 def parts(lines):
-    """The files that a text shows by `$ cat`, {name: text}; its calls of programs, each with its answer; its transcript."""
+    """The files that a text shows by `$ cat` ({name: text}), its program calls with their answers, and its transcript."""
     files, calls, session, into = {}, [], [], None
     for line in lines:
         if line.startswith("$ cat "):
@@ -50,7 +50,7 @@ def write(where, files):
 
 
 def examples(tests, name, lines):
-    """What a text shows, in a directory of its own; how many answers."""
+    """Runs what a text shows in a directory of its own; returns the number of answers."""
     where, (files, calls, session) = os.path.join(tests.dir, name), parts(lines)
     os.mkdir(where)
     write(where, files)
@@ -71,15 +71,15 @@ def run(tests):
         name = os.path.relpath(path, harness.ROOT)
         with open(path, encoding="utf-8") as f:
             text = f.read()
-        if name.endswith("first_embedder.txt"):  # which wants what is installed
+        if name.endswith("first_embedder.txt"):  # it needs the installed library
             continue
-        if re.search(r"^\$ cat ", text, re.M):  # which wants a directory of its own
+        if re.search(r"^\$ cat ", text, re.M):  # it needs a directory of its own
             jobs.append(lambda n=os.path.basename(path), t=text: examples(tests, n, t.splitlines()[1:]))
             continue
         steps = harness.read_transcript(text)
         still = [s for s in steps if not harness.draws(s[0]) or s[1]]
         jobs.append(lambda n=name, s=steps: harness.replay(tests, n, s))
-        if not tests.sanitized or name.endswith("contract.txt"):  # the ways to read are the same for all
+        if not tests.sanitized or name.endswith("contract.txt"):  # one is enough to test the ways to read
             jobs.append(lambda n=name, s=still: harness.batch(tests, n, s))
         jobs.append(lambda n=name, s=steps: plots_of(tests, n, s))
     tests.each(jobs)

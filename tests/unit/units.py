@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The test programs in C: those of tests/unit, and the hard cases. They end with a line a case and `NAME: N passed, N failed`."""
+"""Runs the test programs in C, of tests/unit and tests/hard. Each prints a line per case and `NAME: N passed, N failed`."""
 import glob
 import os
 import re
@@ -29,7 +29,7 @@ def counted(tests, name, *command):
         tests.record("%s, %s" % (name, case), ok == "ok", int(draws), float(seconds or 0))
 
 
-# these take longest, and begin
+# these take longest and so come first
 LONG = ("test_work", "test_wear", "test_fields", "test_allocation", "test_swing", "test_swing_field", "test_answers")
 
 
@@ -41,10 +41,10 @@ def run(tests):
 
 
 def hard(tests):
-    """Scenes from the whole domain against the oracle; `make hard` runs more of them."""
+    """Random scenes of the whole domain against the MPFR oracle; `make hard` runs many more."""
     scenes, steps = (2000, 20000) if tests.few else (100000, 1000000)
     program = os.path.join(tests.build, "tests/hard/hard")
-    if not os.path.exists(program):  # the build, which must succeed, leaves it out without MPFR
+    if not os.path.exists(program):  # without MPFR it is not built
         print("hard: not run, MPFR is not installed")
         return
     counted(tests, "hard", program, "--scenes", str(scenes), "--steps", str(steps),
