@@ -17,15 +17,15 @@
 /* ---- candidates -------------------------------------------------------------------------------- */
 
 /* One attempt to complete a word. */
-typedef struct place {
+typedef struct attempt {
     shell *sh;
     const char *line;
     size_t start, cursor; /* beginning and end of the word */
     candidates *out;
     bool whole; /* back to the last blank it is one word, such as exact-sphere or a file name */
-} place;
+} attempt;
 
-static void add_word(place *p, const char *word, const char *ending) {
+static void add_word(attempt *p, const char *word, const char *ending) {
     candidates *out = p->out;
     const size_t typed = p->cursor - p->start, n = strlen(word), m = strlen(ending);
     if (n < typed || memcmp(word, p->line + p->start, typed) != 0)
@@ -56,13 +56,13 @@ void candidates_free(candidates *c) {
     *c = (candidates){.word = NULL};
 }
 
-static void add_all(place *p, const char *(*name)(size_t i)) {
+static void add_all(attempt *p, const char *(*name)(size_t i)) {
     for (size_t i = 0; name(i); i++)
         add_word(p, name(i), "");
 }
 
 /* Adds the names that may begin an expression. */
-static void add_values(place *p) {
+static void add_values(attempt *p) {
     const quantity *q;
     for (size_t i = 0; (q = quantity_row(i)); i++)
         add_word(p, q->name, quantity_has_value(q) ? "" : "(");
@@ -78,7 +78,7 @@ static void add_values(place *p) {
 }
 
 /* Adds the inputs that the scene takes and the user's variables, each followed by `end`. */
-static void add_knobs(place *p, const char *end) {
+static void add_knobs(attempt *p, const char *end) {
     for (input in = 0; in < INPUTS; in++)
         if (calc_takes(&p->sh->calc, in, error_quiet()))
             add_word(p, quantity_of_input(in)->name, end);
@@ -88,7 +88,7 @@ static void add_knobs(place *p, const char *end) {
 }
 
 /* Adds the units of dimension d; all units if `any`, or if no single unit has that dimension. */
-static void add_units(place *p, bool any, dim d) {
+static void add_units(attempt *p, bool any, dim d) {
     static const char *const prefixes[] = {"", "n", "u", "m", "c", "k", "M", "G"};
     enum { PREFIXES = sizeof prefixes / sizeof *prefixes };
     bool none = true;
@@ -107,7 +107,7 @@ static void add_units(place *p, bool any, dim d) {
 /* ---- what the grammar allows ------------------------------------------------------------------- */
 
 /* Adds what may stand in the hole; files beside words only once a `.` or `/` has been typed. */
-static void add_hole(place *p, const clause *a, unsigned i) {
+static void add_hole(attempt *p, const clause *a, unsigned i) {
     const hole_row *row = a->hole[i].row;
     const hole_kind kind = row->kind;
     const bool other = a->hole[0].row->words;
@@ -123,7 +123,7 @@ static void add_hole(place *p, const clause *a, unsigned i) {
 }
 
 /* Adds the clauses and arguments that may still follow; first: the row's nameless leading holes as well. */
-static void add_clauses(place *p, const lexer *lx, const said *s, bool first) {
+static void add_clauses(attempt *p, const lexer *lx, const said *s, bool first) {
     const grammar *f = s->by;
     const clause *awaited = NULL; /* a leading hole that must not be left out */
     for (const clause *a = f->clause; a < f->clause + f->count; a++) {
@@ -144,7 +144,7 @@ static hole_kind kind_of(const said *s) {
 }
 
 /* Gets the dimension of the last expression of a list. */
-static bool dim_in(place *p, lexer own, dim *d) {
+static bool dim_in(attempt *p, lexer own, dim *d) {
     column columns[EXPRESSIONS];
     size_t count = 0;
     own.error = error_quiet();
@@ -156,7 +156,7 @@ static bool dim_in(place *p, lexer own, dim *d) {
 }
 
 /* Gets the dimension of the number before the cursor: of what it is assigned to, or of what `=` follows. */
-static bool wanted_dim(place *p, const lexer *lx, const said *s, dim *d) {
+static bool wanted_dim(attempt *p, const lexer *lx, const said *s, dim *d) {
     const clause *a = s->open->of;
     const bool own = kind_of(s) == HOLE_VALUE && !s->changed.len;
     const quantity *q = own ? quantity_find(a->name, strlen(a->name))
@@ -169,7 +169,7 @@ static bool wanted_dim(place *p, const lexer *lx, const said *s, dim *d) {
 
 /* Adds the units for the number before the cursor. Without a blank between them a single candidate is
  * dropped, for the editor would insert it unasked. */
-static void add_units_of_number(place *p, const lexer *lx, const said *s) {
+static void add_units_of_number(attempt *p, const lexer *lx, const said *s) {
     dim d = DIM_NONE;
     const bool known = wanted_dim(p, lx, s, &d);
     add_units(p, !known, d);
@@ -177,10 +177,10 @@ static void add_units_of_number(place *p, const lexer *lx, const said *s) {
         candidates_none(p->out);
 }
 
-static void add_next(place *p, const lexer *lx, const said *s);
+static void add_next(attempt *p, const lexer *lx, const said *s);
 
 /* In `along cycle ...`, adds the arguments of the load command; false if there is no such command. */
-static bool add_load(place *p, lexer own) {
+static bool add_load(attempt *p, lexer own) {
     said load;
     const command *c = command_find(own.text + own.at, own.len);
     own.error = error_quiet();
@@ -194,7 +194,7 @@ static bool add_load(place *p, lexer own) {
 }
 
 /* Adds what may follow a part that is complete. */
-static void add_further(place *p, const lexer *lx, const said *s) {
+static void add_further(attempt *p, const lexer *lx, const said *s) {
     const clause *a = s->open->of;
     const hole_kind kind = kind_of(s);
     const char before = s->hole + 1 < a->holes ? a->hole[s->hole + 1].before : 0;
@@ -216,7 +216,7 @@ static void add_further(place *p, const lexer *lx, const said *s) {
 }
 
 /* Adds what may come at the point where the statement was cut off. */
-static void add_next(place *p, const lexer *lx, const said *s) {
+static void add_next(attempt *p, const lexer *lx, const said *s) {
     if (!s->open) {
         add_clauses(p, lx, s, s->count == 0);
     } else if (s->end == PART_EMPTY) {
@@ -241,7 +241,7 @@ static void add_next(place *p, const lexer *lx, const said *s) {
 /* ---- where the cursor is ----------------------------------------------------------------------- */
 
 /* Parses the statement from `begin` up to the word that begins at `start`, and adds what may stand there. */
-static void complete_at(place *p, size_t begin, size_t start) {
+static void complete_at(attempt *p, size_t begin, size_t start) {
     calc_error error = ERROR_NONE;
     static const char values[] = "EXPR, ..."; /* a statement without a command: a print or an assignment */
     said s = {.by = grammar_made("", NULL, values, "")};
@@ -284,7 +284,7 @@ static bool find_statement(const char *line, size_t cursor, size_t *begin, size_
 }
 
 void complete(shell *sh, const char *line, size_t cursor, candidates *out) {
-    place p = {.sh = sh, .line = line, .cursor = cursor, .out = out};
+    attempt p = {.sh = sh, .line = line, .cursor = cursor, .out = out};
     size_t begin, quote, start = cursor;
     *out = (candidates){.start = cursor};
     if (!find_statement(line, cursor, &begin, &quote))

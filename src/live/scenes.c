@@ -11,7 +11,7 @@
 
 /* ---- statements -------------------------------------------------------------------------------- */
 
-/* Shows the answer to a line: below the views if there is room, else as a page. Frees it. */
+/* Shows the answer to a line: below the views if there is room, else as a page. Takes over `answer`. */
 static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     size_t n = answer ? strlen(answer) : 0;
     while (n > 0 && answer[n - 1] == '\n')
@@ -71,7 +71,7 @@ static void trouble(live *l, side *s, calc_error *error) {
     snprintf(s->trouble, sizeof s->trouble, "%.*s", LIVE_TEXT - 1, error->text);
 }
 
-/* Takes the numbers of the scene that expressions see; along: and the states of its last item, to play. */
+/* Takes the numbers of the scene that expressions see; along: also the states of its last item, to play. */
 static bool take_side(live *l, side *s, bool along, calc_error *error) {
     calc *c = l->host->calc;
     const size_t items = c->now->end.steps;

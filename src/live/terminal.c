@@ -254,8 +254,7 @@ int terminal_busy(void) {
     if (left > 0)
         return 1 + (int)(1000 * fmin(left, 60));
     ioctl(STDOUT_FILENO, TIOCOUTQ, &waiting);
-    return waiting > 0 ? 1 + waiting / 16
-                       : 0; /* unreached: on serial lines something waits, on others nothing */
+    return waiting > 0 ? 1 + waiting / 16 : 0; /* unreached: output waits on serial lines only */
 }
 
 /* ---- keys -------------------------------------------------------------------------------------- */

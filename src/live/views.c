@@ -60,12 +60,12 @@ static scales scales_of(const live *l) {
         const side *s = &l->side[i];
         if (*s->trouble)
             continue;
-        const extent way = way_extent(&s->way);
-        most.a = fmax(most.a, fmax(way.a, s->now.a));
-        most.bound = fmax(most.bound, fmax(way.bound, s->now.bound));
-        most.dx = fmax(most.dx, fmax(way.dx, s->now.bound));
-        most.Fx = fmax(most.Fx, fmax(way.Fx, s->now.slip));
-        most.energy = fmax(most.energy, way.energy);
+        const extent curve = way_extent(&s->way);
+        most.a = fmax(most.a, fmax(curve.a, s->now.a));
+        most.bound = fmax(most.bound, fmax(curve.bound, s->now.bound));
+        most.dx = fmax(most.dx, fmax(curve.dx, s->now.bound));
+        most.Fx = fmax(most.Fx, fmax(curve.Fx, s->now.slip));
+        most.energy = fmax(most.energy, curve.energy);
         for (int j = 0; j <= SHOT_SAMPLES && s->loses; j++)
             most.lost = fmax(most.lost, s->lost[j]);
     }

@@ -117,16 +117,16 @@ static bool read_exercise(exercise *x, lexer *lx, said *all) {
 /* ---- guesses ----------------------------------------------------------------------------------- */
 
 /* Replies go to the terminal, past transcripts; replays skip lines that begin so (in a terminal's copy). */
-#define SAYS "guess: "
+#define REPLY "guess: "
 #define NUMBER_WANTED "the number of a choice is wanted"
 
-static void say(const char *text) {
-    fputs(SAYS, stdout);
+static void reply(const char *text) {
+    fputs(REPLY, stdout);
     print_safe(stdout, text, strlen(text));
     putc('\n', stdout);
 }
 
-static void say_off(const exercise *x, long double guess) {
+static void reply_off(const exercise *x, long double guess) {
     static const long double far = 2;
     const long double correct = x->value.v, ratio = correct != 0 ? guess / correct : 0;
     const char *size = fabsl(guess) > fabsl(correct) ? "large" : "small";
@@ -141,7 +141,7 @@ static void say_off(const exercise *x, long double guess) {
         snprintf(text, sizeof text, "too small, the answer is %.3Lg times as much", 1 / ratio);
     else
         snprintf(text, sizeof text, "%.2Lg %% too %s", 100 * fabsl(ratio - 1), size);
-    say(text);
+    reply(text);
 }
 
 /* Reads a guess: an expression with the dimension of the answer. Else says why not, and returns false. */
@@ -154,7 +154,7 @@ static bool read_guess(exercise *x, const char *line, long double *guess) {
                     value_dim(&lx, x->choices ? "" : x->column.name, 0, strlen(line), v, x->value.d);
     if (!ok) {
         calc_word(&x->sh->calc, error);
-        say(x->choices ? NUMBER_WANTED : error->text);
+        reply(x->choices ? NUMBER_WANTED : error->text);
     }
     *guess = ok ? v.v : 0;
     return ok;
@@ -173,21 +173,21 @@ static bool take_guess(exercise *x, const char *line) {
     if (!*line)
         return false;
     if (!strcmp(line, "?")) {
-        say(x->hint ? x->hint : "there is no hint");
+        reply(x->hint ? x->hint : "there is no hint");
         return true;
     }
     if (!read_guess(x, line, &guess))
         return true;
     if (is_right(x, guess)) {
-        say("right");
+        reply("right");
         return false;
     }
     if (!x->choices)
-        say_off(x, guess);
+        reply_off(x, guess);
     else if (guess >= 1 && guess <= x->choices && guess == floorl(guess))
-        say("no");
+        reply("no");
     else
-        say(NUMBER_WANTED);
+        reply(NUMBER_WANTED);
     return true;
 }
 
@@ -196,7 +196,7 @@ static void take_guesses(exercise *x) {
     const int depth = progress_apart();
     bool more = true;
     fflush(x->sh->out);
-    printf(SAYS "%s%s, or Enter for the answer\n", x->choices ? "a number" : "a value",
+    printf(REPLY "%s%s, or Enter for the answer\n", x->choices ? "a number" : "a value",
            x->hint ? ", ? for a hint" : "");
     while (more && !shell_stop) {
         char *line = prompt_line("guess> ", false);

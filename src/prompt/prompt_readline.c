@@ -125,7 +125,7 @@ static int paste(int count, int key) {
 }
 
 /* Replaces rl_getc, which reads on after a signal: Ctrl-C would act only at the next key. Signals are blocked
- * except within pselect(2), so that none is lost between looking at the flags and waiting. */
+ * from looking at the flags until pselect(2) waits, so that none is missed in between. */
 static int read_key(FILE *in) {
     const int fd = fileno(in);
     unsigned char c;

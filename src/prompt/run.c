@@ -34,8 +34,8 @@ void shell_free(shell *sh) {
 
 /* ---- statements -------------------------------------------------------------------------------- */
 
-/* Reports a missing comma or `*`, as in `a dz`. */
-static bool lacks_comma(lexer *lx) {
+/* The raise_... functions raise an error for a common mistake, here `a dz`; false: it has not been made. */
+static bool raise_no_comma(lexer *lx) {
     return lx->kind == T_NAME && quantity_find(lx->text + lx->at, lx->len) &&
            !lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
 }
@@ -44,7 +44,7 @@ static bool print_statement(shell *sh, lexer *lx) {
     column columns[EXPRESSIONS];
     long double si[EXPRESSIONS];
     size_t count = 0;
-    bool ok = read_expressions(sh, lx, columns, EXPRESSIONS, &count) && !lacks_comma(lx) && at_end(lx);
+    bool ok = read_expressions(sh, lx, columns, EXPRESSIONS, &count) && !raise_no_comma(lx) && at_end(lx);
     for (size_t i = 0; i < count && ok; i++) {
         value v;
         ok = expr_eval(&sh->calc, &sh->list[i], &v, lx->error) &&
@@ -113,7 +113,7 @@ static bool assign(shell *sh, lexer *lx) {
 }
 
 /* If help knows the unknown word, raises an error that names its page. after: the next token. */
-static bool told_of(lexer *lx, const char *word, token_kind after) {
+static bool raise_help_page(lexer *lx, const char *word, token_kind after) {
     if (after != T_NAME && after != T_NUMBER && after != T_END)
         return false;
     const char *where = suggest(word, quantity_name) ? NULL : help_where(word);
@@ -121,7 +121,7 @@ static bool told_of(lexer *lx, const char *word, token_kind after) {
 }
 
 /* Raises an error that helps with a word of other programs, such as `:q`; before: prepended to look it up. */
-static bool is_lead(lexer *lx, const char *before) {
+static bool raise_lead(lexer *lx, const char *before) {
     char word[LEX_NAME];
     size_t n = 1;
     while (lx->at + n < lx->end && !strchr(" \t\r\n!", lx->text[lx->at + n]))
@@ -136,7 +136,7 @@ static bool is_lead(lexer *lx, const char *before) {
 }
 
 /* If the statement begins with an unknown word, looks for what was meant and raises an error that says so. */
-static bool misspelt(shell *sh, lexer *lx) {
+static bool raise_misspelt(shell *sh, lexer *lx) {
     char word[LEX_NAME];
     size_t i;
     if (names_find(&sh->calc.names, lx->text + lx->at, lx->len, &i) || name_taken(lx->text + lx->at, lx->len))
@@ -145,12 +145,12 @@ static bool misspelt(shell *sh, lexer *lx) {
     if (lead_from(word)) /* the look-up of the name raises a fuller error */
         return false;
     const token_kind after = lex_peek(lx);
-    if (after == T_END && is_lead(lx, ":"))
+    if (after == T_END && raise_lead(lx, ":"))
         return true;
     const char *near = suggest(word, command_name);
     if ((after != T_NAME && after != T_NUMBER && after != T_END) || !near ||
         (after == T_END && suggest(word, quantity_name)))
-        return told_of(lx, word, after);
+        return raise_help_page(lx, word, after);
     lex_fail(lx, "unknown command '%s': did you mean %s?", word, near);
     return true;
 }
@@ -162,7 +162,7 @@ static bool dispatch(shell *sh, lexer *lx) {
         const command *c = command_find(lx->text + lx->at, lx->len);
         if (c)
             return run_command(sh, lx, c);
-        if (misspelt(sh, lx))
+        if (raise_misspelt(sh, lx))
             return false;
         const quantity *q = lex_peek(lx) == T_NUMBER ? quantity_find(lx->text + lx->at, lx->len) : NULL;
         if (q && quantity_is_input(q) && !q->imposed) { /* mu 0.3 */
@@ -181,7 +181,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     lexer lx;
     error_clear(error);
     lex_start(&lx, text, len, error);
-    if (((error->raised || lx.kind == T_COLON) && is_lead(&lx, "")) || error->raised)
+    if (((error->raised || lx.kind == T_COLON) && raise_lead(&lx, "")) || error->raised)
         return false;
     if (lx.kind == T_END)
         return true;
