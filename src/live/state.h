@@ -98,7 +98,7 @@ bool live_refresh_next(live *l);
 void live_begin(live *l);
 /* Plays the cycle that is set: runs it, or goes on with one more period if it is the last item already. */
 void live_play(live *l);
-/* Goes on playing for so many seconds; live_play_end stops and shows the end at once. */
+/* Goes on playing for `seconds`; live_play_end stops and shows the end at once. */
 void live_play_on(live *l, double seconds);
 void live_play_end(live *l);
 /* Plays the load's last item, step or cycle, once. */

@@ -19,7 +19,7 @@ void terminal_close(void);
 void terminal_show(bool again);
 /* Milliseconds until a slow line has sent the last update: drawing before that would only queue up. */
 int terminal_busy(void);
-/* Returns the next key, KEY_NONE after so many milliseconds without one, or KEY_STOP, which clears *stop. */
+/* Returns the next key, KEY_NONE if none comes within `milliseconds`, or KEY_STOP, which clears *stop. */
 int terminal_key(int milliseconds, volatile sig_atomic_t *stop);
 
 #endif

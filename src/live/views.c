@@ -111,7 +111,7 @@ static void draw_dotted(const pane *p, ink of, double x0, double y0, double x1, 
 typedef struct zone {
     ink of;
     const char *name, *sign, *dots;
-    int every; /* a dot in so many places, so that zones differ without colours */
+    int every; /* one place in `every` gets a dot, so that zones differ without colours */
 } zone;
 
 static const zone stick = {INK_STICK, "stick", "#", "\u28ff", 1}, slip = {INK_SLIP, "slip", ".", "\u2801", 4},
@@ -276,7 +276,7 @@ typedef struct view {
     bool right;     /* in the right column; narrow screens have one column */
     int share;      /* weight when the height of the column is divided; 0: the view takes `rows` */
     int rows;       /* of the view, if it has no share */
-    int worth_rows; /* shown on screens with at least so many rows */
+    int worth_rows; /* rows of the screen that it takes to show the view */
 } view;
 
 static const view views[] = {

@@ -331,7 +331,7 @@ static int finish_output(shell *sh, int status) {
         raise(SIGPIPE);
     } /* unreached: it has ended us */
     if (bad || fclose(sh->out)) {
-        if (status == EXIT_OK) { /* one error message is enough */
+        if (status == EXIT_OK) { /* else an error has been reported before */
             fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno ? errno : EIO));
             status = EXIT_ERROR;
         }

@@ -375,7 +375,7 @@ class ByKeys(OnScreen):
         modes, screen, seen, shown = termios.tcgetattr(ours), Screen(24, 80), "", ""
 
         def read(seconds):
-            """Output until none comes for so many seconds."""
+            """Output until none comes for `seconds`."""
             text = ""
             while select.select([terminal], [], [], seconds)[0]:
                 text += os.read(terminal, 1 << 16).decode(errors="replace")

@@ -259,7 +259,7 @@ def problem(fret, env, seed):
 
 
 def campaign(problem, fret, env, seconds, seed, workers, most=math.inf):
-    """Tries scripts (or typed sessions) for so many seconds, at most `most` per worker: (number tried, [(seed, problem)])"""
+    """Tries scripts (or typed sessions) for `seconds`, at most `most` per worker: (number tried, [(seed, problem)])"""
     end, wrong, counts = time.time() + seconds, [], [0] * workers
 
     def work(worker):
