@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Characters of UTF-8, which of them show, and how wide. */
+/* UTF-8: decoding, encoding, widths, and which characters may be shown. Depends on libc alone. */
 #define _XOPEN_SOURCE 700 /* wcwidth */
 #include "text/characters.h"
 
@@ -75,7 +75,7 @@ size_t character_count(const char *text, size_t len) {
     return count;
 }
 
-/* The system's table, which terminals go by too, whatever the locale of the program. */
+/* The width by the C library's wcwidth, which terminals follow too, whatever the locale of the program is. */
 static size_t code_columns(unsigned code) {
     static locale_t utf8; /* made once */
     if (code < 0x300)
@@ -90,7 +90,7 @@ static size_t code_columns(unsigned code) {
     return n < 0 ? 1 : (size_t)n;
 }
 
-/* Of the character there, or of what is none: its bytes, and its columns. */
+/* The bytes of the character at text, and its columns; an invalid byte is 1 byte in 1 column. */
 static size_t step(const char *text, size_t left, size_t *columns) {
     unsigned code;
     const size_t n = character_at(text, left, &code);

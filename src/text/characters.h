@@ -1,40 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Characters of UTF-8, and which of them may be shown: what comes from statements, files and other programs
- * must not command the terminal, hide or turn round what is beside it. Touches nothing. */
+/* UTF-8: decoding, encoding, widths, and which characters may be shown. Text from statements, files and other
+ * programs must not control the terminal, nor hide or reorder what is beside it. Depends on libc alone. */
 #ifndef TEXT_CHARACTERS_H
 #define TEXT_CHARACTERS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The bytes of the character at text, of which `left` are there; 0: they are no UTF-8. code may be NULL. */
+/* Decodes a character of at most `left` bytes. Returns its bytes, 0: not valid UTF-8. code may be NULL. */
 size_t character_at(const char *text, size_t left, unsigned *code);
-/* Where the character begins that ends before `at`, or is cut off there. */
+/* The index where the last character before `at` begins; that character may be cut off at `at`. */
 size_t character_before(const char *text, size_t at);
 
-/* The character as UTF-8, and a NUL: its bytes. */
-enum { CHARACTER_BYTES = 5, CHARACTER_LOST = 0xfffd /* stands for what was none */ };
+/* Encodes a character as UTF-8 with a NUL behind it; returns its bytes without the NUL. */
+enum { CHARACTER_BYTES = 5, CHARACTER_LOST = 0xfffd /* replaces bytes that cannot be decoded */ };
 size_t character_put(unsigned code, char to[CHARACTER_BYTES]);
 
-/* No control character, and none that turns the direction of writing or takes no place. */
+/* False for control characters, and for those that change the direction of writing or are invisible. */
 bool character_shows(unsigned code);
 
-/* Characters that the bytes are; one that is no UTF-8 counts as one. */
+/* The number of characters in a text; each byte that is not valid UTF-8 counts as one. */
 size_t character_count(const char *text, size_t len);
-/* Columns that they take: 2 for a wide one, as of Chinese, none for one that is put onto the one before it, 1
- * for what does not show. */
+/* The terminal columns that a text takes: 2 for a wide character (Chinese), 0 for a combining one, 1 for a
+ * character that may not be shown and for an invalid byte. */
 size_t text_columns(const char *text, size_t len);
-/* Bytes of it that go into so many columns. */
+/* The bytes of the longest beginning of a text that fits into `columns`, cut between characters. */
 size_t text_fit(const char *text, size_t len, size_t columns);
-/* The next row of a text: its bytes, at least a character, broken between words where it can be. The text
- * goes on to the row after. */
+/* The bytes of the next row of a wrapped text, broken at a blank if possible and at least one character long.
+ * Advances *text and *left past the row and the blanks behind it. */
 size_t text_break(const char **text, size_t *left, size_t columns);
 
-/* A character that does not show is written in this way, as \x1b or \u202e; a byte that is no UTF-8 too.
- * Returns the bytes taken from text; shown holds a text of at most 10 bytes. */
+/* Writes the character at text to `shown`, at most 10 bytes and a NUL: hidden ones and invalid bytes as \x1b
+ * or \u202e, a tab as a blank. Returns the bytes taken from text. */
 enum { CHARACTER_SHOWN = 12 };
 size_t character_shown(const char *text, size_t left, char shown[CHARACTER_SHOWN]);
-/* A whole text, as far as there is room for it. */
+/* Does the same for a whole text, which is cut off between characters when `to` is full. */
 void characters_shown(const char *text, char *to, size_t size);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The two clocks. */
+/* Two clocks: elapsed time and processor time. */
 #include "text/clock.h"
 
 #include <time.h>

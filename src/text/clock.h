@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The two clocks, in seconds since no matter when. Asks the system and touches nothing. */
+/* Two clocks, in seconds from an arbitrary origin: use differences only. Depends on libc alone. */
 #ifndef TEXT_CLOCK_H
 #define TEXT_CLOCK_H
 
-/* By the wall, whatever becomes of the time of day. */
+/* Elapsed time; setting the system's time of day does not change it. */
 double clock_wall(void);
-/* Of the processor, so that a busy machine does no harm. */
+/* Processor time of this process: the load of the machine does not count. */
 double clock_worked(void);
 
 #endif

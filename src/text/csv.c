@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading tables: bytes become text, the table is found in it, the header becomes columns, and fields become
- * numbers when their column is asked for. */
+/* Reading tables: decodes the file, finds the table and its header, and converts the fields of a column to
+ * numbers on request. Depends on this room. */
 #include "text/csv.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ void csv_free(csv *c) {
 
 /* ---- the text ---------------------------------------------------------------------------------- */
 
-/* Lines that end by carriage returns alone are one line to others. */
+/* Reads the file into c->text as UTF-8. A file with line ends CR arrives as one line and is split here. */
 static bool read_text(csv *c, size_t *len, calc_error *error) {
     file_in in;
     file_text all;
@@ -48,13 +48,13 @@ static bool read_text(csv *c, size_t *len, calc_error *error) {
              calc_fail(error, 0, 0, "%s:%llu: this is no text, or UTF-16 without its mark: save it as UTF-8",
                        c->path, in.number);
     }
-    const bool one = in.read == 1;
+    const bool single = in.read == 1;
     file_in_close(&in);
     if (!file_text_close(&all))
         return calc_no_memory(error);
     c->text = all.text;
     *len = all.size;
-    for (char *end = c->text; one && ok && (end = strchr(end, '\r'));)
+    for (char *end = c->text; single && ok && (end = strchr(end, '\r'));)
         *end = '\n';
     if (ok && got == FILE_GOT_STOP)
         return calc_interrupted(error);
@@ -63,13 +63,13 @@ static bool read_text(csv *c, size_t *len, calc_error *error) {
 
 /* ---- the table --------------------------------------------------------------------------------- */
 
-/* A line that is not empty. Bits: which of its fields are numbers, which words, and which numbers with marks
- * of thousands, that are refused where they are asked for; the last stands for all that follow. */
+/* A line that is not empty. Bit i of a set stands for field i, the last bit for all further fields. `marked`:
+ * words like numbers with thousands separators, an error if their column is loaded. */
 typedef struct table_line {
     csv_row at;
     bool comment;
     unsigned fields;
-    unsigned long long numbers, words, marked, labels; /* labels: words of more than one letter */
+    unsigned long long numbers, words, marked, labels; /* labels: words that begin with two letters */
 } table_line;
 
 typedef struct finder {
@@ -77,7 +77,7 @@ typedef struct finder {
     calc_error *error;
     table_line *list;
     size_t count;
-    unsigned long long usual; /* the numbers of a row */
+    unsigned long long usual; /* the fields that are numbers in a typical row */
     char title[CSV_COLUMNS][CSV_NAME];
 } finder;
 
@@ -114,14 +114,15 @@ static void scan_line(const char *text, char separator, table_line *l) {
     }
 }
 
-/* Is it more than blanks and separators, as spreadsheets write empty rows? */
-static bool says_something(const char *text, size_t len) {
+/* Is there more than blanks and the separators that spreadsheets write in empty rows? */
+static bool has_content(const char *text, size_t len) {
     for (size_t i = 0; i < len; i++)
         if (!field_is_blank(text[i]) && text[i] != ';' && text[i] != ',')
             return true;
     return false;
 }
 
+/* Does it begin with `#`, and not with a spreadsheet's error such as #N/A? */
 static bool is_comment(field f) {
     size_t n = 0;
     while (n < f.len && !strchr("; \t,", f.text[n]))
@@ -129,7 +130,8 @@ static bool is_comment(field f) {
     return f.len > 0 && *f.text == '#' && !field_is_missing((field){f.text, n});
 }
 
-static bool cut_lines(finder *t, size_t len) {
+/* Lists the lines that are not empty, but for `sep=;`, by which spreadsheets name the separator. */
+static bool list_lines(finder *t, size_t len) {
     const char *text = t->c->text;
     size_t lines = 1;
     for (const char *end = text; (end = strchr(end, '\n')); end++)
@@ -140,21 +142,21 @@ static bool cut_lines(finder *t, size_t len) {
         return calc_no_memory(t->error);
     for (size_t at = 0, number = 1, n; at < len && !*t->c->stop; at += n + 1, number++) {
         n = strcspn(text + at, "\n");
-        if (says_something(text + at, n) && (n != 5 || memcmp(text + at, "sep=", 4)))
+        if (has_content(text + at, n) && (n != 5 || memcmp(text + at, "sep=", 4)))
             t->list[t->count++] =
                 (table_line){.at = {number, at, n}, .comment = is_comment(field_trimmed(text + at, n))};
     }
     return true;
 }
 
-/* That which parts the most numbers from each other, and the fewest words from them; `sep=;` is how
- * spreadsheets tell it. Some lines tell of all. Marks of thousands are no semicolons and no tabs. */
+/* The separator that separates the most numbers and leaves the fewest words, judged by at most TRIED
+ * lines. Numbers with thousands separators count only for `;` and tab, which cannot be such separators. */
 static char choose_separator(const finder *t) {
     static const char kinds[] = ";\t, ";
     enum { TRIED = 1000 };
     char best = ' ';
     long most = 0;
-    for (long least = 2; least > 0 && most == 0; least--) /* two to a line; else one */
+    for (long least = 2; least > 0 && most == 0; least--) /* lines with two numbers; if there are none, one */
         for (const char *kind = kinds; *kind; kind++) {
             long score = 0;
             for (size_t i = 0; i < t->count; i += 1 + t->count / TRIED) {
@@ -174,7 +176,7 @@ static char choose_separator(const finder *t) {
     return best;
 }
 
-/* Which fields are numbers in most lines, those with many before those with few. */
+/* Sets t->usual: the most frequent set of numeric fields, each line weighted by the square of its numbers. */
 static void find_usual(finder *t) {
     enum { KINDS = 64 };
     struct {
@@ -204,7 +206,7 @@ static void find_usual(finder *t) {
         }
 }
 
-/* Numbers, or no value, where rows have numbers. */
+/* Are the usual numeric fields of the line numbers or missing, with one number at least? */
 static bool is_row(const finder *t, const table_line *l) {
     return !l->comment && (l->numbers | l->marked) & t->usual && !(l->words & ~l->marked & t->usual);
 }
@@ -218,7 +220,7 @@ static bool parse_unit(const char *text, size_t len, unit *u, calc_error *wrong)
     return lx.kind != T_END && !wrong->raised && unit_of_header(&lx, u);
 }
 
-/* `k []`, `k [-]`: a plain number */
+/* The unit of a plain number, `k []` or `k [-]`. */
 static bool no_unit(const char *text, size_t len) {
     const field f = field_trimmed(text, len);
     return f.len == 0 || (f.len == 1 && *f.text == '-');
@@ -228,7 +230,9 @@ static char closing_of(char c) {
     return c == '[' ? ']' : c == '(' ? ')' : 0;
 }
 
-/* `r [mm] f [um]` parts names from their units too; `[mm] [um]` and `- [um]` are units alone. */
+/* Between blanks, `r [mm] f [um]` are two titles: extends f by the bracket behind it, unless f is a unit
+ * itself
+ * (`[mm] [um]`, `- [um]`). Returns where the next field begins. */
 static size_t unit_behind(const char *line, size_t len, size_t at, field *f) {
     size_t next = at;
     while (next < len && field_is_blank(line[next]))
@@ -242,7 +246,7 @@ static size_t unit_behind(const char *line, size_t len, size_t at, field *f) {
     return (size_t)(end + 1 - line);
 }
 
-/* Without the signs of a comment, and what programs write before the names. */
+/* The line without comment signs and without the `ITEM: ATOMS` that LAMMPS writes before the names. */
 static field heading(const char *text, size_t len) {
     static const char item[] = "ITEM: ";
     field f = field_trimmed(text, len);
@@ -257,8 +261,8 @@ static field heading(const char *text, size_t len) {
     return *text == '\t' || *text == ';' || *text == ',' ? (field){text, len} : f; /* an empty first field */
 }
 
-/* The names in a line, those at the end without one left out: how many; 0: half of them are numbers, or there
- * are too many. */
+/* Reads the titles of a line into t->title. Returns their count up to the last that is not empty; 0: half of
+ * them or more are numbers, or there are more than CSV_COLUMNS. */
 static size_t read_titles(finder *t, char separator, const char *text, size_t len) {
     const field head = heading(text, len);
     size_t at = 0, count = 0, named = 0, numbers = 0;
@@ -279,14 +283,14 @@ static size_t read_titles(finder *t, char separator, const char *text, size_t le
     return 2 * numbers < named ? named : 0;
 }
 
-/* How many columns the line names: by the separator of the rows, or by another where that parts as many names
- * as a row has fields. exact: no less and no more than these; else 0. */
+/* Reads titles and returns their count: by the separator of the rows or, if that gives too few, by one that
+ * gives as many titles as a row has fields. With `exact`, any other count is 0. */
 static size_t names_in(finder *t, const table_line *l, unsigned fields, bool exact) {
     static const char kinds[] = ";\t, ";
     const char *text = text_of(t, l), own = t->c->separator;
     size_t named = read_titles(t, own, text, l->at.len);
     const bool other =
-        own == ' ' ? named != fields : named < count_bits(t->usual); /* too few; signs between blanks */
+        own == ' ' ? named != fields : named < count_bits(t->usual); /* too few, or `r , f` over `1 2` */
     for (const char *kind = kinds; *kind && named != fields && other; kind++)
         named = read_titles(t, *kind, text, l->at.len);
     if (named != fields)
@@ -294,7 +298,7 @@ static size_t names_in(finder *t, const table_line *l, unsigned fields, bool exa
     return named < 2 && count_bits(t->usual) > 1 && !memchr(text, '[', l->at.len) ? 0 : named;
 }
 
-/* Are the names that have been read units, or most of them? */
+/* Are half of the titles or more units alone? */
 static bool are_units(const finder *t, size_t named) {
     size_t units = 0, all = 0;
     for (size_t i = 0; i < named; i++) {
@@ -314,27 +318,28 @@ static bool have_units(const finder *t, size_t named) {
     return false;
 }
 
-/* The line of names above the i-th; in a comment, those that the rows just need. */
+/* The index of the header above line i, or NO_LINE. A line that is no comment decides; a comment is a header
+ * if it has as many titles as line i has fields, and one with units goes before one without. */
 static size_t header_above(finder *t, size_t i) {
     const unsigned fields = t->list[i].fields;
-    size_t noted = NO_LINE;
+    size_t candidate = NO_LINE; /* the lowest comment with titles, but without units */
     while (i-- > 0) {
         const table_line *l = &t->list[i];
         if (!l->comment)
-            return names_in(t, l, fields, false) ? i : noted;
+            return names_in(t, l, fields, false) ? i : candidate;
         const size_t named = names_in(t, l, fields, true);
         if (named && have_units(t, named))
             return i;
-        noted = named && noted == NO_LINE ? i : noted;
+        candidate = named && candidate == NO_LINE ? i : candidate;
     }
-    return noted;
+    return candidate;
 }
 
 static bool same_line(const finder *t, const table_line *a, const table_line *b) {
     return a->at.len == b->at.len && !memcmp(text_of(t, a), text_of(t, b), a->at.len);
 }
 
-/* What is wrong with a column, once. */
+/* Records the first error of a column. False: out of memory. */
 LIKE_PRINTF(3, 4)
 static bool trouble(csv_values *column, calc_error *error, const char *format, ...) {
     char text[CALC_ERROR_TEXT];
@@ -348,11 +353,11 @@ static bool trouble(csv_values *column, calc_error *error, const char *format, .
     return column->trouble || calc_no_memory(error);
 }
 
-/* Parts a title into name and unit, which stands in the last brackets, or behind one of the other marks. What
- * is in brackets or behind a slash and is no unit is told where the column is asked for. */
+/* Splits a title into name and unit, which stands in the last brackets or behind the last of the other marks.
+ * If a text in brackets or behind a slash is not a unit, that is the column's trouble. */
 static bool read_title(const finder *t, csv_values *column) {
     static const char *const before[] = {"[", "(", "/", " in ", "_"};
-    enum { SURE = 3 };
+    enum { SURE = 3 }; /* the first three announce a unit for sure */
     const char *title = column->title, *path = t->c->path;
     size_t name = strlen(title);
     calc_error wrong;
@@ -389,7 +394,7 @@ static bool read_title(const finder *t, csv_values *column) {
     return true;
 }
 
-/* Columns from the header at i, with units from the line below the names where that is all units. */
+/* Makes the columns from the header at line i; if that holds units, from it and the line of names above. */
 static bool read_header(finder *t, size_t i, unsigned fields) {
     csv *c = t->c;
     char unit_of[CSV_COLUMNS][CSV_NAME] = {""};
@@ -400,7 +405,7 @@ static bool read_header(finder *t, size_t i, unsigned fields) {
         while (above-- > 0 && t->list[above].comment)
             continue;
         named = above == NO_LINE ? 0 : names_in(t, &t->list[above], fields, false);
-        if (named < units) { /* they are names all the same */
+        if (named < units) { /* no names above: names that look like units */
             memset(unit_of, 0, sizeof unit_of);
             named = names_in(t, &t->list[above = i], fields, false);
         }
@@ -430,7 +435,7 @@ static bool read_header(finder *t, size_t i, unsigned fields) {
 
 /* ---- rows -------------------------------------------------------------------------------------- */
 
-/* Where the rows begin: those that a header stands above, but for a table without one that is no shorter. */
+/* The first row of the first table with a header and longer than all before it, else of the first table. */
 static size_t find_begin(finder *t, size_t *header) {
     size_t first = NO_LINE, before = 0;
     *header = NO_LINE;
@@ -442,7 +447,7 @@ static size_t find_begin(finder *t, size_t *header) {
         size_t begin = i, end = i;
         while (begin > 0 && is_row(t, &t->list[begin - 1]) &&
                (t->list[begin - 1].fields > 1 || t->list[i].fields == 1))
-            begin--; /* without a value in some */
+            begin--; /* rows with missing values belong to the table */
         while (end < t->count && (t->list[end].comment || is_row(t, &t->list[end])))
             end++;
         const size_t named = header_above(t, begin);
@@ -457,7 +462,7 @@ static size_t find_begin(finder *t, size_t *header) {
     return first;
 }
 
-/* Names with units of their own begin another table. */
+/* Is the line a header with units? Then another table begins. */
 static bool begins_another(finder *t, const table_line *l) {
     const size_t named = l->numbers ? 0 : names_in(t, l, (unsigned)t->c->columns, false);
     return named >= count_bits(t->usual) && have_units(t, named);
@@ -484,7 +489,7 @@ static bool read_rows(finder *t, size_t begin, size_t header) {
             continue;
         const unsigned long long first = t->usual & (~t->usual + 1);
         if (!(l->words & ~l->marked & t->usual) ||
-            (l->numbers & t->usual && !(l->labels & first))) { /* no `Mean;0.3;5` */
+            (l->numbers & t->usual && !(l->labels & first))) { /* but not `Mean;0.3;5` */
             if (!add_row(t, l))
                 return false;
             continue;
@@ -511,7 +516,7 @@ static field number_of(const cell *c) {
     return field_trimmed(c->f.text, hash ? (size_t)(hash - c->f.text) : c->f.len);
 }
 
-/* Does the mark stand where one of thousands would: `1.500`, `-12,345`, not `0.500`? */
+/* Does the mark stand where a thousands separator would: `1.500`, `-12,345`, but not `0.500`? */
 static bool like_thousands(field f, char mark) {
     const size_t sign = *f.text == '-' || *f.text == '+';
     if (f.len < sign + 5 || f.len > sign + 7 || f.text[sign] == '0' || f.text[f.len - 4] != mark)
@@ -522,7 +527,7 @@ static bool like_thousands(field f, char mark) {
     return true;
 }
 
-/* Of a file with both marks: may that of a number be either? */
+/* If the file has decimal points and commas: records trouble if this number's mark may separate thousands. */
 static bool doubt(const csv *c, const csv_row *row, csv_values *column, const cell *v, calc_error *error) {
     const field f = number_of(v);
     const int behind = 3, before = (int)f.len - behind - 1, mark = memchr(f.text, ',', f.len) ? COMMA : POINT;
@@ -538,8 +543,8 @@ static bool doubt(const csv *c, const csv_row *row, csv_values *column, const ce
                    c->marked[!mark], other, own, other);
 }
 
-/* Which marks stand in this file, and where first? Only one with both can be in doubt. */
-static void see_marks(csv *c) {
+/* Fills c->marked, unless the file cannot hold both marks within numbers: then none is ambiguous. */
+static void find_marks(csv *c) {
     if (c->separator != ',' ? !strchr(c->text, ',') || !strchr(c->text, '.') : !strchr(c->text, '"'))
         return;
     for (const csv_row *row = c->row; row < c->row + c->rows && !*c->stop; row++) {
@@ -561,7 +566,7 @@ static void see_marks(csv *c) {
 static bool find_table(finder *t, size_t len) {
     csv *c = t->c;
     size_t header;
-    if (!cut_lines(t, len))
+    if (!list_lines(t, len))
         return false;
     c->separator = choose_separator(t);
     find_usual(t);
@@ -574,7 +579,7 @@ static bool find_table(finder *t, size_t len) {
     for (size_t i = 0; i < c->columns; i++)
         c->column[i].numbers = t->usual >> i & 1;
     if (ok)
-        see_marks(c);
+        find_marks(c);
     return ok && (c->rows > 0 || calc_fail(t->error, 0, 0, "%s holds no rows of numbers", c->path));
 }
 
@@ -656,7 +661,7 @@ const csv_values *csv_column(csv *c, const char *name, calc_error *error) {
     return column && !column->twice && csv_load(c, column, error) ? column : NULL;
 }
 
-/* The cell of a row in a column; false: the line ends before it. */
+/* Reads the cell of a row in a column; false: the line ends before it. */
 static bool cell_at(const csv *c, const csv_row *row, size_t column, cell *out) {
     size_t at = 0;
     for (size_t i = 0; i < column; i++)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Encodings told by their bytes: what is valid UTF-8 is that; pairs whose first byte is a quotation mark or a
- * dash to Western text, and a letter to Japanese, are Shift-JIS; all else is Windows-1252, Latin-1 included.
- */
+/* Guesses the encoding from the bytes: UTF-8 if valid, else Shift-JIS if is_japanese finds evidence, else
+ * Windows-1252, which includes Latin-1. Depends on iconv and text/characters. */
 #include "text/encoding.h"
 
 #include <errno.h>
@@ -19,19 +18,21 @@ static bool is_utf8(const char *text, size_t len) {
     return true;
 }
 
+/* Valid Shift-JIS, with evidence: lead bytes 0x81-0x9f, punctuation in Windows-1252, count 2, or 1 before
+ * ASCII. Lead bytes from 0xe0 on, letters in Windows-1252, count nothing. */
 static bool is_japanese(const char *text, size_t len) {
-    unsigned sure = 0;
+    unsigned evidence = 0;
     for (size_t i = 0; i < len; i++) {
         const unsigned first = (unsigned char)text[i], second = i + 1 < len ? (unsigned char)text[i + 1] : 0;
-        if (first < 0x80 || (first >= 0xa1 && first <= 0xdf)) /* of one byte */
+        if (first < 0x80 || (first >= 0xa1 && first <= 0xdf)) /* a character of one byte */
             continue;
         if (first == 0x80 || first == 0xa0 || first > 0xfc || second < 0x40 || second == 0x7f ||
             second > 0xfc)
             return false;
-        sure += first >= 0xa0 ? 0 : second < 0x80 ? 1 : 2;
+        evidence += first >= 0xa0 ? 0 : second < 0x80 ? 1 : 2;
         i++;
     }
-    return sure >= 2;
+    return evidence >= 2;
 }
 
 bool encoding_open(iconv_t *by, const char *name, const char *told, const char *path, calc_error *error) {
@@ -58,7 +59,7 @@ size_t encoding_decode(iconv_t by, size_t unit, char *from, size_t *len, char *t
     return (size_t)(to - begin);
 }
 
-/* Signs of micro and degrees that were UTF-8 taken for Windows-1252, and written as UTF-8 again. */
+/* Repairs micro and degree signs that were encoded as UTF-8 twice. */
 static void unmangle(char *text, size_t *len) {
     size_t n = 0;
     for (size_t i = 0; i < *len; i++) {
@@ -82,7 +83,7 @@ bool encoding_to_utf8(char **text, size_t *len, const char **was, const char *pa
     if (!encoding_open(&by, by_pairs ? "CP932" : "CP1252", by_pairs ? "Shift-JIS" : "Windows-1252", path,
                        error))
         return false;
-    size_t room = 3 * *len, left = *len; /* a byte is a character of at most 3 */
+    size_t room = 3 * *len, left = *len; /* each byte becomes at most 3 */
     char *to = malloc(room + CHARACTER_BYTES);
     if (to) {
         *was = by_pairs ? "Shift-JIS" : NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which encoding the text of a file has, where nothing in the file says it. Touches nothing but iconv. */
+/* Guesses the encoding of a text and converts it to UTF-8. Depends on iconv alone. */
 #ifndef TEXT_ENCODING_H
 #define TEXT_ENCODING_H
 
@@ -7,14 +7,15 @@
 
 #include "text/error.h"
 
-/* From the encoding of this name, which is told so, to UTF-8; NULL with the error. */
+/* Opens *by to convert from the encoding that iconv calls `name` and messages call `told` to UTF-8. On
+ * failure *by is NULL and the error names the file `path`. */
 bool encoding_open(iconv_t *by, const char *name, const char *told, const char *path, calc_error *error);
-/* To UTF-8, of which there is room for 3 bytes a unit; units that are no characters are replaced. What it has
- * written; *len: bytes at the end that are no whole character. */
+/* Converts `from` to `to`, which has room for 3 bytes per unit of `unit` bytes; bad units become
+ * CHARACTER_LOST. Returns the bytes written; *len becomes the bytes of an incomplete last character. */
 size_t encoding_decode(iconv_t by, size_t unit, char *from, size_t *len, char *to, size_t room);
 
-/* Makes *text, which may be freed, UTF-8, and NUL-terminated: of Windows-1252, or of Shift-JIS. was:
- * "Shift-JIS", or NULL. */
+/* Converts *text from UTF-8, Windows-1252 or Shift-JIS to NUL-terminated UTF-8; it may be freed and replaced.
+ * *was: "Shift-JIS" if that was the guess, else NULL. */
 bool encoding_to_utf8(char **text, size_t *len, const char **was, const char *path, calc_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Raising errors. Touches nothing but the error. */
+/* Raising errors. Depends on nothing but the error itself. */
 #include "text/error.h"
 
 #include <errno.h>
@@ -15,7 +15,7 @@ void error_clear(calc_error *error) {
     error->text[0] = 0;
 }
 
-static bool first(calc_error *error, error_kind kind) {
+static bool raise_first(calc_error *error, error_kind kind) {
     if (error->raised)
         return false;
     error->raised = true;
@@ -27,7 +27,7 @@ static bool first(calc_error *error, error_kind kind) {
 }
 
 void calc_raise(calc_error *error, size_t at, size_t len, const char *format, ...) {
-    if (!first(error, ERROR_WORDS))
+    if (!raise_first(error, ERROR_WORDS))
         return;
     va_list args;
     va_start(args, format);
@@ -42,12 +42,12 @@ bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error) {
 }
 
 void calc_raise_missing(calc_error *error, int input) {
-    if (first(error, ERROR_MISSING))
+    if (raise_first(error, ERROR_MISSING))
         error->input = input;
 }
 
 void calc_raise_errno(calc_error *error, int code, const char *format, ...) {
-    char words[CALC_ERROR_TEXT - 64]; /* the reason is never cut off */
+    char words[CALC_ERROR_TEXT - 64]; /* leaves room for the system's reason */
     va_list args;
     va_start(args, format);
     vsnprintf(words, sizeof words, format, args);
@@ -62,7 +62,7 @@ bool calc_input_status(calc_error *error, int input, fret_status status) {
         return true;
     if (status.code == FRET_INTERRUPTED || status.code == FRET_NO_MEMORY)
         error->stop = true;
-    if (first(error, ERROR_STATUS)) {
+    if (raise_first(error, ERROR_STATUS)) {
         error->status = status;
         error->input = input;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The error that every room of the language reports: raised where it is seen, worded in wording.c. */
+/* The error that all rooms above the library report, worded by language/wording.c. Depends on fret/status.h.
+ */
 #ifndef TEXT_ERROR_H
 #define TEXT_ERROR_H
 
@@ -13,45 +14,45 @@
 enum { CALC_ERROR_TEXT = 512 };
 
 typedef enum error_kind {
-    ERROR_WORDS,  /* text says it */
-    ERROR_STATUS, /* status: of the mechanics, or of an input's range */
-    ERROR_MISSING /* the input has no value in this scene */
+    ERROR_WORDS,  /* `text` is the message */
+    ERROR_STATUS, /* `status` holds an error of the library or of an input's range */
+    ERROR_MISSING /* `input` has no value in this scene */
 } error_kind;
 
-/* What went wrong, and where in the statement: bytes at .. at+len, len 0: not known yet. */
+/* An error and its place: `len` bytes of the statement from `at`; len 0: the place is not known yet. */
 typedef struct calc_error {
     bool raised;
-    bool stop;    /* interrupted, or memory is out: trying something else instead is no use */
-    bool refused; /* by the system: no word of the language is to blame */
-    bool circle;  /* a live definition that needs itself */
-    bool strange; /* dimensions do not fit: no other value would help */
-    bool worded;  /* wording.c has been here */
+    bool stop;    /* interrupted or out of memory: do not try an alternative */
+    bool refused; /* the operating system refused; the statement is not at fault */
+    bool circle;  /* a live definition depends on itself */
+    bool strange; /* dimensions do not match: no other value would help */
+    bool worded;  /* wording.c has written `text` */
     error_kind kind;
-    int input; /* of ERROR_MISSING, and of a status without a name; else -1 */
+    int input; /* the input that ERROR_MISSING, or a status that names none, is about; else -1 */
     size_t at, len;
     fret_status status;
     char text[CALC_ERROR_TEXT];
 } calc_error;
 
-/* One that is ready to be raised. */
+/* Initial value of a calc_error. */
 #define ERROR_NONE                                                                                           \
     { .input = -1 }
-/* Again; where a million may begin, too, whose texts need not be cleared. */
+/* Does the same by assignment, faster: it clears only the first byte of the text. */
 void error_clear(calc_error *error);
-/* For what may fail quietly: an error of the block it stands in, cleared each time, that nobody reports. */
+/* A fresh error in the enclosing block, for calls whose error is not reported. */
 #define error_quiet() (&(calc_error)ERROR_NONE)
 
-/* These record the first error only. */
+/* Raise an error, unless one is raised already: the first stays. */
 LIKE_PRINTF(4, 5)
 void calc_raise(calc_error *error, size_t at, size_t len, const char *format, ...);
 void calc_raise_missing(calc_error *error, int input);
-/* What the system refused: the words, and its own behind them. */
+/* Raises the message followed by the system's words for the error number `code`. */
 LIKE_PRINTF(3, 4)
 void calc_raise_errno(calc_error *error, int code, const char *format, ...);
-/* Gives the error a place where it has none. */
+/* Gives the error a place unless it has one. */
 void calc_put_place(calc_error *error, size_t at, size_t len);
 
-/* The same as an answer: false, which compilers see too where `made || calc_no_memory(error)` stands. */
+/* The same as expressions of value false; inline, for compilers' analyses of `p || calc_no_memory(error)`. */
 #if defined(__GNUC__)
 static inline bool calc_refused(void) __attribute__((always_inline));
 #endif
@@ -65,12 +66,12 @@ static inline bool calc_refused(void) {
 #define calc_errno(...) (calc_raise_errno(__VA_ARGS__), calc_refused())
 #define calc_place(error, at, len) (calc_put_place(error, at, len), calc_refused())
 
-/* Is the flag up? Then the error says so. */
+/* True, with the error "interrupted", if the flag is set. */
 bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error);
 
-/* True where the status is fine. */
+/* True if the status is good; else raises it as ERROR_STATUS. */
 bool calc_status(calc_error *error, fret_status status);
-/* The same for an input of the scene, which wording.c names. */
+/* The same for a status about an input of the scene, which wording.c will name. */
 bool calc_input_status(calc_error *error, int input, fret_status status);
 
 #endif

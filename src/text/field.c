@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A line is cut at separators; a field is a number, has none, or is words. A number is what the language
- * takes for one, or the same with a decimal comma. */
+/* Splits lines into fields and reads their numbers, with decimal point or comma. Depends on unit.h. */
 #include "text/field.h"
 
 #include <math.h>
@@ -21,7 +20,7 @@ field field_trimmed(const char *text, size_t len) {
     return (field){text, len};
 }
 
-static bool parts(char separator, char c) {
+static bool separates(char separator, char c) {
     return separator == ' ' ? field_is_blank(c) : c == separator;
 }
 
@@ -36,7 +35,7 @@ bool field_next(char separator, const char *line, size_t len, size_t *at, field 
     int depth = 0;
     for (; i < len; i++) {
         const char c = line[i];
-        if (!quoted && depth == 0 && parts(separator, c))
+        if (!quoted && depth == 0 && separates(separator, c))
             break;
         quoted = c == '"' ? !quoted : quoted;
         depth += quoted ? 0 : c == '[' || c == '(' ? 1 : (c == ']' || c == ')') && depth > 0 ? -1 : 0;
@@ -48,7 +47,7 @@ bool field_next(char separator, const char *line, size_t len, size_t *at, field 
     return true;
 }
 
-/* The length of the number at the beginning of a text, which is not empty; 0: there is none. */
+/* The length of the number with sign at the beginning of a text that is not empty; 0: there is none. */
 static size_t take_number(const char *text, size_t len, char point, const unit *u, double *out) {
     const bool minus = *text == '-', sign = minus || *text == '+';
     double v;
@@ -103,7 +102,7 @@ bool cell_next(char separator, const char *line, size_t len, size_t *at, const u
     const size_t n = *at < len ? take_number(line + *at, len - *at, '.', u, &out->v) : 0;
     out->is = NUMBER;
     out->ends = false;
-    if (n > 0 && (*at + n == len || parts(separator, line[*at + n]))) { /* as most are */
+    if (n > 0 && (*at + n == len || separates(separator, line[*at + n]))) { /* fast path: a bare number */
         out->f = (field){line + *at, n};
         *at += n + 1;
         return true;
@@ -121,7 +120,7 @@ bool cell_next(char separator, const char *line, size_t len, size_t *at, const u
     }
     const char *hash = memchr(f->text, '#', f->len);
     const field before = field_trimmed(f->text, hash ? (size_t)(hash - f->text) : 0);
-    const bool first = f->text == line && *at < len; /* `1#,0,0`: a note */
+    const bool first = f->text == line && *at < len; /* in `1#,0,0` the # begins no comment */
     out->ends = hash && !first && field_is_number(before, comma, u, &out->v);
     out->is = out->ends ? NUMBER : hash == f->text ? COMMENT : WORD;
     return true;

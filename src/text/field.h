@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fields of a line of a table, and what stands in them. */
+/* Splitting a line of a table into fields, and classifying them. Depends on unit.h. */
 #ifndef TEXT_FIELD_H
 #define TEXT_FIELD_H
 
@@ -15,24 +15,26 @@ typedef struct field {
 
 bool field_is_blank(char c);
 field field_trimmed(const char *text, size_t len);
-/* The field at *at and the place of the next; false: there is none. Quotation marks and brackets hold
- * separators; ' ' stands for blanks and tabs. */
+/* Cuts out the field at *at, trimmed and unquoted, and moves *at to the next; false: there is none. Quotation
+ * marks and brackets hide separators; the separator ' ' stands for blanks and tabs. */
 bool field_next(char separator, const char *line, size_t len, size_t *at, field *out);
-/* All of a field, with a point or, where it cannot be a separator, with a comma. */
+/* Is the whole field a number? `comma` allows a decimal comma too. *out: the value in SI, read in unit u. */
 bool field_is_number(field f, bool comma, const unit *u, double *out);
-/* `1 234,5`, `-1'234'567`: three digits behind each mark, which may be any but a letter. */
+/* Is it a number with thousands separators, as `1 234,5` or `-1'234'567`: a blank, ', point, comma or any
+ * character outside ASCII before each three digits? */
 bool field_has_thousands(field f);
-/* What stands where there is no value. */
+/* Is it empty, or one of the words for no value, as `nan` or `#N/A`? */
 bool field_is_missing(field f);
 
-/* A field of a row. A comment, with or without a number before it, is the last. */
+/* A field of a row. */
 typedef struct cell {
     enum { NUMBER, MISSING, WORD, COMMENT } is;
     field f;
     double v;
-    bool ends;
+    bool ends; /* a comment follows the number: it is the last of its row */
 } cell;
 
+/* Reads the cell at *at and moves *at to the next; false: there is none. A number is read in unit u. */
 bool cell_next(char separator, const char *line, size_t len, size_t *at, const unit *u, cell *out);
 
 #endif

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Output files: written beside their target, put in its place when whole. Knows the file system, nothing of
- * what is written. */
+/* Output files: written beside their target, then renamed over it. Depends on POSIX and text/error. */
 #define _GNU_SOURCE /* mkostemp */
 #include "text/file.h"
 
@@ -13,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { LINKS = 40, PAUSE = 20 /* ms between looks at the stop flag */ };
+enum { LINKS = 40, PAUSE = 20 /* ms between two checks of the stop flag */ };
 
 static bool cannot_write(const file_out *out, int code, calc_error *error) {
     return calc_errno(error, code, "cannot write %s", out->name);
@@ -49,7 +48,7 @@ size_t file_own_path(char path[FILE_PATH], const char *variable, const char *oth
     return n >= FILE_PATH ? 0 : there ? strlen(given) : strlen(home) + 1;
 }
 
-/* The directory of a path with its slash, and `name` in it. */
+/* The path of `name` in the directory of `path`. The caller frees it; NULL: out of memory. */
 static char *beside(const char *path, const char *name) {
     const char *slash = strrchr(path, '/');
     return joined(path, slash ? (size_t)(slash - path) + 1 : 0, name);
@@ -75,8 +74,8 @@ static int descriptor(const char *path) {
     return numbered && !path[n] ? fd : -1;
 }
 
-/* Follows the links of out->real by hand: realpath(3) fails in directories deeper than PATH_MAX. A link that
- * leads nowhere is a target to be made. */
+/* Follows the links of out->real by hand: realpath(3) fails in directories deeper than PATH_MAX. The target
+ * of a dangling link will be created. Returns 0 or an error number. */
 static int follow_links(file_out *out) {
     for (int i = 0; i < LINKS; i++) {
         if (descriptor(out->real) >= 0)
@@ -95,11 +94,12 @@ static int follow_links(file_out *out) {
     return ELOOP;
 }
 
-/* A FIFO opens when someone reads it; until then the stop flag is watched. */
+/* Opens a device, a pipe or a copy of an open descriptor. A FIFO opens only when it has a reader: until then
+ * this waits and watches the stop flag. Returns -1 with errno. */
 static int open_direct(const char *path, file_stop stop) {
     int copy = descriptor(path);
     if (copy >= 0) {
-        fflush(stdout); /* what was printed before comes before */
+        fflush(stdout); /* keeps the order of the output */
         return fcntl(copy, F_DUPFD_CLOEXEC, 3);
     }
     for (;;) {
@@ -125,10 +125,9 @@ static int open_direct(const char *path, file_stop stop) {
     }
 }
 
-/* What the session has open as long as it goes on: no other file takes its place. */
-enum { KEPT = 16 }; /* a recording and the one after it, the history, transcripts in transcripts */
+enum { KEPT = 16 }; /* enough for two recordings, the history and nested transcripts */
 
-/* 1 + a descriptor, or 0. */
+/* The registered files: 1 + descriptor, or 0 for a free row. */
 static int kept[KEPT] = {1 + STDOUT_FILENO, 1 + STDERR_FILENO};
 
 void file_keep(int fd, bool open) {
@@ -152,7 +151,7 @@ bool file_kept_error(const char *name, calc_error *error) {
     return calc_fail(error, 0, 0, "cannot write %s: this session is using it", name);
 }
 
-/* Makes the file beside the target, with the target's mode, or a new file's. */
+/* Creates the temporary file, with the target's owner and mode if it exists. Returns -1 with errno. */
 static int open_part(file_out *out, const struct stat *old) {
     if (old && faccessat(AT_FDCWD, out->real, W_OK, AT_EACCESS))
         return -1;
@@ -169,7 +168,7 @@ static int open_part(file_out *out, const struct stat *old) {
         umask(mode);
         mode = old ? old->st_mode & 07777 : 0666 & ~mode;
         out->guard = file_guard_file(out->part);
-        /* only the superuser can give a file away: anyone else keeps it */
+        /* fchown works for the superuser only; for others no set-user-ID bit may pass to a file of theirs */
         if (old && fchown(fd, old->st_uid, old->st_gid))
             mode &= 0777;
         if (out->guard < 0 || fchmod(fd, mode)) {
@@ -232,8 +231,7 @@ bool file_out_open(file_out *out, const char *name, file_stop stop, calc_error *
     return open_error(out, code, error);
 }
 
-/* A stream remembers that a write failed, not why: the same write again tells. What it writes is lost anyway.
- */
+/* A stream remembers that a write failed, but not why: another write to the lost file tells. */
 static int write_error(const file_out *out) {
     static const char again[4096];
     return write(fileno(out->to), again, out->part ? sizeof again : 1) < 0 ? errno : EIO;
@@ -250,7 +248,7 @@ bool file_out_close(file_out *out, bool keep, file_report *report, calc_error *e
     if (fclose(out->to) && !code)
         code = errno;
     sigset_t before;
-    file_signals_hold(&before); /* a file in its place is no longer ours to remove */
+    file_signals_hold(&before); /* once renamed, the file must not be removed by file_emergency */
     if (out->part && keep && !code && rename(out->part, out->real))
         code = errno;
     if (out->part && (!keep || code))

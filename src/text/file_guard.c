@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The list of what must not stay behind when a signal ends the program. */
+/* The list of what to clean up when a signal ends the program. Depends on POSIX alone. */
 #include "text/file.h"
 
 #include <stdlib.h>
@@ -10,8 +10,8 @@ typedef enum kind { NOTHING, A_FILE, A_GROUP, A_TERMINAL } kind;
 
 enum { GUARDS = 64 };
 
-/* A handler may look at any moment: a row is filled in before its kind is set, and its path is freed only
- * when the row is taken again. */
+/* A signal handler may read a row at any moment: it is filled in before its kind is set, and its path is
+ * freed only when the row is used again. */
 static struct {
     volatile sig_atomic_t kind;
     pid_t group;
@@ -20,7 +20,7 @@ static struct {
     const char *farewell;
 } guards[GUARDS];
 
-/* A row with a path, if any; -1: none is left. */
+/* A free row, with a copy of the path unless that is NULL; -1: no row is free, or out of memory. */
 static int take_guard(const char *path) {
     for (int i = 0; i < GUARDS; i++) {
         if (guards[i].kind != NOTHING)
@@ -65,7 +65,7 @@ void file_unguard(int number) {
 
 static void restore(int i) {
     const ssize_t sent = write(STDIN_FILENO, guards[i].farewell, strlen(guards[i].farewell));
-    (void)sent; /* nobody is left to be told */
+    (void)sent; /* there is no way to report a failure */
     tcsetattr(STDIN_FILENO, TCSANOW, &guards[i].modes);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Input by lines, in blocks: a line too long, memory that is out and a failing disk are errors, never the
- * end. */
+/* Input by lines, read in blocks: a line too long, memory that is out and a failing disk are errors, never
+ * the end of the file. Depends on POSIX and this room. */
 #include "text/file.h"
 
 #include <errno.h>
@@ -16,13 +16,12 @@
 #include "text/encoding.h"
 #include "text/lines.h"
 
-enum { BLOCK = 1 << 16, PAUSE = 20 /* ms between looks at the stop flag */ };
-/* UTF-16 is read into the last quarter of the block and becomes UTF-8 at its beginning, which is at most half
- * as long again. */
+enum { BLOCK = 1 << 16, PAUSE = 20 /* ms between two checks of the stop flag */ };
+/* UTF-16 is read into the last quarter of the block; UTF-8, at most 3/2 as long, goes to the beginning. */
 enum { RAW = BLOCK / 4 * 3 };
 static const char little[] = "UTF-16LE", big[] = "UTF-16BE";
 
-/* Of byte order. */
+/* The byte order marks. */
 static const struct {
     const char *bytes;
     size_t length;
@@ -54,7 +53,7 @@ bool file_in_open(file_in *in, const char *name, file_stop stop, calc_error *err
     char *path = file_expand(name);
     if (!path)
         return cannot_read(name, ENOMEM, error);
-    /* not to hang on a FIFO that nobody writes */
+    /* O_NONBLOCK: open must not hang on a FIFO without a writer */
     int fd = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK), code = errno;
     free(path);
     if (fd < 0)
@@ -106,7 +105,7 @@ static bool input_stopped(const file_in *in) {
     return in->stop && *in->stop;
 }
 
-/* Some bytes, FILE_GOT_LINE, to `to`. */
+/* Reads one byte or more into `to`: FILE_GOT_LINE, with their number in *got. */
 static file_got read_some(file_in *in, char *to, size_t room, size_t *got, calc_error *error) {
     for (;;) {
         if (input_stopped(in))
@@ -133,7 +132,7 @@ static file_got read_some(file_in *in, char *to, size_t room, size_t *got, calc_
 
 /* ---- UTF-16 ------------------------------------------------------------------------------------ */
 
-/* So many bytes more, behind halves. */
+/* Decodes the n bytes that were read behind the incomplete character of in->halves bytes. */
 static void decode(file_in *in, size_t n) {
     const size_t len = in->halves + n;
     in->halves = len;
@@ -143,7 +142,7 @@ static void decode(file_in *in, size_t n) {
 
 /* ---- the mark ---------------------------------------------------------------------------------- */
 
-/* Could more bytes make it a mark? */
+/* Are the bytes the beginning of a mark that is longer? */
 static bool begins_mark(const char *bytes, size_t n) {
     for (size_t i = 0; i < MARKS; i++)
         if (n < marks[i].length && !memcmp(bytes, marks[i].bytes, n))
@@ -151,14 +150,14 @@ static bool begins_mark(const char *bytes, size_t n) {
     return false;
 }
 
-/* UTF-16 that begins with two letters of ASCII needs no mark. */
-static const char *without_mark(const char *bytes, size_t n) {
+/* UTF-16 without a mark is recognised if it begins with two ASCII characters; NULL: it is not UTF-16. */
+static const char *encoding_without_mark(const char *bytes, size_t n) {
     const bool low = n >= 4 && bytes[0] && !bytes[1] && bytes[2] && !bytes[3],
                high = n >= 4 && !bytes[0] && bytes[1] && !bytes[2] && bytes[3];
     return low ? little : high ? big : NULL;
 }
 
-/* The first bytes, without the mark. */
+/* Reads the first bytes, skips the mark and sets up the decoder. */
 static file_got read_beginning(file_in *in, calc_error *error) {
     file_got got = FILE_GOT_LINE;
     size_t n = 0;
@@ -168,7 +167,7 @@ static file_got read_beginning(file_in *in, calc_error *error) {
     }
     if (got == FILE_GOT_STOP || got == FILE_GOT_ERROR)
         return got;
-    const char *encoding = without_mark(in->block, in->have);
+    const char *encoding = encoding_without_mark(in->block, in->have);
     for (size_t i = 0; i < MARKS; i++)
         if (in->have >= marks[i].length && !memcmp(in->block, marks[i].bytes, marks[i].length)) {
             encoding = marks[i].encoding;
@@ -186,7 +185,7 @@ static file_got read_beginning(file_in *in, calc_error *error) {
     return FILE_GOT_LINE;
 }
 
-/* What is typed next, and the end of its last line. */
+/* Fills the block from the callback and adds the last newline. */
 static file_got ask_more(file_in *in) {
     free(in->block);
     in->block = in->ask(in->self, in->number <= in->read);
@@ -197,7 +196,7 @@ static file_got ask_more(file_in *in) {
     return FILE_GOT_LINE;
 }
 
-/* The next block: FILE_GOT_LINE stands for "some bytes". */
+/* Reads the next block: FILE_GOT_LINE if it holds one byte or more. */
 static file_got fill_block(file_in *in, calc_error *error) {
     file_got got = FILE_GOT_LINE;
     in->at = in->have = 0;
@@ -222,7 +221,7 @@ static file_got fill_block(file_in *in, calc_error *error) {
     return got == FILE_GOT_END && in->have > 0 ? FILE_GOT_LINE : got;
 }
 
-/* Appends to the line and ends it by a NUL. */
+/* Appends to in->line and terminates it by a NUL. */
 static bool append_bytes(file_in *in, const char *bytes, size_t n, calc_error *error) {
     if (n > FILE_LINE_LIMIT - in->length)
         return calc_fail(error, 0, 0, "%s:%llu: the line is longer than %d MB", in->name, in->number,
@@ -235,7 +234,7 @@ static bool append_bytes(file_in *in, const char *bytes, size_t n, calc_error *e
     return true;
 }
 
-/* Appends a physical line without its end, which may be that of Windows. */
+/* Appends a physical line to in->line, without its LF or CR LF. */
 static file_got add_line(file_in *in, calc_error *error) {
     const size_t begin = in->length;
     bool any = false;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files that grow as a session goes on. Knows the file system, nothing of what is written. */
+/* Files that grow during a session. Depends on POSIX and text/error. */
 #include "text/file.h"
 
 #include <errno.h>
@@ -11,7 +11,7 @@
 
 enum { IN_USE = -1 };
 
-/* Empties it, where it is a file. 0, an error number, or IN_USE. */
+/* Truncates the log if it is a regular file. Returns 0, an error number, or IN_USE. */
 static int begin_log(file_log *log, bool *overwrote) {
     struct stat info;
     if (fstat(log->fd, &info) || fcntl(log->fd, F_SETFL, O_WRONLY | O_APPEND) < 0)
@@ -28,7 +28,7 @@ bool file_log_open(file_log *log, const char *name, file_stop stop, bool *overwr
     *log = (file_log){.fd = -1, .stop = stop, .name = strdup(name)};
     *overwrote = false;
     int code = real && log->name ? 0 : ENOMEM;
-    if (!code) /* a pipe that nobody reads is refused, not waited for */
+    if (!code) /* O_NONBLOCK: a FIFO without a reader is refused, not waited for */
         log->fd = open(real, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
     if (!code)
         code = log->fd < 0 ? errno : begin_log(log, overwrote);
@@ -48,7 +48,7 @@ bool file_log_add(file_log *log, const char *bytes, size_t n, calc_error *error)
             done += (size_t)more;
         } else if (errno != EINTR || (log->stop && *log->stop)) {
             calc_errno(error, errno, "cannot write %s", log->name);
-            if (log->regular && done && ftruncate(log->fd, log->length)) /* half a line is worse than none */
+            if (log->regular && done && ftruncate(log->fd, log->length)) /* all or nothing */
                 log->regular = false;
             return false;
         }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Streams whose bytes a function takes, and texts in memory, written as files are. */
+/* Streams that pass their bytes to a function, and texts in memory written through them. Depends on libc. */
 #define _GNU_SOURCE /* fopencookie, which musl has too */
 #include "text/file.h"
 
@@ -9,7 +9,7 @@
 #include "number/array.h"
 
 #ifdef __APPLE__
-/* funopen writes ints, and lets go of what it is given. */
+/* An adapter to funopen, whose write function counts in int; freed when the stream is closed. */
 typedef struct taker {
     void *self;
     file_take *take;

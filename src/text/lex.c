@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tokens, and decimal literals rounded once. Touches nothing but the lexer. */
+/* The lexer, and decimal literals rounded once. Depends on text/error and text/characters. */
 #include "text/lex.h"
 
 #include <float.h>
@@ -10,7 +10,7 @@
 
 #include "text/characters.h"
 
-/* Not <ctype.h>: bytes above 127 belong to UTF-8 names (micro), whatever the locale. */
+/* Not <ctype.h>, which depends on the locale: bytes above 127 belong to names in UTF-8 (micro). */
 static bool digit(char c) {
     return c >= '0' && c <= '9';
 }
@@ -33,7 +33,7 @@ void lex_start(lexer *lx, const char *text, size_t len, calc_error *error) {
     lex_seek(lx, 0);
 }
 
-/* Digits behind those of *number: where they end. */
+/* Appends the digits at p to *number, modulo 2^64, and returns where they end. */
 static const char *take_digits(const char *p, const char *end, unsigned long long *number) {
     unsigned long long n = *number;
     for (unsigned d; p < end && (d = (unsigned)(*p - '0')) <= 9; p++)
@@ -42,7 +42,7 @@ static const char *take_digits(const char *p, const char *end, unsigned long lon
     return p;
 }
 
-/* Of a mantissa with so many decimal digits and a decimal exponent, by strtod. */
+/* The value of a mantissa (its bytes in text, with `point` as mark) times 10^exponent, by strtod. */
 static double long_decimal(const char *text, size_t mantissa, char point, long exponent) {
     char small[96], *copy = mantissa + 32 < sizeof small ? small : malloc(mantissa + 32);
     if (!copy)
@@ -82,7 +82,7 @@ size_t lex_decimal(const char *text, size_t len, char point, int shift, double *
         written = minus ? -written : written;
     }
 #if FLT_EVAL_METHOD == 0
-    /* both factors exact: one rounding, and no need of strtod */
+    /* Clinger's fast path: integer and power of ten are exact doubles, so that one operation rounds once. */
     static const double ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                  1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     const long exponent = shift + written - (long)behind;
@@ -103,7 +103,7 @@ static void read_number(lexer *lx) {
         calc_no_memory(lx->error);
         return;
     }
-    if (isfinite(lx->number) && lx->number != 0) /* most of them */
+    if (isfinite(lx->number) && lx->number != 0)
         return;
     bool zero = true;
     for (size_t i = lx->at; i < lx->at + lx->len && s[i] != 'e' && s[i] != 'E'; i++)
@@ -114,7 +114,7 @@ static void read_number(lexer *lx) {
 
 /* ---- commas ------------------------------------------------------------------------------------ */
 
-/* Does a digit stand there, or a point or a comma between two? */
+/* Is byte i a digit, or a point or comma between two digits? */
 static bool of_number(const lexer *lx, size_t i) {
     const char *s = lx->text;
     const bool mark = s[i] == '.' || s[i] == ',';
@@ -153,7 +153,7 @@ bool lex_one_value(lexer *lx) {
 
 /* ---- characters -------------------------------------------------------------------------------- */
 
-/* What texts have in place of plain characters, and how it is written here. */
+/* How to write in ASCII what typeset text has instead; NULL: the character is not in the table. */
 static const char *plain_of(unsigned code) {
     static const struct {
         unsigned first, last;
@@ -190,7 +190,7 @@ static const char *plain_of(unsigned code) {
     return NULL;
 }
 
-/* Names hold letters of any script, and nothing that does not show. */
+/* Raises an error if the name holds a hidden character, one that plain_of knows, or invalid UTF-8. */
 static void check_name(lexer *lx) {
     const char *s = lx->text + lx->at;
     for (size_t i = 0; i < lx->len;) {
@@ -221,7 +221,7 @@ void lex_seek(lexer *lx, size_t at) {
     lx->len = 0;
     lx->kind = T_END;
     if (at >= lx->end) {
-        lx->at = lx->last; /* what is missing is missing right after the last word */
+        lx->at = lx->last; /* errors about a missing token point right behind the last one */
         return;
     }
     char c = s[at], d = at + 1 < lx->end ? s[at + 1] : 0;
@@ -332,12 +332,12 @@ bool lex_filename(lexer *lx, char *buf, size_t size) {
     }
     if (quoted && at == lx->end) {
         lx->len = at - lx->at;
-        lx->error->raised = false; /* which the lexer may have said */
+        lx->error->raised = false; /* the lexer may have raised the same error */
         return lex_fail(lx, "the quotation mark is not closed");
     }
     if (n == 0)
         return lex_fail(lx, "expected a file name");
-    lx->error->raised = false; /* a name need not be made of tokens */
+    lx->error->raised = false; /* the name need not be made of valid tokens */
     if (n >= size)
         return lex_fail(lx, "the file name is too long");
     buf[n] = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines as users type, paste and read them. */
+/* Lines as users type, paste and read them. Depends on text/characters. */
 #include "text/lines.h"
 
 #include <stdio.h>
@@ -13,7 +13,7 @@ const char *strip_prompt(const char *line, size_t *len) {
     size_t i = 0;
     while (i < *len && (line[i] == ' ' || line[i] == '\t'))
         i++;
-    if (i == *len || (line[i] != 'f' && line[i] != '.')) /* most of them */
+    if (i == *len || (line[i] != 'f' && line[i] != '.'))
         return line;
     for (size_t p = 0; p < sizeof prompts / sizeof *prompts; p++) {
         if (*len - i < PROMPT || memcmp(line + i, prompts[p], PROMPT))
@@ -44,9 +44,9 @@ void help_wrapped(FILE *to, const char *text, size_t at, size_t indent) {
     putc('\n', to);
 }
 
-/* A `#` that belongs to a word, as in a#b.csv. */
+/* Does the `#` at i belong to a word, as in a#b.csv? */
 static bool within_word(const char *text, size_t i, size_t len) {
-    static const char ends[] = " \t\r\n;\"#"; /* and a byte 0 */
+    static const char ends[] = " \t\r\n;\"#"; /* strchr finds the NUL too */
     return i > 0 && i + 1 < len && !strchr(ends, text[i - 1]) && !strchr(ends, text[i + 1]);
 }
 
@@ -76,7 +76,7 @@ size_t shell_mark(const char *line, size_t len) {
     end = shell_statement_end(line, 0, n);
     while (end < n && line[end] == ';')
         end = shell_statement_end(line, end + 1, n);
-    return end == n ? n - 1 : len; /* else it is within a comment */
+    return end == n ? n - 1 : len; /* a `\` within a comment is no mark */
 }
 
 size_t paste_lines(char *text, bool continued) {

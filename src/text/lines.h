@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines as users type, paste and read them. */
+/* Lines as users type, paste and read them. Depends on text/characters. */
 #ifndef TEXT_LINES_H
 #define TEXT_LINES_H
 
@@ -7,22 +7,22 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* What follows the prompt that a pasted line begins with, `fret> ` or `....> `, and its length; without one
- * the line as it is. Blanks before the prompt go with it. */
+/* Skips the prompt `fret> ` or `....> ` at the beginning of a pasted line, with the blanks before it, and
+ * reduces *len; returns the line itself if it has none. */
 const char *strip_prompt(const char *line, size_t *len);
 bool begins_with_prompt(const char *line, size_t len);
 
-/* Takes prompts off the lines of a paste; where some begin with one the others are answers, and left out,
- * unless they continue a line, the first one that before it. Returns how many are left out. */
+/* Removes prompts from pasted lines. If one of several has a prompt, lines without are answers and removed
+ * too, unless they continue a line; `continued`: the first one does. Returns how many lines were removed. */
 size_t paste_lines(char *text, bool continued);
 
-/* Where the mark is that lets the line go on, or its length where there is none. */
+/* The index of the `\` by which the line is continued; its length if there is none. */
 size_t shell_mark(const char *line, size_t len);
-/* End of the statement that begins at i: a `;`, a comment or the end of the line. */
+/* The end of the statement that begins at i: a `;`, a comment or the end of the text. */
 size_t shell_statement_end(const char *text, size_t i, size_t len);
 
-/* A text and the end of its line, broken at blanks before column 80. at: the column where it begins; the
- * lines that follow begin at `indent`. */
+/* Writes a text and a newline, wrapped at blanks to 79 columns. at: the column of its first character;
+ * further lines are indented by `indent`. */
 void help_wrapped(FILE *to, const char *text, size_t at, size_t indent);
 
 #endif

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Typesetting of plain formulas by a table of words and signs. Touches nothing; knows the locale's encoding.
- */
+/* Typesetting of plain formulas by a table of words and signs. Depends on libc alone. */
 #include "text/typeset.h"
 
 #include <ctype.h>
@@ -23,7 +22,7 @@ typedef struct sign {
     const char *plain, *set;
 } sign;
 
-/* Whole words, or what stands before the index of one: delta_x, beta_k. */
+/* Replaced as whole words or before an index: delta_x, beta_k. */
 static const sign letters[] = {
     {"delta", "δ"}, {"mu", "μ"},    {"eta", "η"}, {"kappa", "κ"}, {"nu", "ν"},    {"beta", "β"},
     {"pi", "π"},    {"sigma", "σ"}, {"int", "∫"}, {"sum", "Σ"},   {"Gamma", "Γ"},
@@ -39,12 +38,12 @@ static bool is_word_char(char c) {
     return is_letter(c) || isdigit((unsigned char)c) || c == '_';
 }
 
-/* "sum of ..." is English. */
+/* "sum of ..." is English and stays. */
 static bool is_english(const char *word, const char *rest) {
     return !strcmp(word, "sum") && !strncmp(rest, " of ", 4);
 }
 
-/* How much of the plain text at the beginning of a word the sign stands for; 0: it is not in the table. */
+/* The length of the word at text if `letters` has it, and its sign in *set; else 0. */
 static size_t match_letter(const char *text, const char **set) {
     size_t len = 0;
     while (is_letter(text[len]))
@@ -60,7 +59,7 @@ static size_t match_letter(const char *text, const char **set) {
     return 0;
 }
 
-/* ^2 and ^3 that are no part of a longer exponent, and the signs. */
+/* The same for `signs`, and for ^2 and ^3 unless the exponent goes on. */
 static size_t match_sign(const char *text, const char **set) {
     if (text[0] == '^' && (text[1] == '2' || text[1] == '3') && !is_word_char(text[2]) && text[2] != '.') {
         *set = text[1] == '2' ? "²" : "³";
@@ -76,10 +75,10 @@ static size_t match_sign(const char *text, const char **set) {
 
 void typeset(const char *plain, char *buf, size_t size) {
     size_t used = 0;
-    bool within = false; /* a word */
+    bool in_word = false;
     while (*plain) {
         const char *set = plain;
-        size_t len = within ? 0 : match_letter(plain, &set);
+        size_t len = in_word ? 0 : match_letter(plain, &set);
         if (len == 0)
             len = match_sign(plain, &set);
         const size_t taken = len ? len : 1, put = len ? strlen(set) : taken;
@@ -87,7 +86,7 @@ void typeset(const char *plain, char *buf, size_t size) {
             break;
         memcpy(buf + used, set, put);
         used += put;
-        within = is_word_char(plain[taken - 1]);
+        in_word = is_word_char(plain[taken - 1]);
         plain += taken;
     }
     buf[used] = 0;

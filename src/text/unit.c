@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The tables of units, and parsing them. Touches nothing but the lexer. */
+/* The tables of units, and parsing unit expressions. Depends on text/lex and number/real. */
 #include "text/unit.h"
 
 #include <math.h>
@@ -44,8 +44,8 @@ static const struct {
 } prefixes[] = {{"n", -9}, {"u", -6}, {"\xc2\xb5", -6}, {"\xce\xbc", -6}, {"m", -3},
                 {"k", 3},  {"M", 6},  {"G", 9},         {"c", -2}};
 
-/* centi is for metres alone */
-static bool goes_with(const char *prefix, const char *name) {
+/* The prefix c is allowed for metres alone. */
+static bool prefix_allowed(const char *prefix, const char *name) {
     return *prefix != 'c' || !strcmp(name, "m");
 }
 
@@ -62,7 +62,8 @@ bool unit_prefixed(size_t i) {
 }
 
 bool unit_lookup(const char *word, size_t len, unit *out) {
-    static const char sign[] = "\xe2\x84\xab"; /* of the angstrom, of its own */
+    static const char sign[] =
+        "\xe2\x84\xab"; /* U+212B, the angstrom sign; the table has the letter U+00C5 */
     if (len == sizeof sign - 1 && !memcmp(word, sign, len))
         return unit_lookup("\xc3\x85", 2, out);
     for (size_t i = 0; i < UNITS; i++) {
@@ -78,7 +79,7 @@ bool unit_lookup(const char *word, size_t len, unit *out) {
         for (size_t j = 0; j < sizeof prefixes / sizeof *prefixes; j++) {
             size_t p = strlen(prefixes[j].name);
             if (p + n == len && !memcmp(prefixes[j].name, word, p) && !memcmp(units[i].name, word + p, n) &&
-                goes_with(prefixes[j].name, units[i].name)) {
+                prefix_allowed(prefixes[j].name, units[i].name)) {
                 *out = units[i].u;
                 out->exp10 += prefixes[j].exp10;
                 return true;
@@ -105,8 +106,8 @@ const char *unit_suggest(const char *word) {
         {"second", "s"},   {"sec", "s"},     {"kpsi", "ksi"},          {"Nm", "N*m"},
         {"kNm", "kN*m"},   {"Nmm", "N*mm"},  {"millimetre", "mm"}};
     for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++) {
-        const bool letters_tell = strchr(other_names[i][1], '*') != NULL; /* nM is no moment */
-        if (letters_tell ? !strcmp(word, other_names[i][0]) : same_but_case(word, other_names[i][0]))
+        const bool case_counts = strchr(other_names[i][1], '*') != NULL; /* nM is no moment */
+        if (case_counts ? !strcmp(word, other_names[i][0]) : same_but_case(word, other_names[i][0]))
             return other_names[i][1];
     }
     return suggest(word, prefixed_name);
@@ -124,7 +125,7 @@ bool dim_equal(dim a, dim b) {
     return fabs(a.N - b.N) < 1e-9 && fabs(a.m - b.m) < 1e-9 && fabs(a.s - b.s) < 1e-9;
 }
 
-/* dim_equal takes an angle for a number, as expressions do. */
+/* dim_equal alone does not tell an angle from a number. */
 static bool dim_is_angle(dim d) {
     return d.rad == 1 && dim_equal(d, DIM_NONE);
 }
@@ -134,7 +135,7 @@ static const struct named {
     const char *unit, *phrase;
     bool prefixes;
 } named[] = {
-    {{0, 0, 1, 0}, "rad", "an angle", false}, /* the first */
+    {{0, 0, 1, 0}, "rad", "an angle", false}, /* find_named expects it first */
     {{0, 0, 0, 0}, "", "a number", false},
     {{1, 0, 0, 0}, "N", "a force", true},
     {{0, 1, 0, 0}, "m", "a length", true},
@@ -155,7 +156,6 @@ static const struct named {
 };
 enum { NAMED = sizeof named / sizeof *named };
 
-/* NULL: none. */
 static const struct named *find_named(dim d) {
     for (size_t i = dim_is_angle(d) ? 0 : 1; i < NAMED; i++)
         if (dim_equal(d, named[i].d))
@@ -209,7 +209,7 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
     const struct named *row = find_named(d);
     if (!row || !row->prefixes || value == 0 || !isfinite(value))
         return 1;
-    /* what prints as 1000 belongs to the next prefix */
+    /* A value that would be printed as 1000 takes the next prefix. half[n]: half a unit of the n-th digit. */
     static const long double half[] = {0.5L,   5e-2L,  5e-3L,  5e-4L,  5e-5L,  5e-6L,
                                        5e-7L,  5e-8L,  5e-9L,  5e-10L, 5e-11L, 5e-12L,
                                        5e-13L, 5e-14L, 5e-15L, 5e-16L, 5e-17L, 5e-18L};
@@ -223,7 +223,7 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
     return steps[j].scale;
 }
 
-/* ---- as they are written ----------------------------------------------------------------------- */
+/* ---- parsing ----------------------------------------------------------------------------------- */
 
 static bool unit_word(const lexer *lx, unit *u) {
     if (lx->kind == T_PERCENT)
@@ -238,7 +238,7 @@ bool unit_at(const lexer *lx) {
     return unit_word(lx, &unused);
 }
 
-/* mm^2^2: the unit or its exponent to the second power? */
+/* Raises the error that mm^2^2 is ambiguous: (mm^2)^2 or mm^(2^2)? */
 static bool power_of_power(lexer *lx, size_t word, size_t at, double n) {
     const size_t len = lx->at - word, name = at - word;
     lex_next(lx);
@@ -250,7 +250,7 @@ static bool power_of_power(lexer *lx, size_t word, size_t at, double n) {
                      copysign(pow(fabs(n), lx->number), n));
 }
 
-/* One unit with its exponent. */
+/* Parses one unit with its exponent. */
 static bool unit_factor(lexer *lx, unit *out) {
     if (!unit_word(lx, out))
         return false;
@@ -283,7 +283,7 @@ static bool unit_factor(lexer *lx, unit *out) {
     return true;
 }
 
-/* After a number, `* m` goes on with the unit only if m is a unit: quantities never are. */
+/* `*` or `/` continues the unit only if a unit follows: in `2 N * F`, `* F` belongs to the expression. */
 bool unit_parse(lexer *lx, unit *out) {
     if (!unit_factor(lx, out)) {
         char word[LEX_NAME];
@@ -323,14 +323,13 @@ bool unit_of_header(lexer *lx, unit *out) {
         return false;
     if (fabs(places) < 100)
         lex_decimal("1", 1, '.', (int)places, &power);
-    if (times == power) /* numbers in it are rounded once */
+    if (times == power) /* a power of ten: numbers in the unit are rounded once */
         out->exp10 += (int)places;
     else
         out->factor *= times;
     return true;
 }
 
-/* The decimal scale of the unit goes into the exponent of the literal. */
 size_t unit_number(const char *text, size_t len, char point, const unit *u, double *out) {
     const bool decimal = u->factor == 1;
     const size_t n = lex_decimal(text, len, point, decimal ? u->exp10 : 0, out);

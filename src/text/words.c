@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An index over a table of names, and the distance between words. */
+/* A hash index over a table of names, and the distance between words. Depends on libc alone. */
 #include "text/words.h"
 
 #include <assert.h>
@@ -40,7 +40,7 @@ bool word_among(const char *(*name)(size_t i), const char *word, size_t len, siz
     return false;
 }
 
-/* Edits, counted double: a change of case costs 1, another letter, a missing one or a swap 2. */
+/* Damerau's edit distance: a change of case costs 1; another, a missing or an added letter or a swap 2. */
 static size_t word_distance(const char *a, const char *b) {
     enum { LONGEST = 40 };
     size_t n = strlen(b), rows[3][LONGEST + 1];
