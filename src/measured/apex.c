@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The least asymmetry, over a grid of places and then between two of them. */
+/* Minimises the asymmetry of a profile, over a grid of positions and then within it. Depends on number. */
 #include "measured/apex.h"
 
 #include <math.h>
@@ -12,17 +12,17 @@ typedef struct place {
     double r, f;
 } place;
 
-/* What is left of the asymmetry about x, as a part of how the sum of both sides varies: a flank alone is
- * symmetric but for a tilt, and hardly varies; and the tilt that was taken off. */
+/* `square`: mean square of f(x+d) - f(x-d) - 2 tilt d; `relative`: that over the variance of f(x+d) + f(x-d),
+ * which is tiny on a flank, symmetric but for a tilt. */
 typedef struct asymmetry {
-    double left, square, tilt; /* square: what is left, a mean square */
+    double relative, square, tilt;
     size_t pairs;
 } asymmetry;
 
-static const double rounding = 1e-12; /* of a sum of squares less another: what is below says nothing */
+static const double rounding = 1e-12; /* relative rounding error of a difference of sums of squares */
 
-/* The parabola through three places, or what there is where two of them are one. */
-static double between(const place *p, double r) {
+/* The parabola through three places; the value of the middle one if two of them coincide. */
+static double interpolate(const place *p, double r) {
     const double a = p[0].r, b = p[1].r, c = p[2].r;
     if (!(a < b && b < c))
         return p[1].f;
@@ -31,7 +31,7 @@ static double between(const place *p, double r) {
            p[2].f * (r - a) * (r - b) / ((c - a) * (c - b));
 }
 
-static asymmetry about(const place *p, size_t n, double x, bool tilted) {
+static asymmetry asymmetry_about(const place *p, size_t n, double x, bool tilted) {
     asymmetry a = {INFINITY, INFINITY, 0, 0};
     double DD = 0, Dd = 0, dd = 0, E = 0, EE = 0;
     size_t right = 0;
@@ -44,7 +44,7 @@ static asymmetry about(const place *p, size_t n, double x, bool tilted) {
         if (left == 0)
             break;
         const size_t first = left + 1 < n ? left - 1 : n - 3;
-        const double other = between(p + first, x - d), D = p[right].f - other,
+        const double other = interpolate(p + first, x - d), D = p[right].f - other,
                      S = p[right].f + other - 2 * p[n / 2].f;
         E += S;
         EE += S * S;
@@ -58,7 +58,7 @@ static asymmetry about(const place *p, size_t n, double x, bool tilted) {
     a.tilt = tilted ? Dd / dd / 2 : 0;
     const double varies = (EE - E * E / (double)a.pairs) / (double)(a.pairs - 1);
     a.square = fmax(0, DD - 2 * a.tilt * Dd) / (double)(a.pairs - 1 - tilted);
-    a.left = varies > rounding * (DD + EE) ? a.square / varies : INFINITY;
+    a.relative = varies > rounding * (DD + EE) ? a.square / varies : INFINITY;
     return a;
 }
 
@@ -68,30 +68,30 @@ typedef struct sought {
     bool tilted;
 } sought;
 
-static fret_real left_about(fret_real x, fret_real *slope, void *context) {
+static fret_real relative_about(fret_real x, fret_real *slope, void *context) {
     const sought *s = context;
     (void)slope;
-    return about(s->p, s->n, (double)x, s->tilted).left;
+    return asymmetry_about(s->p, s->n, (double)x, s->tilted).relative;
 }
 
-/* The place of the least asymmetry, within a tenth of both ends. */
+/* The position of the least asymmetry, at least a tenth of the length away from both ends. */
 static asymmetry least(const place *p, size_t n, bool tilted, double *at) {
     enum { PLACES = 160 };
     sought s = {p, n, tilted};
     const double first = 0.9 * p[0].r + 0.1 * p[n - 1].r, step = 0.8 * (p[n - 1].r - p[0].r) / (double)PLACES;
     asymmetry best = {INFINITY, INFINITY, 0, 0};
     for (size_t i = 0; i <= PLACES; i++) {
-        const asymmetry now = about(p, n, first + (double)i * step, tilted);
-        if (now.left < best.left) {
+        const asymmetry now = asymmetry_about(p, n, first + (double)i * step, tilted);
+        if (now.relative < best.relative) {
             best = now;
             *at = first + (double)i * step;
         }
     }
-    *at = (double)fret_least(left_about, &s, *at - step, *at + step, *at, 1e-12L);
-    return about(p, n, *at, tilted);
+    *at = (double)fret_least(relative_about, &s, *at - step, *at + step, *at, 1e-12L);
+    return asymmetry_about(p, n, *at, tilted);
 }
 
-/* Do both ends rise above the lowest place by a tenth of the highest? The mean of some places tells. */
+/* Do both ends rise by a tenth of the height above the lowest place, by means over 5 % of the places? */
 static bool rises_on_both(const place *p, size_t n) {
     const size_t part = n / 20 + 1;
     double low = INFINITY, high = -INFINITY, first = 0, last = 0;
@@ -107,9 +107,9 @@ static bool rises_on_both(const place *p, size_t n) {
     return first - low > 0.1 * (high - low) && last - low > 0.1 * (high - low);
 }
 
-/* By chance the least is less than any by some deviations of a sum of squares. */
+/* Is the asymmetry larger than the least by 12 standard deviations of a mean square of as many pairs? */
 static bool exceeds(const asymmetry *a, const asymmetry *least_of_all) {
-    return a->left > rounding &&
+    return a->relative > rounding &&
            !(a->square <= least_of_all->square * (1 + 12 * sqrt(2 / (double)least_of_all->pairs)));
 }
 
@@ -124,7 +124,7 @@ bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error) 
     if (rows >= 8 && p[0].r < p[rows - 1].r && rises_on_both(p, rows)) {
         double at = 0, tilted_at = 0;
         const asymmetry plain = least(p, rows, false, &at), tilted = least(p, rows, true, &tilted_at),
-                        here = about(p, rows, 0, false);
+                        here = asymmetry_about(p, rows, 0, false);
         out->tilted = exceeds(&plain, &tilted) && 2 * tilted.pairs > plain.pairs;
         out->at = out->tilted ? tilted_at : at;
         out->tilt = out->tilted ? tilted.tilt : 0;

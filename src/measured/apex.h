@@ -1,23 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a measured profile is its own mirror image. Knows numbers alone. */
+/* The apex of a measured profile: where the profile is symmetric. Depends on text/error and number. */
 #ifndef MEASURED_APEX_H
 #define MEASURED_APEX_H
 
 #include "text/error.h"
 
-/* Of a profile that rises on both sides, else nothing. */
+/* What apex_find has found; all zero unless the profile rises on both sides. */
 typedef struct apex {
-    bool moved;  /* it is not at r = 0, by more than chance */
-    bool tilted; /* its sides differ in slope */
-    double at;   /* [m] */
-    double tilt; /* f grows by so much with r, taken off */
+    bool moved;  /* the apex is significantly away from r = 0: r and f have been shifted */
+    bool tilted; /* the profile is significantly tilted about it */
+    double at;   /* position of the apex [m] */
+    double tilt; /* slope df/dr that has been subtracted */
 } apex;
 
-/* Rows r, f in any order. Of all x and, where by more than chance less is left then, of all tilts t, those
- * with the least mean square of f(x+d) - f(x-d) - 2td, as a part of that of f(x+d) + f(x-d) about its mean,
- * over the rows whose mirror image lies between rows; f(x-d) by the parabola through three of them. r and f
- * are then counted from there. A paraboloid that is tilted is one whose apex is elsewhere: no tilt is found.
- */
+/* Finds the apex of the rows r, f [m], in any order, and moves them so that it is at r = 0. The apex is the x
+ * that minimises the mean square of f(x+d) - f(x-d) - 2 t d relative to the variance of f(x+d) + f(x-d), over
+ * the rows x+d whose mirror image lies between rows; f(x-d) is interpolated by a parabola. The tilt t is 0
+ * unless it reduces the asymmetry significantly. A tilted paraboloid is a shifted one and gets no tilt. */
 bool apex_find(double *r, double *f, size_t rows, apex *out, calc_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Turning points part the rows into cycles; each is measured by itself. */
+/* Splits the rows into cycles at turning points and measures each. Depends on turning.h. */
 #include "measured/loop.h"
 
 #include <math.h>
@@ -10,25 +10,25 @@
 typedef struct measured {
     const double *x, *F;
     size_t rows;
-    size_t *turn; /* turning points, with the ends where they are as good as such */
+    size_t *turn; /* rows of the turning points, and of the ends if d_x turns there too */
     size_t turns;
     double noise_x, noise_F;
 } measured;
 
 /* ---- cycles ------------------------------------------------------------------------------------ */
 
-/* Is the row as far as the turning point two on, to a tenth of the way between? */
+/* Is d_x in `row` that of the turning point `other`, to a tenth of the stroke from there to `between`? */
 static bool is_like(const measured *m, size_t row, size_t other, size_t between) {
     return fabs(m->x[row] - m->x[other]) <= 0.1 * fabs(m->x[between] - m->x[other]);
 }
 
-/* Does a loop that begins in its midst come back there, to a tenth of its width or two rows? */
+/* Does a loop that begins between turning points return to row 0, to a tenth of its width or two steps? */
 static bool closes(const measured *m) {
     const double gap = fabs(m->x[m->rows - 1] - m->x[0]), width = fabs(m->x[m->turn[1]] - m->x[m->turn[0]]);
     return gap <= fmax(0.1 * width, 2 * fabs(m->x[1] - m->x[0]));
 }
 
-/* A file may begin and end where d_x turns. */
+/* Adds the first and the last row to the turning points if d_x is there as at the turning point two on. */
 static void add_ends(measured *m) {
     const size_t last = m->rows - 1, n = m->turns;
     size_t *turn = m->turn;
@@ -47,8 +47,8 @@ static void add_ends(measured *m) {
 
 /* ---- one cycle --------------------------------------------------------------------------------- */
 
-/* The polygon of a cycle about its first corner, less what drifts evenly over its rows: the chord that closes
- * it is where the force is largest, and would take that for slip. */
+/* The area of the polygon of a cycle, relative to its first corner. A drift, linear in the row number, is
+ * subtracted: the closing chord lies where the force is largest and would count the drift as slip. */
 static double area(const measured *m, const loop_cycle *c, double drift_x, double drift_F) {
     const long double rows = (long double)(c->last - c->first);
     long double sum = 0, x0 = 0, F0 = 0;
@@ -63,8 +63,8 @@ static double area(const measured *m, const loop_cycle *c, double drift_x, doubl
     return (double)(sum - F0 / 2 * x0);
 }
 
-/* Rows from `from` on while v is within a part of its way to `to`; two at least. */
-static size_t within(const double *v, size_t from, size_t to, double part) {
+/* Rows (2 or more) from `from` towards `to` in which v changes by at most `part` of v[to] - v[from]. */
+static size_t rows_within(const double *v, size_t from, size_t to, double part) {
     const int step = to > from ? 1 : -1;
     const double far = part * fabs(v[to] - v[from]);
     size_t row = from, n = 1;
@@ -75,12 +75,11 @@ static size_t within(const double *v, size_t from, size_t to, double part) {
     return n;
 }
 
-/* d F_x/d d_x behind the turn at `from`: of d_x as a function of F_x, whose slope does not vanish there.
- * Noise leaves it open which rows are the first, and whether a bend below three standard errors is there.
- */
+/* The slope dF_x/dd_x behind the turn at `from`, by a parabola for d_x(F_x), whose slope is finite there.
+ * Skips the rows within 4 times the noise of the turn, and curvature below three standard errors. */
 static double unloading(const measured *m, size_t from, size_t to) {
     double c[3];
-    const size_t end = from + within(m->F, from, to, 0.3);
+    const size_t end = from + rows_within(m->F, from, to, 0.3);
     size_t first = from;
     while (first + 4 < end && (fabs(m->F[first] - m->F[from]) < 4 * m->noise_F ||
                                fabs(m->x[first] - m->x[from]) < 4 * m->noise_x))
@@ -93,9 +92,9 @@ static double unloading(const measured *m, size_t from, size_t to) {
     return ok && c[1] != 0 ? 1 / c[1] : NAN;
 }
 
-/* Before the turn at `to`, by the line that is nearest, and its standard error. */
+/* The slope before the turn at `to`, by the regression line, and its standard error. */
 static double flank(const measured *m, size_t from, size_t to, double *error) {
-    const size_t n = within(m->x, to, from, 0.1);
+    const size_t n = rows_within(m->x, to, from, 0.1);
     long double x = 0, F = 0, xx = 0, xF = 0;
     for (size_t i = to + 1 - n; i <= to; i++) {
         x += m->x[i] / (long double)n;
@@ -130,7 +129,7 @@ static loop_cycle measure(const measured *m, size_t a, size_t b, size_t c) {
     return out;
 }
 
-/* ---- all of them ------------------------------------------------------------------------------- */
+/* ---- all cycles -------------------------------------------------------------------------------- */
 
 static bool measure_all(measured *m, loop_answer *out, calc_error *error) {
     const size_t cycles = m->turns < 3 ? 0 : (m->turns - 1) / 2;
@@ -144,14 +143,14 @@ static bool measure_all(measured *m, loop_answer *out, calc_error *error) {
     for (size_t i = 0; i < cycles; i++)
         out->cycle[i] = measure(m, m->turn[2 * i], m->turn[2 * i + 1], m->turn[2 * i + 2]);
     const loop_cycle *first = out->cycle, *last = first + cycles - 1;
-    double drift[2] = {0}; /* where it is above two standard errors */
+    double drift[2] = {0}; /* subtracted from the area: only if above two standard errors */
     if (cycles > 1) {
         const double between = (double)(cycles - 1);
         out->drift_dx = (last->dx0 - first->dx0) / between;
         out->drift_Fx = (last->Fx0 - first->Fx0) / between;
         drift[0] = fabs(out->drift_dx) > 2 * m->noise_x / between ? out->drift_dx : 0;
         drift[1] = fabs(out->drift_Fx) > 2 * m->noise_F / between ? out->drift_Fx : 0;
-    } else { /* whether it goes on is not known */
+    } else { /* not subtracted: whether it goes on is not known */
         out->drift_dx = m->x[last->last] - m->x[last->first];
         out->drift_Fx = m->F[last->last] - m->F[last->first];
     }
@@ -162,16 +161,16 @@ static bool measure_all(measured *m, loop_answer *out, calc_error *error) {
     return true;
 }
 
-/* A loop that begins and ends in its midst is one from its first turning point on. */
-static bool measure_turned(measured *m, double *turned, loop_answer *out, calc_error *error) {
+/* Measures one closed cycle that begins between turning points, on rows rotated to begin with the first. */
+static bool measure_rotated(measured *m, double *rotated, loop_answer *out, calc_error *error) {
     const size_t n = m->rows, begin = m->turn[0];
     measured from = *m;
     for (size_t i = 0; i <= n; i++) {
-        turned[i] = m->x[(begin + i) % n];
-        turned[n + 1 + i] = m->F[(begin + i) % n];
+        rotated[i] = m->x[(begin + i) % n];
+        rotated[n + 1 + i] = m->F[(begin + i) % n];
     }
-    from.x = turned;
-    from.F = turned + n + 1;
+    from.x = rotated;
+    from.F = rotated + n + 1;
     from.rows = n + 1;
     from.turn[1] -= begin;
     from.turn[0] = 0;
@@ -188,17 +187,17 @@ static bool measure_turned(measured *m, double *turned, loop_answer *out, calc_e
 
 bool loop_find(const double *dx, const double *Fx, size_t rows, loop_answer *out, calc_error *error) {
     measured m = {.x = dx, .F = Fx, .rows = rows, .turn = malloc((rows + 2) * sizeof *m.turn)};
-    double *turned = malloc(2 * (rows + 1) * sizeof *turned);
+    double *rotated = malloc(2 * (rows + 1) * sizeof *rotated);
     *out = (loop_answer){.cycle = NULL};
-    bool ok = (m.turn && turned) || calc_no_memory(error);
+    bool ok = (m.turn && rotated) || calc_no_memory(error);
     if (ok && turning_noise(dx, rows, &m.noise_x, error) && turning_noise(Fx, rows, &m.noise_F, error)) {
         m.turns = turning_points(dx, rows, m.noise_x, m.turn);
         if (m.turns > 0)
             add_ends(&m);
-        if (rows < 16 * (m.turns + 1)) /* too few to tell noise from a curve */
+        if (rows < 16 * (m.turns + 1)) /* too few rows to tell noise from curvature */
             m.noise_x = m.noise_F = 0;
-        ok =
-            m.turns == 2 && closes(&m) ? measure_turned(&m, turned, out, error) : measure_all(&m, out, error);
+        ok = m.turns == 2 && closes(&m) ? measure_rotated(&m, rotated, out, error)
+                                        : measure_all(&m, out, error);
     } else {
         ok = false;
     }
@@ -207,7 +206,7 @@ bool loop_find(const double *dx, const double *Fx, size_t rows, loop_answer *out
     if (ok)
         out->at_rest = fabs(dx[0]) <= fmax(0.05 * out->cycle->dxA, 4 * m.noise_x) &&
                        fabs(Fx[0]) <= fmax(0.05 * out->cycle->FA, 4 * m.noise_F);
-    free(turned);
+    free(rotated);
     free(m.turn);
     return ok;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Noise by differences, turning points by a threshold, levels by parabolas. */
+/* Noise by differences, turning points by a threshold, levels by fitted curves. Depends on number/array. */
 #include "measured/turning.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 bool turning_noise(const double *v, size_t n, double *noise, calc_error *error) {
     enum { ORDER = 6 };
-    double *d = malloc((2 * n + 1) * sizeof *d), over = 1; /* (2k over k) */
+    double *d = malloc((2 * n + 1) * sizeof *d), binomial = 1; /* (2k over k) */
     if (!d)
         return calc_no_memory(error);
     *noise = n > 2 * ORDER ? INFINITY : 0;
@@ -19,19 +19,19 @@ bool turning_noise(const double *v, size_t n, double *noise, calc_error *error) 
         double *size = d + n;
         for (size_t i = 0; i + k < n; i++)
             d[i] = d[i + 1] - d[i];
-        over *= 2 * (2 * (double)k - 1) / (double)k;
+        binomial *= 2 * (2 * (double)k - 1) / (double)k;
         if (k % 2)
             continue;
         for (size_t i = 0; i + k < n; i++)
             size[i] = fabs(d[i]);
         qsort(size, n - k, sizeof *size, fret_ascending);
-        *noise = fmin(*noise, size[(n - k) / 2] / (0.6745 * sqrt(over)));
+        *noise = fmin(*noise, size[(n - k) / 2] / (0.6745 * sqrt(binomial)));
     }
     free(d);
     return true;
 }
 
-/* How far v must come back. */
+/* How far v must come back for a turning point. */
 static double threshold(const double *v, size_t n, double noise) {
     double lo = v[0], hi = v[0], step = INFINITY;
     for (size_t i = 1; i < n; i++) {
@@ -46,19 +46,19 @@ static double threshold(const double *v, size_t n, double noise) {
 size_t turning_points(const double *v, size_t n, double noise, size_t *at) {
     const double back = threshold(v, n, noise);
     size_t count = 0, hi = 0, lo = 0;
-    int way = 0;
+    int direction = 0; /* of v; 0: not known yet */
     for (size_t i = 1; i < n; i++) {
         hi = v[i] > v[hi] ? i : hi;
         lo = v[i] < v[lo] ? i : lo;
-        if (way >= 0 && v[hi] - v[i] > back) {
-            if (way > 0)
+        if (direction >= 0 && v[hi] - v[i] > back) {
+            if (direction > 0)
                 at[count++] = hi;
-            way = -1;
+            direction = -1;
             lo = i;
-        } else if (way <= 0 && v[i] - v[lo] > back) {
-            if (way < 0)
+        } else if (direction <= 0 && v[i] - v[lo] > back) {
+            if (direction < 0)
                 at[count++] = lo;
-            way = 1;
+            direction = 1;
             hi = i;
         }
     }
@@ -111,8 +111,8 @@ turning turning_about(const double *v, size_t row, size_t from, size_t to, doubl
     return (turning){.first = first, .n = n, .here = here, .top = fmin(fmax(top, 0), (double)(n - 1))};
 }
 
-/* Values as a line down to each side of the crest, a + b min(u, 0) + c max(u, 0), u = i - top: the row of the
- * inverse of the normal equations that tells a. False: one side has no rows. */
+/* Least squares for h + p min(u, 0) + q max(u, 0), u = i - top: a, b, c are the weights of the values in h,
+ * from the inverse of the normal equations. False: one side has no rows. */
 static bool set_ridge(turning *t, double top) {
     double left[2] = {0}, right[2] = {0}; /* sums of u, u^2 */
     for (size_t i = 0; i < t->n; i++) {
@@ -151,7 +151,7 @@ double turning_crest(const double *v, const turning *t) {
     return at[0] + level;
 }
 
-/* What the two lines leave over. */
+/* The residual sum of squares of the two lines. */
 static double ridge_left(const double *v, const turning *t) {
     const double crest = turning_crest(v, t);
     double slope[2] = {0}, square[2] = {0}, squares = 0;

@@ -62,8 +62,7 @@ bool unit_prefixed(size_t i) {
 }
 
 bool unit_lookup(const char *word, size_t len, unit *out) {
-    static const char sign[] =
-        "\xe2\x84\xab"; /* U+212B, the angstrom sign; the table has the letter U+00C5 */
+    static const char sign[] = "\xe2\x84\xab"; /* U+212B, angstrom sign; the table has the letter U+00C5 */
     if (len == sizeof sign - 1 && !memcmp(word, sign, len))
         return unit_lookup("\xc3\x85", 2, out);
     for (size_t i = 0; i < UNITS; i++) {
