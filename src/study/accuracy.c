@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Measures every model of a cycle. Touches the scene only to ask it; what has been run is told to scene.used.
- */
+/* Measures every model of a cycle. Only reads the scene, but for scene.used, which notes the models run. */
 #include "study/accuracy.h"
 
 #include <math.h>
@@ -17,8 +16,8 @@ const family_row families[FAMILIES] = {
     [FAMILY_MIDPOINT] = {"springs, midpoint", "N", MODEL_SPRINGS},
 };
 
-static const long double rounding = 4e-19L; /* no reference is better */
-static const long double nothing = 1e-29L;  /* of what is stored: what rounding leaves where nothing slips */
+static const long double rounding = 4e-19L; /* least uncertainty of a reference */
+static const long double nothing = 1e-29L;  /* a loss below this part of the stored energy is rounding */
 static const fret_status fine = {FRET_OK, NULL, 0, 0};
 
 /* ---- measuring --------------------------------------------------------------------------------- */
@@ -29,13 +28,13 @@ typedef struct bench {
     accuracy_study *study;
     accuracy_progress *progress;
     void *context;
-    double budget, end;   /* seconds of the processor; when it is spent */
-    double enough;        /* seconds, to time one model */
-    load_view load;       /* that is run: of the program, or pressing and a cycle alone */
-    load_item cycle;      /* whose last period is measured */
-    double radius;        /* of the largest contact on the way */
-    fret_pressed contact; /* not of a program */
-    fret_loading peak;
+    double budget, end;   /* processor seconds, and the clock when they are spent */
+    double enough;        /* processor seconds for timing one model */
+    load_view load;       /* the load that is run: the program, or pressing and a cycle alone */
+    load_item cycle;      /* its last period is measured */
+    double radius;        /* of the largest contact during the load */
+    fret_pressed contact; /* without a program: at constant F_N */
+    fret_loading peak;    /* the state at the amplitude */
 } bench;
 
 static bool bench_stopped(const bench *b) {
@@ -46,9 +45,10 @@ static void tell_row(const bench *b, model_family family, unsigned long size) {
     b->progress(b->context, &(accuracy_row){.family = family, .size = size});
 }
 
-/* One cycle of a model; loss NULL: only for the time. */
+/* Callback: computes one cycle of a model; loss NULL: only to measure the time. */
 typedef fret_status cycle_of(void *model, long double *loss);
 
+/* The processor time of a cycle: repeats it until the runs take b->enough in all. */
 static bool time_of(bench *b, cycle_of *cycle, void *model, double *seconds) {
     for (unsigned long count = 1; *seconds * (double)count < b->enough;) {
         count =
@@ -67,7 +67,7 @@ static bool time_of(bench *b, cycle_of *cycle, void *model, double *seconds) {
     return true;
 }
 
-/* Enters a row: the value of the first cycle, the time of as many as it takes to measure it. */
+/* Adds a row: the value of the first cycle, and the time of a cycle. */
 static bool measure(bench *b, model_family family, unsigned long size, cycle_of *cycle, void *model) {
     accuracy_study *study = b->study;
     accuracy_row *row = &study->row[study->count];
@@ -87,8 +87,8 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
     return !bench_stopped(b);
 }
 
-/* The next model of this kind has ten times the size and takes ten times as long to set up and to run, twice
- * at least. Is there time for it? Small ones are always measured. */
+/* Is there time for ten times the size, which takes ten times as long to set up and to run, twice at least?
+ * Small models are always measured. */
 static bool affords(const bench *b, double setting_up) {
     const accuracy_row *last = &b->study->row[b->study->count - 1];
     const double next = 10 * (setting_up + 2 * last->seconds);
@@ -112,7 +112,7 @@ static fret_status closed_cycle(void *model, long double *loss) {
     return closed_loss(model, loss ? loss : &unused);
 }
 
-/* This is the reference too: its row shows how far that can be trusted. */
+/* The quadrature is the reference too: its row shows the uncertainty of the reference. */
 static fret_status quadrature_cycle(void *model, long double *loss) {
     bench *b = model;
     long double unused, error;
@@ -124,27 +124,27 @@ static fret_status quadrature_cycle(void *model, long double *loss) {
 
 /* ---- models that run the load ------------------------------------------------------------------ */
 
-/* Two levels beyond those of the scene. */
+/* Two levels finer than those of the scene. */
 enum { FINEST = LEVELS + 1 };
 
-/* At the last period of the load; on several numbers of chords where they are taken to the limit. */
+/* Runs that stand before the last period of the load: one, or one for each number of chords of a limit. */
 typedef struct running {
     runner run[LEVELS];
     unsigned levels;
-    unsigned long looks; /* of the last period */
+    unsigned long looks; /* records in the last period */
 } running;
 
-/* Straight steps alone are exact in one. */
+/* Does F_N swing in the load program? Without that one run with straight steps is exact. */
 static bool swings(const bench *b) {
     return b->study->program && b->s->answers.reach.swings;
 }
 
-/* Does the scene answer for a swinging load without chords? */
+/* Does the scene follow the sine of a swinging load itself, without chords? */
 static bool by_sine(const bench *b) {
     return swings(b) && b->s->answers.levels == 1;
 }
 
-/* With midpoint weights some stiffness is missing where k < 0: the contact that carries F_N is wider. */
+/* For k < 0 midpoint weights lose stiffness and the contact gets wider: doubles radius and springs. */
 static fret_status make_engine(const bench *b, model_family family, unsigned springs, engine *out) {
     const fret_normal *normal = b->load.normal;
     const bool midpoint = family == FAMILY_MIDPOINT;
@@ -168,7 +168,7 @@ static fret_status approach(const bench *b, runner *r) {
 
 static const watch nowhere = {WATCH_NOTHING, .points = 0};
 
-/* `levels` numbers of chords, from level `first` on; none: the sine. The watch cuts every leg. */
+/* Begins runs with `levels` numbers of chords from level `first` on; 0: one run along the sine. */
 static fret_status begin_running(const bench *b, running *m, model_family family, unsigned springs,
                                  unsigned first, unsigned levels, watch w) {
     fret_status st = fine;
@@ -187,7 +187,7 @@ static fret_status begin_running(const bench *b, running *m, model_family family
     return st;
 }
 
-/* The loss of one model, or its limit; moved: relative, what that is good to. */
+/* The loss of the last period, or its limit over the levels; *moved: relative uncertainty of the limit. */
 static fret_status limit_cycle(running *m, long double *loss, long double *moved) {
     long double at[LEVELS] = {0};
     fret_status st = fine;
@@ -209,7 +209,7 @@ static fret_status stepped_cycle(void *model, long double *loss) {
     return limit_cycle(model, loss ? loss : &unused, &moved);
 }
 
-/* What goes into the contact and is not stored: int F_x d(delta_x) by the trapezoidal rule, between looks. */
+/* Work done on the contact less the change of stored energy: int F_x d(delta_x) by the trapezoidal rule. */
 static fret_status area_cycle(void *model, long double *loss) {
     running *m = model;
     runner *r = &m->run[0];
@@ -231,9 +231,9 @@ static fret_status area_cycle(void *model, long double *loss) {
     return r->status;
 }
 
-/* One row; *more: there is such a model, and time for one that is larger. Of a loop a period is seen at the
- * ends of its chords, or where F_N is constant in it, each branch in so many parts, evenly in time. There are
- * no springs where the gap ends before, or is beyond all numbers. */
+/* Measures one row; *more: the model exists, and there is time for a larger one. FAMILY_LOOP records a period
+ * at the ends of its chords or, for constant F_N, at `size` equal parts of the time of each branch. Springs
+ * do not exist if the gap ends too early or overflows. */
 static bool measure_model(bench *b, model_family family, unsigned size, unsigned level, bool *more) {
     const bool loop = family == FAMILY_LOOP, springs = families[family].model == MODEL_SPRINGS;
     const bool chords = swings(b) && !(family == FAMILY_MEMORY && by_sine(b));
@@ -261,7 +261,7 @@ static bool measure_model(bench *b, model_family family, unsigned size, unsigned
     return ok;
 }
 
-/* Each of ten times the size of the last, as far as there is time. */
+/* Measures a family, each time with ten times the size, as long as there is time. */
 static bool measure_models(bench *b, model_family family, unsigned size, unsigned most) {
     bool more = true;
     for (unsigned level = 0; more && size <= most; level += 2, size *= 10)
@@ -279,11 +279,11 @@ static bool steady_reference(bench *b) {
         st = fret_cycle_loss_by_definition(&b->contact, &b->peak, &study->value, &study->agreement);
     if (st.code == FRET_GROSS_SLIP)
         st.quantity = "FA";
-    if (!isfinite((double)study->value)) /* 0 where it failed */
+    if (!isfinite((double)study->value)) /* it is 0 after a failure */
         st = (fret_status){FRET_OVERFLOW, NULL, 0, 0};
     if (!calc_status(b->error, st))
         return false;
-    if (!(study->value > 0)) /* a general gap, and less slip than a long double tells from none */
+    if (!(study->value > 0)) /* a general gap, with slip below the rounding of long double */
         return calc_fail(b->error, 0, 0, "dW is 0, or so small that no model of this gap can tell it from 0");
     snprintf(study->reference, sizeof study->reference, "quadrature in long double");
     study->automatic = fret_normal_is_power(b->contact.normal) ? "closed form"
@@ -292,8 +292,7 @@ static bool steady_reference(bench *b) {
     return true;
 }
 
-/* The loss of the last period in chords of the finest levels; or where all is straight, each step cut in
- * `parts`. */
+/* The loss of the last period with chords of the finest levels; parts > 0: straight steps cut in parts. */
 static bool refined(bench *b, unsigned parts, long double *loss, long double *moved) {
     running m;
     fret_state now = {.U = 0};
@@ -346,8 +345,8 @@ static bool measure_all(bench *b) {
               measure_model(b, FAMILY_MEMORY, 0, 0, &more) && measure_models(b, FAMILY_LOOP, 10, 10000) &&
               (!steady || measure(b, FAMILY_QUADRATURE, 0, quadrature_cycle, b));
     const bool midpoint =
-        steady && fret_normal_foundation(b->load.normal)->k != 0; /* else weights are alike */
-    b->end -= midpoint ? b->budget / 4 : 0;                       /* kept for the last */
+        steady && fret_normal_foundation(b->load.normal)->k != 0; /* for k = 0 both weights are equal */
+    b->end -= midpoint ? b->budget / 4 : 0;                       /* reserved for the midpoint springs */
     ok = ok && measure_models(b, FAMILY_SPRINGS, 100, 1000000);
     b->end += midpoint ? b->budget / 4 : 0;
     return ok && (!midpoint || measure_models(b, FAMILY_MIDPOINT, 100, 1000000));
@@ -355,7 +354,7 @@ static bool measure_all(bench *b) {
 
 /* ---- the load ---------------------------------------------------------------------------------- */
 
-/* Of the load program where none is given. */
+/* The amplitude that is given, else that of the load program, else half of the sliding force. */
 static bool choose_amplitude(bench *b, const accuracy_load *given, const load_reach *reach) {
     const fret_state *state;
     accuracy_study *out = b->study;
@@ -384,8 +383,7 @@ static bool choose_amplitude(bench *b, const accuracy_load *given, const load_re
     return true;
 }
 
-/* What is run. Of a cycle at constant F_N the models that take a double all get the same one, which the gap
- * carries. */
+/* Sets up the load. At constant F_N all models that take a double get the same one, which the gap carries. */
 static bool choose_load(bench *b, const accuracy_load *given) {
     scene *s = b->s;
     accuracy_study *out = b->study;
@@ -422,6 +420,6 @@ bool accuracy_measure(scene *s, const accuracy_load *load, accuracy_progress *pr
     b.budget = load->seconds;
     b.end = clock_worked() + load->seconds;
     b.enough = fmin(0.02, load->seconds / 150);
-    b.cycle.step.points = 0; /* nothing is recorded here */
+    b.cycle.step.points = 0; /* no records during the cycle */
     return measure_all(&b);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Eigenvectors of J^T J, its columns scaled to one length: directions that the data tell least of. */
+/* Eigenvectors of J^T J, columns of J scaled to 1: what the data tell least. Depends on residuals.h, GSL. */
 #include "study/determined.h"
 
 #include <gsl/gsl_blas.h>
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What tells two names apart that a loop, or whatever the data are, shows together. */
+/* Advice for pairs of names that the data often determine only in combination. */
 static const struct {
     const char *a, *b, *instead;
 } pairs[] = {
@@ -31,7 +31,7 @@ const char *determined_instead(const char *a, const char *b) {
     return NULL;
 }
 
-/* Of the first pair of names that tells. */
+/* The advice for the first pair of names that has one. */
 static const char *instead_of(const residuals *r, const size_t *shown, size_t count) {
     const char *instead = NULL;
     for (size_t i = 0; i < count && !instead; i++)
@@ -40,7 +40,7 @@ static const char *instead_of(const residuals *r, const size_t *shown, size_t co
     return instead ? instead : "give the value of one";
 }
 
-/* The names that a direction takes along, from the last of so many unknowns. */
+/* Raises the error that names the unknowns of eigenvector v, a direction that the data do not determine. */
 static bool cannot_tell(const residuals *r, const gsl_matrix *V, size_t v, calc_error *error) {
     char list[FIT_NAMES * (LEX_NAME + 6)] = "";
     size_t shown[FIT_NAMES], count = 0;
@@ -52,13 +52,13 @@ static bool cannot_tell(const residuals *r, const gsl_matrix *V, size_t v, calc_
     if (count > 1)
         return calc_fail(error, 0, 0, "the data cannot tell %s apart: only a combination of them shows; %s",
                          list, instead_of(r, shown, count));
-    /* a name against turning points, or these alone */
+    /* one name against turning points, or turning points alone */
     return calc_fail(error, 0, 0,
                      "the data do not determine %s: the rows near the turning points are too few",
                      *list ? list : "where dx turns");
 }
 
-/* (J^T J)^-1 = V diag(1/e) V^T, unscaled. */
+/* C = (J^T J)^-1 by eigenvectors V and eigenvalues e of the scaled matrix: V diag(1/e) V^T over the norms. */
 static void covariance(const gsl_matrix *V, const gsl_vector *e, const double *norm,
                        double C[UNKNOWNS][UNKNOWNS]) {
     const size_t p = V->size1;
@@ -73,7 +73,7 @@ static void covariance(const gsl_matrix *V, const gsl_vector *e, const double *n
 
 static bool decompose(const residuals *r, gsl_matrix *N, gsl_matrix *V, gsl_vector *e,
                       gsl_eigen_symmv_workspace *w, double C[UNKNOWNS][UNKNOWNS], calc_error *error) {
-    static const double apart = 1e-5;
+    static const double apart = 1e-5; /* least ratio of singular values of the scaled J */
     const size_t p = r->unknowns;
     const gsl_matrix_const_view J = gsl_matrix_const_view_array(r->slopes, r->count, p);
     double norm[UNKNOWNS], most = 0;
@@ -91,7 +91,7 @@ static bool decompose(const residuals *r, gsl_matrix *N, gsl_matrix *V, gsl_vect
     for (size_t i = 0; i < p; i++)
         for (size_t j = 0; j <= i; j++)
             gsl_matrix_set(N, i, j, gsl_matrix_get(N, i, j) / (norm[i] * norm[j]));
-    gsl_eigen_symmv(N, e, V, w); /* finite: it converges */
+    gsl_eigen_symmv(N, e, V, w); /* N is finite: this converges */
     gsl_eigen_symmv_sort(e, V, GSL_EIGEN_SORT_VAL_DESC);
     if (gsl_vector_get(e, p - 1) < apart * apart * gsl_vector_get(e, 0))
         return cannot_tell(r, V, p - 1, error);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What data say of the unknowns, by J^T J at the least sum of squares. */
+/* How well the data determine the unknowns, by J^T J at the minimum. Depends on residuals.h and GSL. */
 #ifndef STUDY_DETERMINED_H
 #define STUDY_DETERMINED_H
 
 #include "study/residuals.h"
 
-/* What to measure that tells two names apart, or NULL. */
+/* Advice what to measure or to give so that two names can be told apart; NULL: none. */
 const char *determined_instead(const char *a, const char *b);
-/* Covariances of a unit variance of those that vary, (J^T J)^-1; in plain words why there are none, where
- * columns of J vanish or depend on each other. */
+/* C becomes (J^T J)^-1, the covariance for a unit variance of the residuals. False with an error that names
+ * the unknowns if columns of J vanish or depend on each other. */
 bool determined(residuals *r, double C[UNKNOWNS][UNKNOWNS], calc_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Starts, the way to the least sum of squares, and what is answered. */
+/* Start values, the minimisation, standard errors and intervals. Depends on residuals.h and GSL. */
 #include "study/fit.h"
 
 #include <gsl/gsl_blas.h>
@@ -12,21 +12,21 @@
 
 #include "study/determined.h"
 
-/* Where a trial point has no value its residuals are this large: the step is taken back. */
+/* Residuals at a trial point without a value: so large that the solver rejects the step. */
 static const double refused = 1e6;
 enum { ITERATIONS = 200, BEGINNINGS = 4 };
-static const double visible = 1e-6;  /* residuals of a loop, as a part of it */
-static const double rounding = 1e-9; /* of equations, as a part of their sides */
+static const double visible = 1e-6;  /* residuals of a loop relative to its F_x; smaller ones show no drift */
+static const double rounding = 1e-9; /* residuals relative to the sides; smaller ones are rounding */
 
 typedef struct fitting {
     residuals r;
-    bool bounded[UNKNOWNS];
-    double size; /* of the sides at the present values; of a loop, of F_x */
+    bool bounded[UNKNOWNS]; /* inputs whose range has two ends */
+    double size;            /* largest side of the equations at the present values; for a loop, largest F_x */
     gsl_multilarge_nlinear_workspace *w;
     unsigned iterations;
 } fitting;
 
-/* ---- for the solver ---------------------------------------------------------------------------- */
+/* ---- callbacks for the solver ------------------------------------------------------------------ */
 
 static void put_unknowns(residuals *r, const gsl_vector *q) {
     for (size_t i = 0; i < r->unknowns; i++)
@@ -45,14 +45,14 @@ static int gsl_residuals(const gsl_vector *q, void *context, gsl_vector *f) {
     return r->p.error->raised ? GSL_EFAILED : GSL_SUCCESS;
 }
 
-static int gsl_slopes(CBLAS_TRANSPOSE_t way, const gsl_vector *q, const gsl_vector *u, void *context,
+static int gsl_slopes(CBLAS_TRANSPOSE_t transposed, const gsl_vector *q, const gsl_vector *u, void *context,
                       gsl_vector *v, gsl_matrix *N) {
     residuals *r = context;
     put_unknowns(r, q);
     if (!residuals_slopes(r))
         return GSL_EFAILED;
     const gsl_matrix_const_view J = gsl_matrix_const_view_array(r->slopes, r->count, r->unknowns);
-    gsl_blas_dgemv(way, 1, &J.matrix, u, 0, v);
+    gsl_blas_dgemv(transposed, 1, &J.matrix, u, 0, v);
     if (N)
         gsl_blas_dsyrk(CblasLower, CblasTrans, 1, &J.matrix, 0, N);
     return GSL_SUCCESS;
@@ -60,7 +60,7 @@ static int gsl_slopes(CBLAS_TRANSPOSE_t way, const gsl_vector *q, const gsl_vect
 
 /* ---- the start --------------------------------------------------------------------------------- */
 
-/* Of a measured loop. */
+/* The largest |F_x| of a measured loop, in the unit of the residuals. */
 static double largest_force(const residuals *r) {
     double largest = 0;
     for (size_t i = 0; i < r->of->rows; i++)
@@ -73,11 +73,12 @@ static void put_at_start(residuals *r) {
         r->q[i] = 1;
 }
 
-/* How far the sides move when a name does, as a part of their size, to where they have values. */
+/* The largest change of a residual, relative to s->size, when name i changes by `by` (by -by if there is no
+ * value); infinite if neither has a value. */
 static double effect(fitting *s, size_t i, double by) {
     residuals *r = &s->r;
     double most = 0;
-    r->scale[i] = by; /* q = 2 and q = 0 are then the start, more or less by that */
+    r->scale[i] = by; /* then q = 2 and q = 0 stand for start + by and start - by */
     r->q[i] = 2;
     if (!residuals_at(r, r->above)) {
         r->q[i] = 0;
@@ -89,8 +90,8 @@ static double effect(fitting *s, size_t i, double by) {
     return most / s->size;
 }
 
-/* The size of a name is its own value, where a change by as much shows in the sides. A value near 0 tells no
- * size: that is looked for by decades, and is what would move the sides by a tenth. */
+/* The scale of a name: its own value if a change by that shows in the residuals; else, as for a value near 0,
+ * the change that would move the residuals by a tenth of their size, searched by decades. */
 static double scale_of(fitting *s, size_t i) {
     static const double clear = 1e-3, visible_part = 1e-6, decades = 64;
     const double own = fabs(s->r.start[i]);
@@ -104,13 +105,13 @@ static double scale_of(fitting *s, size_t i) {
         else
             hi = mid;
     }
-    if (hi == decades) /* nothing shows: determined() reports it */
+    if (hi == decades) /* no effect: determined() reports it */
         return own > 0 ? own : 1;
     const double by = pow(10, hi), part = effect(s, i, by);
     return isfinite(part) ? 0.1 * by / part : by;
 }
 
-/* At the present values; a name that is a ratio, or has a range, has its scale. */
+/* Finds the scales at the present values, but for names with `ratio` or a range, which need none. */
 static void choose_scales(fitting *s) {
     residuals *r = &s->r;
     s->size = r->of->sides ? r->largest : largest_force(r);
@@ -126,8 +127,7 @@ static void choose_unit(residuals *r) {
         r->unit = 1;
 }
 
-/* The sum of squares of some rows at these names, turning points as measured; infinite where there is none.
- */
+/* The sum of squares of about 200 rows at these names, with measured turning points; infinite: no value. */
 static double glance(residuals *r, const double *at) {
     const size_t rows = r->of->sides ? r->of->rows : branches_glance(&r->loop);
     double sum = 0;
@@ -141,7 +141,7 @@ static double glance(residuals *r, const double *at) {
     return ok ? sum : (double)INFINITY;
 }
 
-/* What the columns of the name's dimension span, of one that may be an offset of theirs; false: none does. */
+/* The range of the columns with the dimension of the name, perhaps their offset; false: there are none. */
 static bool spanned(const residuals *r, size_t name, double *lo, double *hi) {
     const fit_question *of = r->of;
     bool any = false;
@@ -155,9 +155,9 @@ static bool spanned(const residuals *r, size_t name, double *lo, double *hi) {
     return any;
 }
 
-/* The start that is given is one of many: others about it, by so many decades or over a range, evenly, then
- * closer to the best of them. Every other one takes a name that may be an offset from what its columns span.
- * False: none is better. */
+/* Replaces *best by the best of many start values: a Halton sequence about it, over `farthest` decades or the
+ * range of the input, then in ever smaller boxes about the best. Every other start takes a name that may be
+ * an offset from the range of its columns. False: the given start was the best. */
 static bool seek(fitting *s, double *best, double farthest) {
     enum { SAMPLES = 24, ROUNDS = 8 };
     residuals *r = &s->r;
@@ -193,7 +193,7 @@ static bool seek(fitting *s, double *best, double farthest) {
     return least < given;
 }
 
-/* Scales of the names, from the values that are given. */
+/* Reads the start values, and sets ratio, bounded and a first scale of each name. */
 static bool read_start(fitting *s, double *start, calc_error *error) {
     residuals *r = &s->r;
     const fit_question *of = r->of;
@@ -217,7 +217,7 @@ static bool begin_fit(fitting *s, const double *start, calc_error *error) {
     residuals *r = &s->r;
     const size_t names = r->of->count;
     r->has_slopes = false;
-    if (r->unknowns > names) /* places the turning points */
+    if (r->unknowns > names) /* sets r->loop.turn */
         glance(r, start);
     memcpy(r->start, start, names * sizeof *start);
     for (size_t i = names; i < r->unknowns; i++) {
@@ -238,7 +238,7 @@ static bool begin_fit(fitting *s, const double *start, calc_error *error) {
     return !error->raised;
 }
 
-/* To where they were, in the numbers that they were there. */
+/* Restores the unknowns and their scaling. */
 static void go_back(residuals *r, const residuals *to) {
     memcpy(r->q, to->q, sizeof r->q);
     memcpy(r->start, to->start, sizeof r->start);
@@ -246,9 +246,9 @@ static void go_back(residuals *r, const residuals *to) {
     r->unit = to->unit;
 }
 
-/* A scale taken at the start may be wrong: where another name is 0 there, nothing may depend on this one. So
- * scales are taken anew where the fit has ended, and where one differs much, or the residuals have become
- * small beside their unit, the fit is repeated. */
+/* The scale found at the start may be wrong: if another name is 0 there, nothing may depend on this one.
+ * Scales are found again at the end of the fit; if one differs by a factor of 100, or the residuals have
+ * fallen below 1 % of their unit, the fit is to be repeated. */
 static bool begin_again(fitting *s, bool *again, calc_error *error) {
     residuals *r = &s->r;
     const residuals before = *r;
@@ -272,9 +272,9 @@ static bool begin_again(fitting *s, bool *again, calc_error *error) {
 
 /* ---- solving ----------------------------------------------------------------------------------- */
 
-/* GSL stops where it makes no progress, and where its steps are small. The first is the end where the step of
- * each name that is left is small beside its standard error, or beside the name itself; the second, unless
- * that step promises more than a standard error, and cannot be taken: a kink, which no slope tells. */
+/* Has the solver converged? If GSL stopped without progress: yes if the remaining Newton step of each name is
+ * small relative to its standard error or to the name. If it stopped with small steps: yes unless the Newton
+ * step promises to reduce the squares by more than their variance, as at a kink. */
 static bool arrived(fitting *s, bool small, calc_error *error) {
     residuals *r = &s->r;
     const gsl_vector *f = gsl_multilarge_nlinear_residual(s->w);
@@ -291,7 +291,7 @@ static bool arrived(fitting *s, bool small, calc_error *error) {
         double step = 0;
         for (size_t j = 0; j < p; j++)
             step += C[i][j] * pull[j];
-        promised += fabs(step) < 1e6 ? step * pull[i] : 0; /* else nothing tells of it */
+        promised += fabs(step) < 1e6 ? step * pull[i] : 0; /* larger steps are of undetermined unknowns */
         ok = ok && (small || i >= r->of->count || fabs(step) < fmax(1e-6 * sqrt(C[i][i] * v), 1e-10));
     }
     const bool exact = r->unit * sqrt(v) < rounding * s->size;
@@ -299,21 +299,21 @@ static bool arrived(fitting *s, bool small, calc_error *error) {
            calc_fail(error, 0, 0, "the fit does not settle: %s", gsl_strerror(GSL_EMAXITER));
 }
 
-/* In place of GSL's driver, which an interrupt would not end. */
+/* Replaces GSL's driver, which an interrupt would not end. */
 static int drive(fitting *s) {
     int status = GSL_CONTINUE, info;
     for (int i = 0; i < ITERATIONS && status == GSL_CONTINUE; i++) {
         const int step = gsl_multilarge_nlinear_iterate(s->w);
         if (s->r.p.error->raised)
             return GSL_EFAILED;
-        if (step == GSL_ENOPROG && i == 0) /* may have begun at the end: arrived() looks */
+        if (step == GSL_ENOPROG && i == 0) /* perhaps begun at the minimum: arrived() checks */
             return GSL_EMAXITER;
         status = gsl_multilarge_nlinear_test(1e-10, 1e-10, 0, &info, s->w);
     }
     return status == GSL_SUCCESS ? GSL_SUCCESS : GSL_EMAXITER;
 }
 
-/* From r->q to the least; a solver's status. Error: out of memory, or all has ended. */
+/* Minimises from r->q and returns the solver's status. Raises an error if memory is out. */
 static int descend(fitting *s, calc_error *error) {
     const gsl_multilarge_nlinear_parameters method = gsl_multilarge_nlinear_default_parameters();
     residuals *r = &s->r;
@@ -339,7 +339,7 @@ static bool settle(fitting *s, calc_error *error) {
     return !error->raised && arrived(s, !status, error);
 }
 
-/* A drift, an offset or a model that does not fit leaves residuals that go together from row to row. */
+/* A drift, an offset or a model that does not fit makes successive residuals correlate. */
 static void look_for_drift(const residuals *r, const gsl_vector *f, fit_answer *out) {
     const size_t n = r->of->rows;
     const double size = r->of->sides ? INFINITY : largest_force(r);
@@ -386,11 +386,11 @@ static bool run_from(fitting *s, const double *start, fit_answer *out, calc_erro
     return judge_fit(s, out, error);
 }
 
-/* From the start that is given, and from the best of many; the least wins. What is wrong from the first may
- * be right from the other. A loop knows better than what is given, which is for where that leads astray;
- * values close to the answer need no other. */
+/* Fits from the given start and from the best of many; the smaller rms wins, and a failure of one does not
+ * matter if the other succeeds. A loop begins with the best of many and uses the given start only if that
+ * fails. Start values that are close to the answer (of->from) are used alone. */
 static bool run_fit(fitting *s, fit_answer *out, calc_error *error) {
-    static const double near = 1, far = 4; /* farther off the same may come again, as waves do */
+    static const double near = 1, far = 4; /* decades; far off, a periodic model repeats */
     residuals *r = &s->r;
     const fit_question *of = r->of;
     const bool loop = !of->sides && !of->from;
@@ -422,12 +422,13 @@ static bool run_fit(fitting *s, fit_answer *out, calc_error *error) {
 
 /* ---- intervals --------------------------------------------------------------------------------- */
 
-/* A fit at its end, whose names are tried beside that. */
+/* The profile of the sum of squares along one name about the minimum. */
 typedef struct profile {
     fitting *s;
-    double q[UNKNOWNS], C[UNKNOWNS][UNKNOWNS], v, least;
+    double q[UNKNOWNS], C[UNKNOWNS][UNKNOWNS]; /* minimum, (J^T J)^-1 */
+    double v, least;                           /* variance of the residuals, sum of squares at the minimum */
     size_t name;
-    double error; /* of the name, in q */
+    double error; /* standard error of the name, in q */
 } profile;
 
 static double squares_of(const residuals *r) {
@@ -437,8 +438,8 @@ static double squares_of(const residuals *r) {
     return sum;
 }
 
-/* The name off by so many standard errors, as these are printed, and the others along with it as the parabola
- * has them: by how many variances the sum of squares has grown. Infinite: there is no such value. */
+/* The growth of the sum of squares, in variances, when the name moves by `by` standard errors and the others
+ * follow along the valley of the parabola. Infinite: there is no value. */
 static double grown(const profile *p, double by) {
     residuals *r = &p->s->r;
     const size_t i = p->name;
@@ -450,7 +451,7 @@ static double grown(const profile *p, double by) {
     return residuals_at(r, r->out) ? (squares_of(r) - p->least) / p->v : (double)INFINITY;
 }
 
-/* The same, the others made least. */
+/* The same with the others fitted again. */
 static double profiled(const profile *p, double by) {
     residuals *r = &p->s->r;
     const double start = grown(p, by);
@@ -467,7 +468,8 @@ static double profiled(const profile *p, double by) {
     return fmin(start, end);
 }
 
-/* Where the sum has grown by one variance, to that side; infinite: not as far as so many standard errors. */
+/* The distance from the minimum to one side, in standard errors, at which the sum of squares has grown by one
+ * variance; infinite: more than 64. */
 static double reach(const profile *p, double side) {
     static const double far = 64;
     double lo = 0, hi = 1, at = profiled(p, side);
@@ -486,7 +488,7 @@ static double reach(const profile *p, double side) {
     return at < 1 ? side * (double)INFINITY : side * (lo + hi) / 2;
 }
 
-/* A glance along the parabola's valley tells most; re-fitting the others the rest. */
+/* Is the growth at one standard error near 1? Mostly the valley of the parabola shows it without fitting. */
 static bool is_even(const profile *p, double side) {
     static const double near = 0.1, part = 0.2;
     return fabs(grown(p, side) - 1) < near || fabs(profiled(p, side) - 1) < part;
@@ -518,7 +520,7 @@ void fit_points_free(fit_points *p) {
     *p = (fit_points){.nodes = 0};
 }
 
-/* Once more at the answer. */
+/* Computes the residuals at the answer again and stores the points. */
 static bool keep_points(residuals *r, fit_points *p, calc_error *error) {
     const size_t n = r->of->rows;
     p->nodes = r->loop.noisy ? branches_nodes(&r->loop) : 0;
@@ -529,7 +531,7 @@ static bool keep_points(residuals *r, fit_points *p, calc_error *error) {
     p->residual = p->right + n;
     p->x = p->residual + n;
     p->y = p->x + p->nodes;
-    for (size_t i = 0; i < 2 * p->nodes; i++) /* a last branch without rows is not gone through */
+    for (size_t i = 0; i < 2 * p->nodes; i++) /* a last branch without rows has no curve */
         p->x[i] = (double)NAN;
     r->kept = p;
     r->loop.x = p->nodes ? p->x : NULL;

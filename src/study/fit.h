@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inputs and names from measured data: least squares by Levenberg and Marquardt (GSL). */
+/* Fits inputs and names to data: least squares by Levenberg and Marquardt. Depends on residuals.h and GSL. */
 #ifndef STUDY_FIT_H
 #define STUDY_FIT_H
 
@@ -8,25 +8,25 @@
 typedef struct fit_answer {
     double value[FIT_NAMES];
     double deviation[FIT_NAMES]; /* standard error, from the scatter of the residuals */
-    /* Where the parabola of the sum of squares misleads, where points are asked for: how far down and up the
-     * least sum with the name held there grows by one variance. */
+    /* uneven: the interval value - below .. value + above, at whose ends the least sum of squares with the
+     * name held has grown by one variance, is not symmetric. Found only if points are asked for. */
     bool uneven[FIT_NAMES];
-    double below[FIT_NAMES], above[FIT_NAMES]; /* infinite: it does not, as far as was looked */
+    double below[FIT_NAMES], above[FIT_NAMES]; /* infinite: not within 64 standard errors */
     double correlation[FIT_NAMES][FIT_NAMES];
-    double rms; /* of all residuals; in units of the noise, where a loop has it in both columns */
-    bool noisy; /* it has: distances are across the curve, turning points unknowns */
-    size_t turns;
+    double rms;   /* of all residuals; if `noisy`, in units of the noise */
+    bool noisy;   /* a loop with noise in both columns: distances across the curve, turning points unknown */
+    size_t turns; /* turning points that are unknowns */
     double noise_dx, noise_Fx;
-    double together;      /* correlation of each residual with the next: of noise it is near 0 */
-    bool drifts;          /* of a loop: it is not by chance, and the deviations are too small */
-    dim d;                /* of them */
-    bool twice;           /* a closed loop that does not begin at rest: run twice, the second time compared */
+    double together;      /* correlation of successive residuals; near 0 for white noise */
+    bool drifts;          /* `together` is significant: the standard errors are too small */
+    dim d;                /* dimension of the residuals */
+    bool twice;           /* a closed loop that does not begin at rest: run twice, the second pass compared */
     unsigned evaluations; /* of all rows */
     unsigned iterations;
 } fit_answer;
 
-/* Starts from the present values. Errors: a name without one; a row without a value; names that the data do
- * not determine, or cannot tell apart. */
+/* Fits from the present values. Errors: a name or a row has no value; the data do not determine a name, or
+ * cannot tell names apart; the fit does not settle. */
 bool fit(const fit_question *question, fit_answer *out, calc_error *error);
 void fit_points_free(fit_points *p);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conditioning by differences between neighbouring numbers. Touches nothing but a trial. */
+/* Conditioning by differences between neighbouring numbers. Depends on language/trial and text/clock. */
 #include "study/influence.h"
 
 #include <float.h>
@@ -7,7 +7,7 @@
 
 #include "text/clock.h"
 
-/* ---- what there is to change ------------------------------------------------------------------- */
+/* ---- finding the causes ------------------------------------------------------------------------ */
 
 static void add_input(const scene *s, input in, influence_study *out) {
     if (!s->in.set[in] || s->in.v[in] == 0 || s->in.bindings & INPUT_BIT(in))
@@ -28,7 +28,7 @@ static void add_step(influence_study *out, const char *name, load_by by, double 
                                            .increment = increment};
 }
 
-/* Does the value depend on this name of the user's, directly or by what inputs are bound to? */
+/* Does the value depend on this user's name, directly or through a live definition of an input? */
 static bool is_mentioned(const calc *c, const expr *e, const char *name) {
     const inputs *in = &c->now->in;
     if (expr_mentions(c, e, NULL, name))
@@ -55,7 +55,7 @@ static void add_names(const calc *c, const expr *e, influence_study *out) {
     }
 }
 
-/* In the order in which a session gives them. */
+/* Lists the causes in the order in which a session sets them. */
 static void find_causes(const calc *c, const expr *e, program *own, const quantity *call, value argument,
                         influence_study *out) {
     static const input of_cycle[] = {IN_FNA, IN_PHASE, IN_FA, IN_DXA, IN_DRIGA};
@@ -82,15 +82,15 @@ bool cause_is_load(const cause *c) {
            (c->kind == CAUSE_INPUT && INPUT_BIT(c->in) & (INPUT_PRESS | INPUT_CYCLE));
 }
 
-/* ---- changing it ------------------------------------------------------------------------------- */
+/* ---- changing a cause -------------------------------------------------------------------------- */
 
 typedef struct probe {
     trial *t;
     const expr *e;
     long double result;
-    const quantity *call; /* or NULL */
-    program *own;         /* or NULL: nothing is pressed */
-    calc_error *error;    /* raised: what ends the study */
+    const quantity *call; /* of CAUSE_ARGUMENT, or NULL */
+    program *own;         /* a copy of the load program whose steps are changed; NULL: there is no load */
+    calc_error *error;    /* raised: the study ends */
 } probe;
 
 static bool set_to(probe *p, const cause *c, double x, calc_error *error) {
@@ -105,7 +105,7 @@ static bool set_to(probe *p, const cause *c, double x, calc_error *error) {
     return true;
 }
 
-/* The result with the cause moved to x, everything else as it is; false where that is refused. */
+/* Computes the result with the cause set to x and all else unchanged; false: the scene refuses x. */
 static bool moved_to(probe *p, const cause *c, double x, long double *out) {
     calc_error *why = error_quiet();
     value v = {0};
@@ -126,8 +126,8 @@ static bool moved_to(probe *p, const cause *c, double x, long double *out) {
     return ok;
 }
 
-/* The first and the second relative difference of the result for steps of h: what the cause does, and what is
- * rounding or curvature. How many of the neighbours are valid? */
+/* Relative first and second differences of the result for a step h: *change is the effect of the cause,
+ * *noise its uncertainty by rounding and curvature. Returns how many of the two neighbours are valid. */
 static int differences(probe *p, const cause *c, double h, long double *change, long double *noise) {
     long double at[2];
     int valid = 0, side = 0;
@@ -136,7 +136,7 @@ static int differences(probe *p, const cause *c, double h, long double *change, 
             valid++;
             side = sign;
         }
-    if (valid == 1) { /* at the end of its range: both to one side */
+    if (valid == 1) { /* at the end of its range: differences to one side */
         if (!moved_to(p, c, (double)c->v.v + 2 * side * h, &at[1]))
             return 0;
         *change = fabsl((at[0] - p->result) / p->result);
@@ -148,8 +148,8 @@ static int differences(probe *p, const cause *c, double h, long double *change, 
     return valid;
 }
 
-/* Steps are whole numbers of last digits. Close to a singularity only neighbouring numbers tell the slope;
- * elsewhere a wider step stands out from rounding. Of three steps the least uncertain counts. */
+/* Tries steps of 1, 2^12 and 2^24 units in the last place and takes the least uncertain: close to a
+ * singularity only neighbouring numbers give the slope, elsewhere a wider step exceeds rounding. */
 static void find_influence(probe *p, cause *c) {
     const double x = fabs((double)c->v.v), ulp = nextafter(x, INFINITY) - x;
     long double least = HUGE_VALL; /* uncertainty of change */
@@ -207,7 +207,7 @@ bool influences(calc *c, const expr *e, long double result, const quantity *call
     find_causes(c, e, p.own, call, argument, out);
     bool ok = (p.t = trial_open(c, error)) && probe_all(&p, out);
     if (p.t)
-        p.t->scene.used = 0; /* none of this has answered */
+        p.t->scene.used = 0; /* the models used here must not be reported as those of the answer */
     trial_close(p.t);
     counted_drop(p.own);
     return ok;

@@ -1,39 +1,38 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conditioning: how far the last digit of each number that an expression depends on moves its value. Works on
- * a trial: the scene stays as it is. Prints nothing. */
+/* Conditioning: how far a change in the last digit of each number that an expression depends on moves its
+ * value. Depends on language/trial: the scene stays as it is. Prints nothing. */
 #ifndef STUDY_INFLUENCE_H
 #define STUDY_INFLUENCE_H
 
 #include "language/trial.h"
 
-/* What a change of a cause does to a result. */
+/* The effect of a cause on the result. */
 typedef enum influence {
     INFLUENCE_NONE,
     INFLUENCE_SMALL,  /* condition number below 0.01 */
     INFLUENCE_HIDDEN, /* not smooth here, or hidden by rounding */
-    INFLUENCE_LEFT,   /* not looked for: it takes too long */
-    INFLUENCE_ZERO,   /* nor here: a name at 0 has no last digit, and no change of it is relative */
-    INFLUENCE_SHOWN
+    INFLUENCE_LEFT,   /* not computed: time is up */
+    INFLUENCE_ZERO,   /* not computed: the name is 0, which has no last digit and no relative change */
+    INFLUENCE_SHOWN   /* `change` holds it */
 } influence;
 
-/* One number that the result depends on. A change in its last digit moves the result by change, both
- * relative. */
+/* A number that the result depends on. Changing it by `digit` changes the result by `change`, relatively. */
 typedef struct cause {
     const char *name;
     value v;
     enum { CAUSE_INPUT, CAUSE_STEP, CAUSE_NAME, CAUSE_ARGUMENT } kind;
     input in;        /* CAUSE_INPUT */
     size_t own;      /* CAUSE_NAME: index of the user's name */
-    double *step;    /* CAUSE_STEP: press by dz or a, or target of the last step; for influences() alone */
+    double *step;    /* CAUSE_STEP: target of the last step; valid within influences() alone */
     bool tangential; /* CAUSE_STEP: a target of F_x or delta_x */
-    bool increment;  /* given by += */
-    bool refused;    /* one neighbour is no valid value: the end of its range */
+    bool increment;  /* CAUSE_STEP: the target was given by += */
+    bool refused;    /* it lies at the end of its range: a neighbouring number is not valid */
     long double digit, change;
     influence influence;
 } cause;
 
 enum { CAUSE_NAMES = 8, CAUSES = INPUTS + 3 + CAUSE_NAMES + 1 };
-enum { INFLUENCE_SECONDS = 3 }; /* of the processor, after which the rest is left out */
+enum { INFLUENCE_SECONDS = 3 }; /* processor time after which further causes are INFLUENCE_LEFT */
 
 typedef struct influence_study {
     cause cause[CAUSES];
@@ -43,10 +42,9 @@ typedef struct influence_study {
 /* Does the cause belong to the load program? */
 bool cause_is_load(const cause *c);
 
-/* Causes of the value of e, which is `result` in the scene c->now: its inputs, the press, the last step, the
- * user's names; those bound to a definition follow it and are none themselves. call: where e is a call of
- * this quantity, its argument is a cause too; else NULL. Accuracy: the two digits that one prints. Error:
- * interrupted, memory. */
+/* Finds the causes of the value of e, which is `result` in the scene c->now: inputs, the last step and the
+ * user's names, unless they follow a live definition. call: if e is a call of this quantity its argument is a
+ * cause too; else NULL. `change` is good to about two digits. Errors: interrupted, out of memory. */
 bool influences(calc *c, const expr *e, long double result, const quantity *call, value argument,
                 influence_study *out, calc_error *error);
 

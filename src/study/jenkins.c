@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Marching from kink to kink of a piecewise linear loss. */
+/* Minimax approximation of the loss by a piecewise linear one. Depends on fret/fret.h and number. */
 #include "study/jenkins.h"
 
 #include <float.h>
@@ -7,20 +7,20 @@
 
 #include "number/root.h"
 
-/* The loss f(d) is convex. From a kink (d_i, f-e) the steepest line that stays below f+e touches it; the next
- * kink is where the line meets f-e again. The least e whose kinks suffice is looked for by halves. */
-/* The least error is looked for to this part of itself; the one that is stated holds all the same. */
+/* The loss f(d) is convex. From a kink (d_i, f-e) the steepest line that stays below f+e is tangent to f+e;
+ * the next kink is where it meets f-e again. Bisection finds the least e for which `count` kinks suffice. */
+/* Relative tolerance of the least error; the error that is stated is a bound all the same. */
 #define ENOUGH 1e-4
-/* Parts of gross slip whose slope of the loss is rounding. */
+/* Below this part of gross slip the slope of the loss is rounding. */
 #define TOO_SMALL 1e-10
 
 typedef struct march {
     const fret_pressed *contact;
-    double end; /* of what is fitted */
-    bool all;   /* it is gross slip */
+    double end; /* largest amplitude that is fitted */
+    bool all;   /* `end` is gross slip */
     double e;
-    double d, p;  /* the latest kink */
-    double slope; /* of the line from it */
+    double d, p;  /* latest kink: amplitude and loss */
+    double slope; /* of the line from that kink */
     fret_status failed;
     const volatile sig_atomic_t *stop;
     void (*pulse)(void);
@@ -41,7 +41,7 @@ static double loss(march *m, double d) {
     return (double)out;
 }
 
-/* f' = 4 (F_x - d dF_x/d delta_x) on first loading: short of gross slip, where a flat end makes it jump. */
+/* f' = 4 (F_x - d dF_x/d delta_x) on the loading curve; taken just below gross slip, where f' may jump. */
 static double loss_slope(march *m, double d) {
     fret_loading first = {.Fx = 0};
     d = fmin(d, (double)fret_gross_slip(m->contact) * (1 - 4 * DBL_EPSILON));
@@ -51,25 +51,25 @@ static double loss_slope(march *m, double d) {
     return (double)(4 * (first.Fx - d * stiffness));
 }
 
-/* ---- zeros of what grows ----------------------------------------------------------------------- */
+/* ---- zeros of increasing functions ------------------------------------------------------------- */
 
 typedef double growing(march *m, double d);
 
 typedef struct sought {
     march *m;
     growing *f;
-    double at; /* asked last */
+    double at; /* the argument evaluated last */
 } sought;
 
 static fret_real value_there(fret_real x, fret_real *slope, void *context) {
     sought *s = context;
-    const bool again = (double)x == s->at; /* no double lies closer */
+    const bool again = (double)x == s->at; /* the same double: converged */
     (void)slope;
     s->at = (double)x;
     return again ? 0 : s->f(s->m, s->at);
 }
 
-/* f(lo) <= 0 <= f(hi). */
+/* The zero of an increasing f with f(lo) <= 0 <= f(hi). */
 static double zero_of(march *m, growing *f, double lo, double hi) {
     sought s = {m, f, NAN};
     return (double)fret_root(value_there, &s, lo, hi, NAN);
@@ -79,7 +79,7 @@ static double first_kink(march *m, double d) {
     return loss(m, d) - m->e;
 }
 
-/* The line from the kink to f+e at d is no tangent yet: too steep by this much times its length. */
+/* 0 where the line from the kink to f+e at d is tangent there; increases with d. */
 static double tangent(march *m, double d) {
     return loss_slope(m, d) * (d - m->d) - (loss(m, d) + m->e - m->p);
 }
@@ -90,7 +90,7 @@ static double next_kink(march *m, double d) {
 
 /* ---- marching ---------------------------------------------------------------------------------- */
 
-/* The line of the latest kink; false: the end comes before it touches. */
+/* Sets m->slope to the tangent from the latest kink; false: m->end comes before it touches. */
 static bool touch(march *m, double *at) {
     if (tangent(m, m->end) < 0) {
         *at = m->end;
@@ -106,19 +106,19 @@ static double sliding_slope(const march *m) {
     return 4 * m->contact->mu * (double)m->contact->press.F;
 }
 
-/* Does the line of gross slip, drawn from the latest kink, stay close enough to the loss? */
+/* Does a line with the slope of gross slip, from the latest kink, stay below f+e at the end? */
 static bool slides(march *m) {
     return sliding_slope(m) * (m->end - m->d) <= loss(m, m->end) + m->e - m->p;
 }
 
-/* Where the line, which touches at `at`, meets f-e again; beyond gross slip the loss is straight. */
+/* The amplitude where the line that touches at `at` meets f-e again; beyond gross slip f is straight. */
 static double kink_after(march *m, double at) {
     const double short_of = -next_kink(m, m->end);
     return short_of > 0 ? m->end + short_of / (sliding_slope(m) - m->slope)
                         : zero_of(m, next_kink, at, m->end);
 }
 
-/* Do `count` kinks suffice for m->e? The elements, where out is not NULL. */
+/* Do `count` kinks suffice for m->e? Writes the elements unless out is NULL. */
 static bool suffices(march *m, size_t count, jenkins_element *out) {
     double slope = 0;
     m->d = zero_of(m, first_kink, 0, m->end);
@@ -146,8 +146,7 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
     }
 }
 
-/* What sticks up to the amplitude loses nothing, but carries most: one spring more, which makes F_x there
- * right. */
+/* The part that sticks up to the amplitude: a spring that loses nothing and makes F_x there exact. */
 static jenkins_element stuck(march *m, const jenkins_element *slipping, size_t count) {
     fret_loading first = {.Fx = 0};
     double slip = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The contact as parallel Jenkins elements, each a spring k in line with a slider of the force s: what a
- * dynamics code steps. Knows no text and needs no GSL. */
+/* The contact as parallel Jenkins elements, each a spring k in series with a slider of slip force s, for use
+ * in a dynamics code. Depends on fret/fret.h and number, not on GSL. */
 #ifndef STUDY_JENKINS_H
 #define STUDY_JENKINS_H
 
@@ -15,18 +15,19 @@ typedef struct jenkins_element {
 } jenkins_element;
 
 typedef struct jenkins_error {
-    double worst; /* |error| of the loss per cycle [J], over all amplitudes up to `reach` */
+    double worst; /* largest |error| of the loss per cycle [J] for amplitudes up to `most` */
     double scale; /* the loss [J] at `most` */
-    double most;  /* displacement amplitude [m] up to which it is fitted: gross slip, beyond which the error
-                     stays, or what was asked for */
+    double most;  /* displacement amplitude [m] up to which the elements are fitted: gross slip, beyond which
+                     the  error stays constant, or the given amplitude */
 } jenkins_error;
 
-/* First loading of the elements is sum min(k d, s), their loss sum 4 s max(d - s/k, 0): piecewise linear in
- * d. It is the one of `count` kinks with the least worst error: the error is +worst at the kinks and -worst
- * between them. Its order in 1/count is 2. The slip forces add up to mu F_N. In the order of slipping.
- * amplitude: the largest displacement amplitude [m]; infinite, or beyond gross slip: all. Short of gross slip
- * the last element stands for what still sticks there (F_x at the amplitude is exact) and makes no kink:
- * count > 1. pulse: called at times. Errors: what the loss says; stopped. */
+/* Finds `count` elements in the order of slipping. Their loading curve is sum min(k d, s), their loss per
+ * cycle sum 4 s max(d - s/k, 0), piecewise linear in the amplitude d. It is the minimax approximation with
+ * `count` kinks: the error is +worst at the kinks and -worst between them, and falls as 1/count^2. The slip
+ * forces add up to mu F_N. amplitude: the largest displacement amplitude [m]; infinite or beyond gross slip:
+ * all. Below gross slip the last element is the part that sticks: it makes F_x at the amplitude exact and
+ * gives no kink, so that count > 1. pulse: called from time to time. Errors: of the loss; load too small;
+ * interrupted. */
 bool jenkins(const fret_pressed *contact, double amplitude, size_t count, const volatile sig_atomic_t *stop,
              void (*pulse)(void), jenkins_element *out, jenkins_error *quality, calc_error *error);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Grids, simplices and Newton's method over parts of ranges. */
+/* Grid, golden section, simplex and Newton's method. Depends on points.h, number/least and GSL. */
 #include "study/optimise.h"
 
 #include <float.h>
@@ -10,13 +10,13 @@
 
 #include "number/least.h"
 
-/* Names are turned into parts of their ranges, 0 to 1. */
+/* LINE, FINE: steps of a scan along one name; EDGE: halvings; ROUNDS: of the golden section. */
 enum { N = OPTIMISE_NAMES, LINE = 16, FINE = 8 * LINE, EDGE = 43, ROUNDS = 8, SIMPLEX_STEPS = 400 };
 
-/* Narrow enough for Newton's method. */
+/* Width of a bracket, relative to its distance from the ends, that suffices for Newton's method. */
 #define NARROW 2e-3
 
-/* A place in parts of the ranges, and what is there, to be made small; NaN: nothing. */
+/* A place, as parts u = 0..1 of the ranges, and the value f to be minimised there; NaN: none. */
 typedef struct place {
     double u[N];
     long double f;
@@ -26,12 +26,12 @@ typedef struct search {
     const optimise_question *of;
     points p;
     bool ratios[N];
-    bool known, varies;
+    bool known, varies; /* `d` is known; two values have differed */
     dim d;
     long double seen; /* the first value */
-    bool fixed[N];    /* at an end of the range */
+    bool fixed[N];    /* the name stays at an end of its range */
     place best;       /* so far */
-    calc_error why;
+    calc_error why;   /* why the latest place without a value has none */
 } search;
 
 static double knob_of(const search *s, size_t i, double u) {
@@ -43,7 +43,7 @@ static void set_knobs(const search *s, const double *u, long double x[N]) {
         x[i] = knob_of(s, i, u[i]);
 }
 
-/* To be made small; NaN: no value there, or the question has ended. */
+/* The value to be minimised; NaN: none, or p.error is raised. */
 static long double take_value(search *s, const value *v, const calc_error *why) {
     if (why)
         s->why = *why;
@@ -62,7 +62,7 @@ static long double at_parts(search *s, const double *u) {
     return take_value(s, &v, points_at(&s->p, x, &v) ? NULL : &s->p.none);
 }
 
-/* Takes what is better. */
+/* Replaces *best by *now if that is better, and says whether it was. */
 static bool better(place *best, const place *now) {
     const bool is = now->f < best->f || (isnan(best->f) && !isnan(now->f));
     if (is)
@@ -70,7 +70,7 @@ static bool better(place *best, const place *now) {
     return is;
 }
 
-/* By more than a search leaves: of optima that are alike the first is taken. */
+/* Less by more than the tolerance of a search, so that of equal optima the first is taken. */
 static bool is_less(long double f, long double than) {
     return f < than - 1e-9L * fabsl(than) || isnan(than);
 }
@@ -84,7 +84,7 @@ static bool better_there(search *s, place to) {
 
 enum { PLACES = FINE + 1 };
 
-/* Of a grid, `side` of them along each name, those of the first beside each other. */
+/* A grid with `side` places along each name; the first name runs fastest. */
 typedef struct places {
     search *s;
     size_t count, side;
@@ -109,7 +109,7 @@ static bool at_all(places *p) {
                      &(points_run){.count = p->count, .give = give_place, .take = take_place, .context = p});
 }
 
-/* The place that is best, the first of several; with none, where they end. */
+/* The index of the best place, the first of equal ones; p->count if no place has a value. */
 static size_t best_of(const places *p) {
     size_t best = p->count;
     for (size_t i = 0; i < p->count; i++)
@@ -118,8 +118,8 @@ static size_t best_of(const places *p) {
     return best;
 }
 
-/* Other than the best one: may the best of all lie about place i? None beside it is better, and one is worse
- * by more than i is worse than the best. */
+/* May the optimum lie near place i, which is not the best? Yes if no neighbour is better and one is worse by
+ * more than i is worse than the best. */
 static bool is_rival(const places *p, size_t i, size_t best) {
     const long double f = p->at[i].f;
     long double rise = 0;
@@ -144,16 +144,16 @@ static bool has_rivals(const places *p) {
 
 /* ---- along one name ---------------------------------------------------------------------------- */
 
-/* The best place along one name, the others held; or, nested, with the best of the names after it each time:
- * slow, but it follows the edge of a scene. */
+/* A search along one name, the others held. Nested: at each place the names after it are optimised, which is
+ * slow but follows the limit of a scene. */
 typedef struct line {
     search *s;
     size_t axis;
     bool nested;
-    place base, best;
-    double lo, hi; /* bracket around it; lo = hi: none */
+    place base, best; /* the other names; the best place so far */
+    double lo, hi;    /* bracket around the best place; lo = hi: none */
     optimise_end end;
-    calc_error why; /* of END_SCENE */
+    calc_error why; /* for END_SCENE */
 } line;
 
 static bool search_line(line *l);
@@ -192,9 +192,9 @@ static fret_real line_value(fret_real u, fret_real *slope, void *context) {
     return l->s->p.error->raised ? 0 : line_at(l, (double)u).f;
 }
 
-/* The best place lies between: to this part of what is left on either side. */
+/* Golden section within lo .. hi about the best place, to `part` times its distance from the ends. */
 static bool narrow(line *l, double lo, double hi, double part) {
-    static const double round = 1e-2; /* of what is left, each time */
+    static const double round = 1e-2; /* relative tolerance of one round */
     for (int i = 0; i < ROUNDS && hi - lo > part * fmin(best_part(l), 1 - best_part(l)); i++) {
         const double apart = round * (hi - lo);
         fret_least(line_value, l, lo, hi, best_part(l), round);
@@ -206,7 +206,7 @@ static bool narrow(line *l, double lo, double hi, double part) {
     return !l->s->p.error->raised;
 }
 
-/* At an end of the range, unless it is better a little inside. */
+/* The best place is an end of the range: stays there unless a place a little inside is better. */
 static bool leave_end(line *l, double next) {
     const double end = best_part(l);
     line_at(l, end + (next - end) * 1e-4);
@@ -219,11 +219,10 @@ static bool leave_end(line *l, double next) {
     return narrow(l, fmin(end, next), fmax(end, next), NARROW);
 }
 
-/* The best place has a neighbour without a value: go there. other: the neighbour on the far side, or itself.
- */
+/* Goes towards `bad`, a neighbour without a value. other: that on the far side, or the place itself. */
 static bool approach_edge(line *l, double bad, double other) {
     calc_error why = l->s->why;
-    for (int i = 0; i < EDGE; i++) { /* too few to come to neighbouring numbers */
+    for (int i = 0; i < EDGE; i++) { /* too few halvings to reach neighbouring numbers */
         const double good = best_part(l), mid = bad + (good - bad) / 2;
         const long double f = line_at(l, mid).f;
         if (l->s->p.error->raised)
@@ -253,7 +252,7 @@ static bool scan_line(line *l, places *all, int parts) {
     return !l->s->p.error->raised;
 }
 
-/* About a place of the scan, the best so far. */
+/* Searches about place i of the scan, which is l->best. */
 static bool go_about(line *l, const places *all, size_t i) {
     const place *here = &all->at[i], *before = i > 0 ? here - 1 : here,
                 *after = i + 1 < all->count ? here + 1 : here;
@@ -301,7 +300,7 @@ static bool search_one(search *s, line *l, optimise_end *end) {
 
 /* ---- several names ----------------------------------------------------------------------------- */
 
-/* The ends of the ranges do not stop a simplex in the angles u = sin^2. */
+/* u = sin^2(angle): a simplex in the angles is not stopped by the ends of the ranges. */
 static void parts_of(const search *s, const gsl_vector *angles, double u[N]) {
     size_t next = 0;
     for (size_t i = 0; i < s->of->count; i++) {
@@ -372,7 +371,7 @@ static bool search_grid(search *s) {
     return true;
 }
 
-/* Names that have come to an end of their range stay there. */
+/* Fixes names at an end of their range if that is best; returns how many are free. */
 static size_t fix_ends(search *s, optimise_end end[N]) {
     size_t free = 0;
     for (size_t i = 0; i < s->of->count; i++) {
@@ -380,7 +379,7 @@ static size_t fix_ends(search *s, optimise_end end[N]) {
         place there = s->best;
         there.u[i] = to;
         if (fabs(s->best.u[i] - to) < 1e-3 && (s->best.u[i] == to || better_there(s, there))) {
-            /* it may only have begun there */
+            /* is it the optimum, or only where the simplex began? */
             there.u[i] = to > 0 ? 1 - 1e-4 : 1e-4;
             s->fixed[i] = !better_there(s, there);
             if (s->fixed[i])
@@ -402,7 +401,7 @@ static bool search_several(search *s, optimise_end end[N]) {
 
 /* ---- Newton's method --------------------------------------------------------------------------- */
 
-/* Of f(x+jh)+f(x-jh)-2f(x) over h^2: sixth order. */
+/* f''(x) = sum of second_weight[j-1] (f(x+jh) + f(x-jh) - 2 f(x))/h^2 over j = 1..3, of sixth order. */
 static const long double second_weight[POINTS_SLOPES] = {3 / 2.0L, -3 / 20.0L, 1 / 90.0L};
 
 static long double moved(search *s, size_t i, double by, size_t j, double also) {
@@ -412,8 +411,7 @@ static long double moved(search *s, size_t i, double by, size_t j, double also) 
     return at_parts(s, to.u);
 }
 
-/* Gradient and curvature at the best place; false: not all neighbours have values, or the question has ended.
- */
+/* Gradient and Hessian at the best place; false: a value is missing, a kink is near, or p.error is raised. */
 static bool differences(search *s, const size_t *free, size_t count, const double h[N], gsl_vector *g,
                         gsl_matrix *H) {
     for (size_t a = 0; a < count; a++) {
@@ -434,14 +432,14 @@ static bool differences(search *s, const size_t *free, size_t count, const doubl
             gsl_matrix_set(H, a, b, (double)(cross / (4 * (long double)h[i] * h[j])));
             gsl_matrix_set(H, b, a, gsl_matrix_get(H, a, b));
         }
-        /* the third to the second, as the square of the distance: 9/4; about a kink it is 2 at most */
+        /* apart[2]/apart[1] is (3/2)^2 at a smooth minimum, but at most 2 within h of a kink */
         if (isnan(slope) || !(apart[2] > 2.1L * apart[1]))
             return false;
     }
     return !s->p.error->raised;
 }
 
-/* One step; *length of it in parts of the ranges. False: none can be made. */
+/* One Newton step; *length: its length in parts of the ranges. False: not possible. */
 static bool newton_step(search *s, const size_t *free, size_t count, gsl_vector *g, gsl_matrix *H,
                         gsl_vector *step, double *length) {
     double h[N] = {0};
@@ -464,13 +462,14 @@ static bool newton_step(search *s, const size_t *free, size_t count, gsl_vector 
         *length = fmax(*length, fabs(by));
     }
     to.f = at_parts(s, to.u);
-    /* where the value stands still, its slope still tells */
+    /* close to the optimum f is constant but for rounding, while the gradient still points there */
     if (!(to.f <= s->best.f + 1e-9L * fabsl(s->best.f)))
         return false;
     s->best = to;
     return true;
 }
 
+/* Newton's method from the best place; *sharp: it has converged. */
 static bool sharpen(search *s, bool *sharp) {
     size_t free[N], count = 0;
     for (size_t i = 0; i < s->of->count; i++)
@@ -496,7 +495,7 @@ static bool sharpen(search *s, bool *sharp) {
 
 /* ---- answers ----------------------------------------------------------------------------------- */
 
-/* Has a neighbour no value? Names that lie there are marked. */
+/* Marks the names along which a neighbour has no value; true: there is one. */
 static bool end_of_scene(search *s, optimise_answer *out) {
     bool found = false;
     for (size_t i = 0; i < s->of->count; i++)
@@ -507,7 +506,7 @@ static bool end_of_scene(search *s, optimise_answer *out) {
     return found;
 }
 
-/* New simplices, each from where the one before got stuck, as it does in a steep valley with a kink. */
+/* Restarts the simplex where the one before got stuck, as happens in a steep valley with a kink. */
 static bool go_on(search *s, size_t free) {
     enum { AGAIN = 40, IDLE = 3 };
     static const double steps[IDLE] = {1e-3, 1e-2, 1e-4};
@@ -521,8 +520,8 @@ static bool go_on(search *s, size_t free) {
     return true;
 }
 
-/* Without Newton's method: one name to what its values tell; several first by a new simplex, then, where the
- * scene ends, name within name. */
+/* Improves the place where Newton's method fails: one name by golden section to the last digit; several by
+ * new simplices and then, at the limit of the scene, by nested searches. */
 static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     size_t free = 0;
     if (s->of->count == 1) {

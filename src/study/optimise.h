@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where an expression is largest or smallest over ranges of one to three names: a grid, then the golden
- * section or the simplex of Nelder and Mead (GSL), then Newton's method on differences of sixth order. */
+/* The maximum or minimum of an expression over ranges of one to three names: a grid, then golden section or
+ * the simplex of Nelder and Mead, then Newton's method on differences of sixth order. Depends on points.h,
+ * GSL. */
 #ifndef STUDY_OPTIMISE_H
 #define STUDY_OPTIMISE_H
 
@@ -14,14 +15,14 @@ typedef struct optimise_question {
     double lo[OPTIMISE_NAMES], hi[OPTIMISE_NAMES]; /* lo < hi */
     size_t count;
     const expr *e;
-    bool most; /* the largest value, else the smallest */
+    bool most; /* maximise, else minimise */
 } optimise_question;
 
 typedef enum optimise_end {
-    END_INNER, /* within its range */
-    END_LOW,   /* at an end of it: beyond, it would be better still */
+    END_INNER, /* inside the range */
+    END_LOW,   /* at the lower end of the range: the optimum may lie beyond */
     END_HIGH,
-    END_SCENE /* where the scene ends */
+    END_SCENE /* at the limit beyond which the scene allows no value */
 } optimise_end;
 
 typedef struct optimise_answer {
@@ -29,15 +30,15 @@ typedef struct optimise_answer {
     optimise_end end[OPTIMISE_NAMES];
     long double value;
     dim d;
-    bool sharp; /* Newton's method has settled: the place is good to what the expression's digits allow, about
-                   1e-12 of the range; else, as at a kink, to half the digits */
-    calc_error why; /* of END_SCENE: what is wrong beyond */
+    bool sharp; /* Newton's method has converged: x is good to about 1e-12 of the range; else, as at a kink,
+                   to half the digits */
+    calc_error why; /* for END_SCENE: the error beyond */
     unsigned evaluations;
 } optimise_answer;
 
-/* Errors: no value anywhere; a value that is the same everywhere. The search goes on about each place of the
- * grid that is better than those beside it and may lead to the best: of 17 places, or, where there are
- * several such, of 129; of 7 times 7, or 5 times 5 times 5. */
+/* Searches from each place of the grid that is better than its neighbours and may lead to the optimum. The
+ * grid has 17 places for one name, 129 if several of them qualify, 7 x 7 for two and 5 x 5 x 5 for three.
+ * Errors: no value anywhere; the same value everywhere. */
 bool optimise(const optimise_question *question, optimise_answer *out, calc_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One point here; portions of them by a team. */
+/* Computes points one by one in this process or by a team. Depends on language/trial and team.h. */
 #include "study/points.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "study/team.h"
 #include "text/clock.h"
 
-enum { PORTION = 256 }; /* points of a part, at most */
+enum { PORTION = 256 }; /* most points in a part of a team's work */
 
 /* ---- knobs ------------------------------------------------------------------------------------- */
 
@@ -31,7 +31,7 @@ bool knob_present(calc *c, const knob *k, double *v) {
 bool knob_lacks(const calc *c, const knob *k, const char *what_for, const char *advice, calc_error *error) {
     const definition *d = k->is_input ? NULL : (const definition *)c->names.row[k->name].definition;
     long double none;
-    if (k->is_input && !*advice) /* the scene tells what makes it one */
+    if (k->is_input && !*advice) /* scene_get raises the error */
         return scene_get(c->now, k->in, &none, error);
     if (!d)
         return calc_fail(error, 0, 0, "%s has no value%s%s", k->text, what_for, advice);
@@ -63,7 +63,7 @@ void knob_text(const knob *k, double v, char text[KNOB_TEXT]) {
     snprintf(text, KNOB_TEXT, "%s = %s", k->text, number);
 }
 
-/* ---- life -------------------------------------------------------------------------------------- */
+/* ---- opening and closing ----------------------------------------------------------------------- */
 
 bool points_open(points *p, calc *c, const knob *knobs, size_t count, const expr *e, size_t n,
                  calc_error *error) {
@@ -110,7 +110,8 @@ bool points_failed(points *p, const calc_error *error) {
     return false;
 }
 
-static bool is_so(long double x, long double now) {
+/* Equal, including the sign of zero. */
+static bool is_same(long double x, long double now) {
     return x == now && (x != 0 || signbit(x) == signbit(now));
 }
 
@@ -130,12 +131,12 @@ bool points_set(points *p, const long double x[]) {
         return false;
     p->evaluations++;
     for (size_t i = 0; i < p->count; i++)
-        if (!is_so(x[i], p->now[i]) && !points_put(p, i, x[i], &error)) /* else nothing is made anew */
+        if (!is_same(x[i], p->now[i]) && !points_put(p, i, x[i], &error)) /* keeps the scene's caches */
             return points_failed(p, &error);
     return true;
 }
 
-static void nothing(const points *p, size_t from, value v[]) {
+static void fill_missing(const points *p, size_t from, value v[]) {
     for (size_t i = from; i < p->n; i++)
         v[i] = (value){(long double)NAN, DIM_NONE};
 }
@@ -149,7 +150,7 @@ bool points_look(points *p, value v[]) {
     for (size_t i = 0; i < p->n && !p->error->raised; i++) {
         if (expr_eval(p->c, &p->e[i], &v[i], &error))
             continue;
-        nothing(p, i, v);
+        fill_missing(p, i, v);
         points_failed(p, &error);
         error_clear(&error);
     }
@@ -159,7 +160,7 @@ bool points_look(points *p, value v[]) {
 bool points_at(points *p, const long double x[], value v[]) {
     if (points_set(p, x))
         return points_look(p, v);
-    nothing(p, 0, v);
+    fill_missing(p, 0, v);
     return false;
 }
 
@@ -187,7 +188,7 @@ bool points_keep_sides(points *p, const value v[2], dim *d, bool *known) {
     return calc_fail(p->error, right->at, right->len, "the left side is %s, the right side is %s", wants, is);
 }
 
-/* ---- a run of them ----------------------------------------------------------------------------- */
+/* ---- a run over many points -------------------------------------------------------------------- */
 
 static bool hand_over(points *p, const points_run *run, size_t i, const long double x[], const value v[],
                       const calc_error *why) {
@@ -206,21 +207,21 @@ static bool one_here(points *p, const points_run *run, size_t i, const long doub
     return hand_over(p, run, i, x, p->v, all ? NULL : p->error->raised ? p->error : &p->none);
 }
 
-/* A part as it is given: the knobs of its points. */
+/* The input of a part: the knobs of its points. */
 typedef struct portion {
     size_t count;
     long double x[];
 } portion;
 
-/* What comes of it: values, and the errors of those that lack one. */
+/* The result of a part: values, and the errors of points that lack one. */
 typedef struct outcome {
     scene_use used;
     calc_error why[PORTION];
     value v[];
 } outcome;
 
-/* In a worker, on its own copy of the points. False: an error that ends all; the process that gave the part
- * computes it again and so meets the error itself. */
+/* Computes a part in a worker, on its own copy of the points. False: an error ends the computation; the
+ * parent then computes the part again and raises the same error. */
 static bool work(void *context, const void *in, void *out) {
     points *p = context;
     const portion *given = in;
@@ -237,7 +238,7 @@ static bool work(void *context, const void *in, void *out) {
 typedef struct sharing {
     points *p;
     const points_run *run;
-    size_t first, portion; /* where it begins; points of a part */
+    size_t first, portion; /* first point of the shared work; points of a part */
 } sharing;
 
 static void give_portion(void *context, size_t part, void *in) {
@@ -281,7 +282,7 @@ static bool take_portion(void *context, size_t part, const void *in, const void 
     return true;
 }
 
-/* Is there a team for the points that are left? It begins once it pays. */
+/* Is there a team for the `left` points of this run? Starts one as soon as that pays. */
 static bool shared(points *p, size_t left) {
     const size_t to_come = p->all > p->done + left ? p->all - p->done : left;
     if (p->team || p->alone || !team_pays(p->taken, (double)p->watched, (double)(p->watched + to_come)))
@@ -293,8 +294,7 @@ static bool shared(points *p, size_t left) {
     return p->team != NULL;
 }
 
-/* Points of a part: few where there are few, so that all can share those that take long; but where they are
- * quick, enough to be worth handing over. */
+/* Points of a part: few, so that all workers share slow points, but at least 1 ms worth of quick ones. */
 static size_t portion_of(const points *p, size_t left) {
     static const double worth = 1e-3; /* seconds */
     const double many = (double)left, quick = worth * (double)p->watched / p->taken;
@@ -310,7 +310,7 @@ static bool share(points *p, const points_run *run, size_t first) {
                             .context = &sh};
     const bool ok = team_work(p->team, &parts);
     if (!ok)
-        points_dismiss(p); /* it may still be at work on parts that nobody wants */
+        points_dismiss(p); /* workers may still be busy with parts of this run */
     return !calc_stopped(p->c->scene.stop, p->error) && ok;
 }
 

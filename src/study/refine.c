@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Halving of intervals where the middle one of three points lies off the line between its neighbours. */
+/* Halves intervals where the middle of three points is off the line between the others. Depends on number. */
 #include "study/refine.h"
 
 #include <math.h>
@@ -11,18 +11,18 @@
 enum { ROUNDS = 12, POINTS = 3000 };
 static const double off_line = 1.0 / 2000, narrow = 1e-5;
 
-/* The bulk of a curve: what its even points span without the outermost twentieth at either end. */
+/* The bulk of a curve: the range of its even points without the lowest and the highest twentieth. */
 typedef struct bulk {
-    double middle, height; /* 0: a constant */
+    double middle, height; /* height 0: a constant */
 } bulk;
 
 typedef struct picture {
     const refinement *r;
-    size_t n, width;  /* rows; numbers of a row: the part, then the values */
-    long double *row; /* in their order */
-    bool *halve;      /* the interval behind a point */
-    double *sorted;
-    bulk *of;
+    size_t n, width;  /* number of rows; numbers in a row: the part, then the values */
+    long double *row; /* in ascending order of the part */
+    bool *halve;      /* the interval behind each row is to be halved */
+    double *sorted;   /* scratch */
+    bulk *of;         /* of each column */
 } picture;
 
 static long double part_at(const picture *p, size_t i) {
@@ -47,16 +47,17 @@ static bulk bulk_of(const picture *p, size_t column) {
         lo = sorted[0];
         hi = sorted[n - 1];
     }
-    /* what differs by less is rounding */
+    /* smaller differences are rounding */
     const double noise = 1e-9 * fmax(fabs(lo), fabs(hi));
     return (bulk){(lo + hi) / 2, hi - lo > noise ? hi - lo : 0};
 }
 
-/* Off the picture, as near a pole? */
+/* Is the value outside the plot, as near a pole? */
 static bool is_far(const bulk *b, double v) {
     return fabs(v - b->middle) > 2 * b->height;
 }
 
+/* Marks the interval behind row i unless it is too narrow. */
 static void mark(picture *p, size_t i) {
     if (part_at(p, i + 1) - part_at(p, i) > narrow)
         p->halve[i] = true;
@@ -89,7 +90,7 @@ static int by_part(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Those behind the others are new. */
+/* Computes the `more` new rows behind the others and sorts all. */
 static bool take_rows(picture *p, size_t more) {
     const bool ok = p->r->evaluate(p->r->context, p->row + p->n * p->width, more);
     p->n += more;
@@ -97,7 +98,7 @@ static bool take_rows(picture *p, size_t more) {
     return ok;
 }
 
-/* One round: the middles of marked intervals come, *more of them. */
+/* One round: adds the middles of marked intervals; *more: their number. */
 static bool halve(picture *p, size_t *more) {
     memset(p->halve, 0, p->n * sizeof *p->halve);
     for (size_t j = 0; j < p->r->count; j++)
@@ -106,7 +107,7 @@ static bool halve(picture *p, size_t *more) {
     for (size_t i = 0; i + 1 < p->n && p->n + *more < POINTS; i++)
         if (p->halve[i])
             p->row[(p->n + (*more)++) * p->width] = (part_at(p, i) + part_at(p, i + 1)) / 2;
-    if (p->n + *more >= POINTS) /* a curve that bends everywhere is drawn as it is */
+    if (p->n + *more >= POINTS) /* a curve that bends everywhere is left as it is */
         *more = 0;
     return take_rows(p, *more);
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rows as equations, as steps of a loop, or as distances from its branches. */
+/* Residuals of equations or a loop, by rows or across its branches. Depends on measured and points.h. */
 #include "study/residuals.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double apart = 1e-5; /* of the two places of a difference, as a part of q */
+static const double apart = 1e-5; /* relative distance in q between the two places of a central difference */
 
 double residuals_unknown(const residuals *r, size_t i) {
     return r->ratio[i] ? r->start[i] * exp(r->q[i] - 1) : r->start[i] + r->scale[i] * (r->q[i] - 1);
@@ -53,7 +53,7 @@ static bool equations(residuals *r, double *out) {
 
 /* ---- loops ------------------------------------------------------------------------------------- */
 
-/* The press that everything begins with. */
+/* The press with which the run begins: the first measured normal load, else the scene's own. */
 static bool press_of(residuals *r, load_step *out, calc_error *error) {
     scene *tried = &r->p.t->scene;
     const fit_loop *loop = &r->of->loop;
@@ -73,7 +73,7 @@ static bool press_of(residuals *r, load_step *out, calc_error *error) {
     return true;
 }
 
-/* A step to a displacement of the contact or of the rig. */
+/* Runs a step to a displacement of the contact or of the rig; *now becomes the forces. */
 static fret_status step_to(const residuals *r, runner *run, unsigned char by, double to, double normal,
                            fret_state *now) {
     const fit_loop *loop = &r->of->loop;
@@ -101,15 +101,15 @@ static fret_status run_rows(residuals *r, runner *run, double *out) {
     return st;
 }
 
-typedef struct way {
+typedef struct branch_run {
     residuals *r;
     runner *run;
     fret_status status;
-} way;
+} branch_run;
 
-/* By the displacement of the contact, which tells what the rig reads: not the other way round. */
+/* Steps by the displacement of the contact, from which the readings of the rig follow. */
 static bool step_branch(void *context, double dx, double normal, double *x, double *F) {
-    way *w = context;
+    branch_run *w = context;
     fret_state now;
     w->status = step_to(w->r, w->run, BY_DISPLACEMENT, dx, normal, &now);
     *x = dx + w->r->loop.compliance * (double)now.Fx + w->r->d0;
@@ -118,7 +118,7 @@ static bool step_branch(void *context, double dx, double normal, double *x, doub
 }
 
 static fret_status run_branches(residuals *r, runner *run, double *out) {
-    way w = {.r = r, .run = run, .status = {.code = FRET_OK}};
+    branch_run w = {.r = r, .run = run, .status = {.code = FRET_OK}};
     r->bad_row = NO_ROW;
     if (r->stride)
         branches_begin(&r->loop);
@@ -169,7 +169,7 @@ static bool loop_run(residuals *r, double *out) {
     return !st.code && !r->p.error->raised;
 }
 
-/* ---- of all ------------------------------------------------------------------------------------ */
+/* ---- both -------------------------------------------------------------------------------------- */
 
 bool residuals_at(residuals *r, double *out) {
     const size_t names = r->of->count;
@@ -186,11 +186,12 @@ bool residuals_at(residuals *r, double *out) {
 
 /* ---- slopes ------------------------------------------------------------------------------------ */
 
-/* A turning point is felt from the end of the branch that it ends until the next but one wipes it out: in the
- * rows of these branches and in the levels that they come to. The last one of a closed loop, which comes
- * before all, is felt everywhere, as names are. */
+/* A turning point affects the rows from the branch that it ends until the next but one turning point erases
+ * it from the memory of the contact, and the levels of the turning points there. The last one of a closed
+ * loop is passed before all rows and affects them all, as names do. */
 enum { FELT = 4 };
 
+/* The number of turning points that affect only some rows. */
 static size_t banded(const residuals *r) {
     const size_t turns = r->unknowns - r->of->count;
     return turns - (r->twice && turns > 0);
@@ -201,7 +202,7 @@ static void put_slopes(residuals *r, size_t unknown, size_t begin, size_t end) {
         r->slopes[row * r->unknowns + unknown] = r->above[row] / r->unit;
 }
 
-/* The differences that have been found, in the rows that the unknown is felt in; others stay 0. */
+/* Stores the differences in r->above, in the rows that the unknown affects; the others stay 0. */
 static void keep_slopes(residuals *r, size_t unknown) {
     const size_t names = r->of->count, turns = r->unknowns - names, turn = unknown - names, end = turn + FELT;
     if (unknown < names || turn >= banded(r)) {
@@ -212,6 +213,7 @@ static void keep_slopes(residuals *r, size_t unknown) {
     put_slopes(r, unknown, r->of->rows + turn, r->of->rows + (end < turns ? end : turns));
 }
 
+/* The residuals with q changed by `by` for every `every`-th unknown from `first` on. */
 static bool at_moved(residuals *r, size_t first, size_t every, size_t end, double by, double *out) {
     double kept[UNKNOWNS];
     memcpy(kept, r->q, sizeof kept);
@@ -229,8 +231,7 @@ static void no_slope(const residuals *r, size_t i) {
     calc_fail(r->p.error, 0, 0, "no value close beside %s, for the derivative: %s", at, r->p.none.text);
 }
 
-/* Differences about q; at the end of the scene, where one of the two has no value, from q to the other. In
- * r->above. */
+/* r->above becomes the central differences about q; one-sided at the limit of the scene. */
 static bool differences(residuals *r, size_t first, size_t every, size_t end) {
     const double h = points_step(apart / 2, r->q[first], 1);
     double hi = h, lo = -h;
@@ -247,7 +248,7 @@ static bool differences(residuals *r, size_t first, size_t every, size_t end) {
     return !r->p.error->raised;
 }
 
-/* Of names one by one; of turning points far from each other at once. */
+/* Names are moved one by one; turning points that affect different rows together. */
 bool residuals_slopes(residuals *r) {
     const size_t names = r->of->count, bands = banded(r);
     if (r->has_slopes && !memcmp(r->sloped, r->q, sizeof r->q))
@@ -258,7 +259,7 @@ bool residuals_slopes(residuals *r) {
     r->has_slopes = false;
     r->loop.warm = true;
     for (size_t first = 0; first < r->unknowns && !r->p.error->raised; first++) {
-        const bool comb = first >= names && first < names + bands;
+        const bool comb = first >= names && first < names + bands; /* moves every FELT-th turning point */
         const size_t every = comb ? FELT : 1, end = comb ? names + bands : first + 1;
         if (comb && first >= names + FELT)
             continue;
@@ -277,7 +278,7 @@ bool residuals_slopes(residuals *r) {
 
 /* ---- opening ----------------------------------------------------------------------------------- */
 
-/* A loop that begins in its midst came from somewhere: its own last period. */
+/* Is it a closed loop that does not begin at rest? Then it is run twice, for the period before. */
 static bool begins_midway(const fit_question *of) {
     const fit_loop *l = &of->loop;
     double dx = 0, Fx = 0;
@@ -291,7 +292,7 @@ static bool begins_midway(const fit_question *of) {
 }
 
 static bool open_points(residuals *r, calc_error *error) {
-    static const size_t passes = 10; /* a fit goes through the rows more often than that */
+    static const size_t passes = 10; /* a fit evaluates all rows at least as often */
     const fit_question *of = r->of;
     for (size_t i = 0; i < of->count; i++)
         r->knobs[i] = of->name[i];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Least squares over B-splines, by their normal equations: the basis is local, so that these are well
- * conditioned, and a refinement takes away what they lose. Where noise bends the spline down, the
- * nearest convex one is taken: its coefficients are convex over the abscissae of Greville. */
+/* Least squares over cubic B-splines, by the normal equations: a local basis keeps them well conditioned, and
+ * a step of iterative refinement removes their rounding. If noise makes the profile fall, the nearest convex
+ * spline is taken: its coefficients are convex over the Greville abscissae. Depends on GSL and text. */
 #include "study/smooth.h"
 
 #include <gsl/gsl_blas.h>
@@ -17,7 +17,7 @@
 #include "language/calc.h"
 #include "number/array.h"
 
-#if GSL_MAJOR_VERSION == 2 && GSL_MINOR_VERSION < 8 /* which have other names for these */
+#if GSL_MAJOR_VERSION == 2 && GSL_MINOR_VERSION < 8 /* other names for the same functions */
 static int gsl_bspline_init_augment(const gsl_vector *ends, gsl_bspline_workspace *w) {
     return gsl_bspline_knots(ends, w);
 }
@@ -34,29 +34,29 @@ static int gsl_bspline_basis_deriv(double x, size_t order, gsl_matrix *basis, si
 }
 #endif
 
-/* The two first functions of the basis carry f(0) and f'(0), and are left out. */
+/* The first two basis functions carry f(0) and f'(0), which are 0: they are left out. */
 enum { ORDER = 4, FIXED = 2 };
 
-/* |r| and f in units of their largest, by |r|. */
+/* A row: |r| and f divided by their largest values. */
 typedef struct row {
     double r, f;
 } row;
 
 typedef struct rows {
-    row *row;
-    size_t count, distinct; /* different r */
-    double *at;             /* they */
-    double r, f;            /* units [m] */
+    row *row; /* in ascending order of |r| */
+    size_t count, distinct;
+    double *at;  /* the distinct |r| */
+    double r, f; /* largest |r| and |f| [m] */
 } rows;
 
 typedef struct candidate {
-    size_t pieces, unknowns;
+    size_t pieces, unknowns; /* the last unknown is the offset */
     gsl_bspline_workspace *spline;
-    gsl_vector *ends, *c, *right, *whole;
-    gsl_matrix *normal, *factor;
+    gsl_vector *ends, *c, *right, *whole; /* of pieces; coefficients; right side, and for c = 0 */
+    gsl_matrix *normal, *factor;          /* normal equations and their Cholesky factor */
     double rms, worst, at;
-    bool grows;         /* so does g(x): (r f')' >= 0 */
-    double falls, drop; /* where f' < 0, and by how much f falls in all */
+    bool grows;         /* (r f')' >= 0, so that the MDR profile g(x) grows */
+    double falls, drop; /* r from which f falls, and by how much */
 } candidate;
 
 static bool rows_make(rows *all, const double *r, const double *f, size_t count, calc_error *error) {
@@ -94,7 +94,7 @@ static void candidate_end(candidate *t) {
 }
 
 static bool candidate_begin(candidate *t, const rows *all, size_t pieces, calc_error *error) {
-    const size_t unknowns = pieces + ORDER - 1 - FIXED + 1; /* and the offset */
+    const size_t unknowns = pieces + ORDER - 1 - FIXED + 1; /* + 1: the offset */
     *t = (candidate){.pieces = pieces,
                      .unknowns = unknowns,
                      .spline = gsl_bspline_alloc(ORDER, pieces + 1),
@@ -112,7 +112,7 @@ static bool candidate_begin(candidate *t, const rows *all, size_t pieces, calc_e
     return true;
 }
 
-/* The functions that are not 0 at r, with their places among the unknowns; the offset last. */
+/* A row of the design matrix: the basis functions that are not 0 at r, and their unknowns; offset last. */
 typedef struct line {
     double v[ORDER + 1];
     size_t at[ORDER + 1], count;
@@ -140,7 +140,7 @@ static double residual(const candidate *t, const line *x, double f) {
     return f;
 }
 
-/* Moves the unknowns to where the rest is least. begin: the normal equations too. */
+/* Adds the least-squares solution for the residuals to the coefficients. begin: first sets up equations. */
 static bool improve(candidate *t, const rows *all, bool begin, file_stop stop, calc_error *error) {
     gsl_vector_set_zero(t->right);
     for (size_t i = 0; i < all->count; i++) {
@@ -196,7 +196,7 @@ static void end_of(const candidate *t, size_t i, double *f, double *slope) {
         }
 }
 
-/* f' is a parabola on each piece: f falls least and most at its zeros and at the ends. */
+/* Finds `grows`, `falls`, `drop`. f' is a parabola on each piece: f is extremal at its zeros and at ends. */
 static void look_for_fall(candidate *t) {
     double f0, s0, f1 = 0, s1 = 0, top = 0, top_at = 0;
     t->grows = true;
@@ -222,27 +222,27 @@ static void look_for_fall(candidate *t) {
                 top_at = r0 + x[j] * h;
             }
         }
-        /* (r f')' is a parabola too */
+        /* (r f')' is a parabola q0 + q1 x + q2 x^2 on the piece */
         const double q1 = 2 * (2 * d1 + 3 * d2 * r0 / h), q2 = 9 * d2, q0 = s0 + 2 * d1 * r0 / h;
         const double vertex = q2 > 0 ? -q1 / (2 * q2) : 0;
-        t->grows = t->grows && q0 + q1 + q2 >= 0 && /* it begins where the piece before has ended */
+        t->grows = t->grows && q0 + q1 + q2 >= 0 && /* x = 0 is x = 1 of the piece before */
                    (!(vertex > 0 && vertex < 1) || q0 + vertex * (q1 + vertex * q2) >= 0);
     }
 }
 
-/* ---- the nearest convex one -------------------------------------------------------------------- */
+/* ---- the nearest convex spline ----------------------------------------------------------------- */
 
-/* Lawson and Hanson's active set: those that are positive are found one by one. */
+/* Non-negative least squares (Lawson and Hanson): the positive unknowns are added one by one. */
 typedef struct active {
     const gsl_matrix *M;
     const gsl_vector *right;
-    gsl_vector *x, *wanted;
-    gsl_matrix *part; /* of M, for those in use */
-    size_t n, count;
-    size_t *used; /* the free one first */
+    gsl_vector *x, *wanted; /* the present solution; that of the unknowns in use without constraints */
+    gsl_matrix *part;       /* the part of M for the unknowns in use */
+    size_t n, count;        /* numbers of unknowns, and of those in use */
+    size_t *used;           /* unknowns in use; first the one that may be negative */
 } active;
 
-/* The least squares of those in use alone. */
+/* Sets `wanted` to the least squares of the unknowns in use; false: their matrix is singular. */
 static bool solve_used(active *s) {
     gsl_matrix_view M = gsl_matrix_submatrix(s->part, 0, 0, s->count, s->count);
     gsl_vector_view x = gsl_vector_subvector(s->wanted, 0, s->count);
@@ -256,8 +256,7 @@ static bool solve_used(active *s) {
     return !status;
 }
 
-/* Goes to what is wanted, or only until an unknown becomes 0, which is then no longer in use; true: arrived.
- */
+/* Moves x to `wanted`, or until an unknown becomes 0, which is then out of use; true: x has arrived. */
 static bool approach(active *s) {
     double part = 1;
     size_t stop = 0, kept = 1;
@@ -285,7 +284,7 @@ static bool approach(active *s) {
     return stop == 0;
 }
 
-/* The one left out that would lessen the squares most; n: none. */
+/* The unused unknown with the steepest descent of the squares; n: none descends. */
 static size_t best_unused(const active *s) {
     double best = 1e-12 * gsl_blas_dnrm2(s->right);
     size_t found = s->n;
@@ -304,7 +303,7 @@ static size_t best_unused(const active *s) {
     return found;
 }
 
-/* Ends early where rounding makes those in use singular: what has been found is good enough. */
+/* Stops early if rounding makes the matrix singular: the solution so far is good enough. */
 static void run_active_set(active *s) {
     s->used[s->count++] = s->n - 1;
     for (size_t round = 0, next = 0; next < s->n; round++) {
@@ -318,8 +317,7 @@ static void run_active_set(active *s) {
     }
 }
 
-/* From the normal equations M x = right: the x >= 0 of the least squares, of which the last unknown is free.
- * False: out of memory. */
+/* Solves M x = right in the sense of least squares with x >= 0 but for the last. False: out of memory. */
 static bool nonnegative(const gsl_matrix *M, const gsl_vector *right, gsl_vector *x) {
     const size_t n = x->size;
     active s = {.M = M,
@@ -339,7 +337,7 @@ static bool nonnegative(const gsl_matrix *M, const gsl_vector *right, gsl_vector
     return ok;
 }
 
-/* c = T e for second differences e, which are not to be negative; the offset is its own. */
+/* c = T e: the second differences e of the coefficients must not be negative; the offset is free. */
 static bool make_convex(candidate *t, const rows *all) {
     const size_t n = t->unknowns;
     gsl_matrix *T = gsl_matrix_calloc(n, n), *AT = gsl_matrix_alloc(n, n), *M = gsl_matrix_alloc(n, n);
@@ -369,8 +367,8 @@ static bool make_convex(candidate *t, const rows *all) {
     return ok;
 }
 
-/* Would noise alone have moved the convex profile so far from the nearest one? Its squares are greater by the
- * noise of at most all unknowns. */
+/* Can noise explain the larger squares of the convex spline? Its constraints add the noise of `unknowns`
+ * terms at most: p plus 4 standard deviations (2p)^1/2, in variances. */
 static bool noise_alone(const candidate *t, const rows *all, double nearest) {
     const double p = (double)t->unknowns, left = (double)all->count - p;
     return t->rms * t->rms <= nearest * nearest * (1 + (p + 4 * sqrt(2 * p)) / left);
@@ -393,7 +391,7 @@ static bool attempt(candidate *t, const rows *all, size_t pieces, file_stop stop
         return calc_no_memory(error);
     if (small || noise_alone(t, all, nearest)) {
         t->drop = 0;
-    } else { /* it may be pressed as far as g grows, where f does not fall */
+    } else { /* not noise: keep the spline. If f does not fall it can be pressed as far as g grows */
         gsl_vector_memcpy(t->c, t->right);
         judge_profile(t, all);
     }
@@ -402,7 +400,7 @@ static bool attempt(candidate *t, const rows *all, size_t pieces, file_stop stop
 
 /* ---- how many pieces --------------------------------------------------------------------------- */
 
-/* Most profiles that fall were measured beyond the rim; not one that falls from the apex, or far below it. */
+/* A falling profile was mostly measured beyond the rim, unless it falls from the apex or far below it. */
 static const char *advice(const candidate *t) {
     double end, slope;
     end_of(t, t->pieces, &end, &slope);
@@ -411,6 +409,7 @@ static const char *advice(const candidate *t) {
     return t->pieces == 1 ? "leave out what lies beyond" : "leave out what lies beyond, or take fewer pieces";
 }
 
+/* False, with the error, if the profile falls by more than noise. */
 static bool rises(const candidate *t, const rows *all, calc_error *error) {
     char where[CALC_VALUE_TEXT], drop[CALC_VALUE_TEXT];
     calc_value_text(DIM_LENGTH, t->falls * all->r, where);
@@ -426,7 +425,7 @@ static size_t most_pieces(const rows *all, size_t most) {
     return all->distinct / 4 < most ? all->distinct / 4 : most;
 }
 
-/* Of those tried, the fewest that come within; else those with the least error of prediction. */
+/* Takes the fewest pieces within how.within, or those with the least cross-validation error. */
 static bool choose_pieces(candidate *t, const rows *all, smoothing how, file_stop stop, calc_error *error) {
     const size_t most = most_pieces(all, SMOOTH_PIECES_TRIED);
     const bool freely = how.by == SMOOTH_FREELY;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scan for brackets and the method on them. */
+/* The scan for brackets, and the root in each. Depends on points.h and number. */
 #include "study/solve.h"
 
 #include <math.h>
@@ -11,8 +11,8 @@
 #include "number/least.h"
 #include "number/root.h"
 
-/* Intervals of the scan, and of the finer one; halvings to an edge of what the scene allows; evaluations of
- * the method, where a root of high order would take many more. */
+/* Intervals of the scan and of the finer one; halvings towards the limit of the scene; most evaluations for a
+ * root (one of high order would take many more), brackets, and roots listed in a message. */
 enum { SCAN = 24, FINE = 8 * SCAN, EDGE = 60, METHOD = 100, ROOTS = 48, LISTED = 12 };
 
 typedef struct place {
@@ -29,24 +29,24 @@ typedef struct search {
     place at[FINE + 1];
     place root[ROOTS], other[ROOTS]; /* brackets: a change of sign between them */
     unsigned roots;
-    bool edged;     /* the edge of what the scene allows has been met */
+    bool edged;     /* the scan has met the limit of what the scene allows */
     place edge;     /* the last place with a value there */
-    calc_error why; /* beyond it */
-    place nearest;  /* between places of the scan, without passing: NaN where that was not asked */
-    place dip;      /* nearest there so far */
-    double side;    /* of the left side there: 1 above, -1 below */
+    calc_error why; /* the error beyond it */
+    place nearest;  /* smallest |f| found between places of the scan without a crossing; f NaN: none */
+    place dip;      /* smallest |f| found in the present search */
+    double side;    /* sign of f in the present search */
     bool touches;
-    bool pole;   /* a place of the scan alone has no value */
-    bool swings; /* the sides come nearer and go apart again and again */
-    double jump; /* where the sides jump past each other, one such place */
+    bool pole;   /* a place without a value lies between two that have one */
+    bool swings; /* f has several extrema over the scan */
+    double jump; /* a place where f jumps through 0 */
 } search;
 
-/* left - right. NaN: the question has ended. */
+/* f = left - right; NaN: p.error is raised. */
 static double apart(search *s, const value v[2]) {
     return points_keep_sides(&s->p, v, &s->d, &s->known) ? (double)(v[0].v - v[1].v) : (double)NAN;
 }
 
-/* NaN: no value there, too. */
+/* f at a place; NaN: no value, or p.error is raised. */
 static double difference(search *s, double at) {
     const long double x = at;
     value v[2];
@@ -91,7 +91,7 @@ static bool choose_range(search *s, calc_error *error) {
             if (!knob_present(s->of->c, k, &now))
                 return knob_lacks(s->of->c, k, " to search around", advice, error);
             if (now == 0 && k->is_input && k->in == IN_NW)
-                now = 1e4; /* of 0 on, which is most often */
+                now = 1e4; /* the scan then covers 10 to 1e7 */
             if (now == 0)
                 return calc_fail(error, 0, 0, "%s has no value that tells how far to search%s", k->text,
                                  advice);
@@ -118,7 +118,7 @@ static bool take_place(void *context, size_t i, const long double x[], const val
 }
 
 static bool scan(search *s) {
-    enum { TURNS = 3 }; /* more than those of a cubic */
+    enum { TURNS = 3 }; /* a cubic has 2 extrema */
     bool equal = true;
     unsigned turns = 0;
     if (!points_go(&s->p, &(points_run){
@@ -140,7 +140,7 @@ static bool scan(search *s) {
     return true;
 }
 
-/* Between a place without and one with a value: a root may hide there, or at the very last number. */
+/* Halves the interval between a place without a value and one with: a root may hide there. */
 static bool approach_edge(search *s, place bad, place good) {
     for (unsigned i = 0; i < EDGE; i++) {
         place mid = {.x = middle(s, bad.x, good.x)};
@@ -168,7 +168,7 @@ static bool approach_edge(search *s, place bad, place good) {
     return true;
 }
 
-/* Takes long: once there are roots, in the fine scan alone, which follows jumps, poles and swings. */
+/* Costs many evaluations: once there are roots, only the fine scan does it, which follows poles, swings. */
 static bool search_edges(search *s) {
     for (unsigned i = 0; i < s->places && (!s->roots || s->places == FINE); i++) {
         const place a = s->at[i], b = s->at[i + 1];
@@ -180,7 +180,7 @@ static bool search_edges(search *s) {
 
 /* ---- between the places of the scan ------------------------------------------------------------ */
 
-/* Until they meet. */
+/* |f| for the minimiser; 0 once the sides have crossed, which ends the search. */
 static fret_real side_distance(fret_real x, fret_real *slope, void *context) {
     search *s = context;
     place p = {.x = (double)x};
@@ -193,7 +193,7 @@ static fret_real side_distance(fret_real x, fret_real *slope, void *context) {
     return p.f * s->side;
 }
 
-/* Are the sides further apart at a than at b, on the same side of each other, or as far, but for rounding? */
+/* Same sign and |f| at a larger than at b, by more than rounding. */
 static bool further(place a, place b) {
     return a.f * b.f > 0 && fabs(a.f) - fabs(b.f) > 1e-9 * fabs(b.f);
 }
@@ -202,11 +202,11 @@ static bool as_far(place a, place b) {
     return fabs(a.f - b.f) <= 1e-9 * fabs(b.f);
 }
 
-/* The sides come nearest at b, with a and c beside it: they may pass each other twice within, or touch. */
+/* |f| is least at b, between a and c: the sides may cross twice there, or touch. */
 static bool go_nearer(search *s, place a, place b, place c) {
-    static const double touching = 1e-13; /* of the distance at a and c: what rounding leaves */
+    static const double touching = 1e-13; /* |f| relative to that at a and c: what rounding leaves */
     const bool first = as_far(a, b);
-    if (first || as_far(c, b)) { /* two as near as each other: between them, or they are level */
+    if (first || as_far(c, b)) { /* two equal places: the minimum lies between them, or f is constant */
         const place other = first ? a : c;
         place mid = {.x = middle(s, b.x, other.x)};
         mid.f = difference(s, mid.x);
@@ -229,26 +229,26 @@ static bool go_nearer(search *s, place a, place b, place c) {
                  far = fmin(fabs(a.f), fabs(c.f));
     fret_least(side_distance, s, lo, hi, b.x, part);
     b = s->dip;
-    if (b.f * s->side <= 1e-8 * far) { /* they may touch, which half of the digits tell */
+    if (b.f * s->side <= 1e-8 * far) { /* may be a tangency: a minimum is located to half of the digits */
         fret_least(side_distance, s, fmax(b.x - apart, lo), fmin(b.x + apart, hi), b.x, 1e-4L);
         b = s->dip;
     }
     if (s->p.error->raised)
         return false;
-    const double left = b.f * s->side; /* not NaN: it is the least that has been met */
-    if (left < 0) {
+    const double least = b.f * s->side; /* not NaN: a comparison has chosen it */
+    if (least < 0) {
         add_bracket(s, a, b);
         add_bracket(s, b, c);
-    } else if (left <= touching * far) {
+    } else if (least <= touching * far) {
         s->touches = true;
         add_bracket(s, b, b);
     }
-    if (!(fabs(s->nearest.f) <= left))
+    if (!(fabs(s->nearest.f) <= least))
         s->nearest = b;
     return true;
 }
 
-/* At an end of the range: do they come nearer at once? */
+/* At an end of the range: is there a minimum of |f| just inside? */
 static bool search_end(search *s, place end, place next) {
     if (!further(next, end))
         return true;
@@ -264,8 +264,7 @@ static bool search_end(search *s, place end, place next) {
     return !(fabs(p.f) < fabs(end.f)) || go_nearer(s, end, p, next);
 }
 
-/* Where the sides come near each other without passing at any two places of the scan: a pole may hide a root,
- * too. */
+/* Searches the minima of |f| where no two places of the scan show a crossing. */
 static bool search_dips(search *s) {
     const place *at = s->at;
     const unsigned last = s->places;
@@ -330,18 +329,18 @@ static bool no_root(search *s, calc_error *error) {
     return false;
 }
 
-/* ---- the method -------------------------------------------------------------------------------- */
+/* ---- roots in brackets ------------------------------------------------------------------------- */
 
 typedef struct sought {
     search *s;
-    double at;    /* asked last */
-    unsigned end; /* evaluations: where they are that many, 0 */
-    bool lost;    /* no value there */
+    double at;    /* the place evaluated last */
+    unsigned end; /* after this many evaluations return 0, which ends the method */
+    bool lost;    /* there is no value at that place */
 } sought;
 
 static fret_real difference_there(fret_real x, fret_real *slope, void *context) {
     sought *t = context;
-    const bool again = (double)x == t->at || t->s->p.evaluations >= t->end; /* no double lies closer */
+    const bool again = (double)x == t->at || t->s->p.evaluations >= t->end; /* the same double: converged */
     (void)slope;
     t->at = (double)x;
     const double f = again ? 0 : difference(t->s, t->at);
@@ -349,7 +348,7 @@ static fret_real difference_there(fret_real x, fret_real *slope, void *context) 
     return t->lost ? 0 : f;
 }
 
-/* To the last digit. False: there is no root, but a jump or a gap. */
+/* The root in bracket i, to the last digit. False: it holds a jump or a gap instead. */
 static bool find_root(search *s, unsigned i, double *x) {
     const place a = s->root[i], b = s->other[i];
     sought t = {.s = s, .at = (double)NAN, .end = s->p.evaluations + METHOD};
@@ -367,7 +366,7 @@ static bool only_jumps(search *s, double x, calc_error *error) {
                      "no root: the sides jump past each other at %s", there);
 }
 
-/* Leaves out the changes of sign that are jumps; where one root is left it is the answer. */
+/* Keeps the brackets that hold a root, not a jump, and replaces s->root by the sorted roots. */
 static bool sift(search *s, solve_answer *out, calc_error *error) {
     place found[ROOTS];
     unsigned roots = 0, last = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Running a sweep, curve by curve, on a scratch scene. */
+/* Runs a sweep, curve by curve, on a scratch scene. Depends on points.h and refine.h. */
 #include "study/sweep.h"
 
 #include <math.h>
@@ -16,14 +16,14 @@ typedef struct curve_run {
     sweep_job *job;
     size_t curve;
     sweep_range range;
-    long double *row; /* values */
-    /* of the range */
+    long double *row;  /* values of the present row */
     size_t first, end; /* rows of the curve that are wanted */
-    size_t rows;
-    /* rows as refine has them, each its place 0..1 and its values; NULL: even ones, which go to the job */
+    size_t rows;       /* rows of the present run of points */
+    /* rows for refine(), each a part 0..1 and then its values; NULL: even rows, passed to the job */
     long double *refined;
 } curve_run;
 
+/* Writes job->where: "at X = ..., WITH = ...". */
 static void say_where(curve_run *st, long double x) {
     const sweep *s = st->s;
     char at[120], with[60 + LEX_NAME] = "";
@@ -35,7 +35,7 @@ static void say_where(curve_run *st, long double x) {
     snprintf(st->job->where, sizeof st->job->where, "at %s = %s%s", s->var.text, at, with);
 }
 
-/* Adds the place to an error that ends the sweep; of gaps the first one's reason is kept. */
+/* Appends the place to an error that ends the sweep; for gaps keeps the reason of the first. */
 static void say_why(curve_run *st, const calc_error *why, long double x) {
     sweep_job *job = st->job;
     const bool ends = job->error->raised;
@@ -48,7 +48,7 @@ static void say_why(curve_run *st, const calc_error *why, long double x) {
         job->missing = *why;
 }
 
-/* The dimension that is found first holds for all rows. */
+/* Does expression i keep its dimension? The first one found holds for all rows. */
 static bool is_its_dim(sweep_job *job, size_t i, dim d) {
     if (!job->known[i]) {
         job->known[i] = true;
@@ -63,7 +63,7 @@ static void find_dim(sweep_job *job, size_t i) {
         is_its_dim(job, i, d);
 }
 
-static void fits(curve_run *st, size_t i, dim d, long double x) {
+static void check_dim(curve_run *st, size_t i, dim d, long double x) {
     sweep_job *job = st->job;
     if (is_its_dim(job, i, d))
         return;
@@ -77,7 +77,7 @@ static void fits(curve_run *st, size_t i, dim d, long double x) {
                e->text + e->at, is, *in ? "in " : "as a number", in, job->where);
 }
 
-/* NaN: a gap, whose dimension another row may have told. */
+/* A gap (NaN) has no dimension: find_dim derives it from the expression. */
 static void take_value(curve_run *st, size_t i, const value *v, long double x) {
     st->row[i] = v->v;
     if (isnan(v->v)) {
@@ -85,7 +85,7 @@ static void take_value(curve_run *st, size_t i, const value *v, long double x) {
         return;
     }
     st->job->values++;
-    fits(st, i, v->d, x);
+    check_dim(st, i, v->d, x);
 }
 
 static bool take_row(curve_run *st, size_t row, long double x, const value v[], const calc_error *why) {
@@ -103,7 +103,7 @@ static bool take_row(curve_run *st, size_t row, long double x, const value v[], 
 
 /* ---- for NAME = LO .. HI ----------------------------------------------------------------------- */
 
-/* The value of the name at a part 0..1 of its range, of a list the one nearest to it. */
+/* The value of the name at a part 0..1 of its range; from a list, the nearest item. */
 static long double sweep_value(const sweep *s, const sweep_range *r, long double part) {
     return r->listed ? r->list[lroundl(part * (long double)(r->listed - 1))]
                      : points_place(r->lo, r->hi, s->log, part);
@@ -114,7 +114,7 @@ long double sweep_with(const sweep *s, size_t curve) {
                      : s->value[curve];
 }
 
-/* The name's value in that row of a table, or its number. */
+/* The x of a row of a table: the value of its only name, or the row's number. */
 static long double row_of(const sweep_rows *at, size_t row) {
     return at->names == 1 ? (long double)at->column[0].v[row] : (long double)(row + 1);
 }
@@ -148,7 +148,7 @@ static bool run_all(curve_run *st) {
                      &(points_run){.count = st->rows, .give = give_swept, .take = take_swept, .context = st});
 }
 
-/* ---- even rows, or where they are wanted ------------------------------------------------------- */
+/* ---- even rows, or refined ones ---------------------------------------------------------------- */
 
 static bool evaluate_rows(void *context, long double *row, size_t rows) {
     curve_run *st = context;
@@ -162,8 +162,8 @@ static bool give_part(void *context, long double part, const long double *values
     return st->job->row(st->job->context, st->s, st->curve, sweep_value(st->s, &st->range, part), values);
 }
 
-/* The unit of the range may differ from curve to curve. A name must have a value of it here too, where rows
- * come from a team: dimensions of gaps are asked for in this process. */
+/* Sets the dimension of the range, which may differ from curve to curve. Gives a name a first value: if a
+ * team computes the rows, find_dim still needs one in this process. */
 static bool begin_range(curve_run *st) {
     points *p = &st->job->p;
     const size_t i = st->s->curves > 0;
@@ -202,7 +202,7 @@ static bool look_along(curve_run *st, double time) {
     return take_row(st, 0, time, p->v, all ? NULL : &p->none) && !calc_stopped(p->c->scene.stop, p->error);
 }
 
-/* Appends the load of the range to the program of a trial; `from` gets where it begins. */
+/* Appends the load of the range to the trial's load program; *from becomes its beginning. */
 static bool try_load(trial *t, const sweep_range *range, load_mark *from, calc_error *error) {
     scene *tried = &t->scene;
     *from = tried->end;
@@ -239,7 +239,7 @@ size_t sweep_length(const sweep *s) {
     return (s->curves ? s->curves : 1) * (s->steps + 1);
 }
 
-/* Which rows of the curve are wanted; false: none. */
+/* Sets st->first and st->end to the rows of the curve that are wanted; false: none. */
 static bool is_wanted(curve_run *st) {
     sweep_job *job = st->job;
     const size_t rows = st->s->steps + 1, before = job->before;
@@ -289,7 +289,7 @@ static bool open_sweep(const sweep *s, sweep_job *job) {
         job->knobs[count++] = s->var;
     const bool ok = points_open(&job->p, job->c, job->knobs, count, job->expressions, job->count, job->error);
     job->p.all = job->to < rows ? job->to - job->from : rows;
-    job->p.alone = !job->count; /* whoever takes the rows looks at the scene */
+    job->p.alone = !job->count; /* the callback reads the scene, which must be in this process */
     return ok;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Work in many like parts on several cores: by processes that are copies of this one as it stood when the
- * team began. They share a sheet of memory and nothing else: whatever a part changes is seen nowhere but in
- * what it hands back, and digits do not depend on how many work. Prints nothing. */
+/* Worker processes for many similar parts of work: forks of this process as it is when the team begins, with
+ * shared memory for inputs and results. What else a part changes stays in its worker, and digits do not
+ * depend on the number of workers. Depends on POSIX, language/calc and text/file; prints nothing. */
 #ifndef STUDY_TEAM_H
 #define STUDY_TEAM_H
 
@@ -11,28 +11,30 @@ typedef struct team team;
 
 typedef struct team_job {
     calc *c;
-    size_t in, out; /* bytes of a part as it is given, and of what comes of it */
-    /* In a copy. False: nothing came of it. */
+    size_t in, out; /* bytes of the input and of the result of a part */
+    /* Computes a part in a worker. False: no result. */
     bool (*work)(void *context, const void *in, void *out);
     void *context;
 } team_job;
 
-/* One run through parts 0, 1, ... */
+/* One run through parts 0, 1, ...; the callbacks run in the process that has begun the team. */
 typedef struct team_run {
     size_t parts;
+    /* Writes the input of a part. */
     void (*give)(void *context, size_t part, void *in);
-    /* In their order; NULL: nothing came of it, and it is to be done here. False ends the run. */
+    /* Receives the results in order. out NULL: none, compute the part here. False ends the run. */
     bool (*take)(void *context, size_t part, const void *in, const void *out);
     void *context;
 } team_run;
 
-/* NULL: one core, or no process or memory to be had. */
+/* Starts the workers. NULL: there is one core only, or processes or memory are lacking. */
 team *team_begin(const team_job *job);
-/* False: `take` ended it, or the calculator is to stop; no further run then. */
+/* Runs all parts. False: `take` has ended it, or the stop flag is set; only team_end may follow. */
 bool team_work(team *t, const team_run *run);
-void team_end(team *t); /* NULL too */
+/* Kills the workers and frees the team; t may be NULL. */
+void team_end(team *t);
 
-/* Does a team pay, where `done` of `all` have taken so many seconds? */
+/* Is a team worth starting if `done` of `all` points have taken `taken` seconds? */
 bool team_pays(double taken, double done, double all);
 
 #endif

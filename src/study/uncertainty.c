@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Derivatives and samples. */
+/* First order by derivatives, and the Monte Carlo simulation. Depends on points.h and GSL. */
 #include "study/uncertainty.h"
 
 #include <gsl/gsl_cdf.h>
@@ -14,7 +14,7 @@ typedef struct state {
     bool known[UNCERTAIN_VALUES];
 } state;
 
-/* Dimensions as they were; NaN has none. */
+/* All values keep their dimensions; a missing one (NaN) has none. */
 static bool keep_dims(state *s, const value v[]) {
     for (size_t k = 0; k < s->of->expressions; k++)
         if (!isnan(v[k].v) && !points_keeps(&s->p, k, v[k].d, &s->d[k], &s->known[k]))
@@ -22,14 +22,14 @@ static bool keep_dims(state *s, const value v[]) {
     return true;
 }
 
-/* All expressions there; false: one has no value, or the question has ended. */
+/* Evaluates all expressions; false: one has no value, or p.error is raised. */
 static bool all_at(state *s, const long double x[], value v[UNCERTAIN_VALUES]) {
     return points_at(&s->p, x, v) && keep_dims(s, v);
 }
 
 /* ---- first order ------------------------------------------------------------------------------- */
 
-/* An error that ends all stays as it is. */
+/* Raises the reason why a value is missing, unless an error is raised already. */
 static bool no_value(const state *s, calc_error *error, const char *name) {
     if (!error->raised) {
         *error = s->p.none;
@@ -58,8 +58,7 @@ static bool derivative(state *s, const double *x, size_t i, double h, long doubl
     return true;
 }
 
-/* Close to the end of the scene, or where the deviation is far greater than the value, a smaller step must
- * do. */
+/* Tries smaller steps close to the limit of the scene, or if the deviation is far greater than the value. */
 static bool derivative_of(state *s, const double *x, size_t i, long double slope[UNCERTAIN_VALUES],
                           const calc_error *error) {
     const double h = points_step(1e-3, x[i], 0.1 * s->of->deviation[i]),
@@ -74,7 +73,7 @@ static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
     const uncertainty_question *of = s->of;
     long double x[UNCERTAIN_NAMES], slope[UNCERTAIN_VALUES];
     value v[UNCERTAIN_VALUES];
-    /* squares leave the range of double where what they are of does not */
+    /* long double: squares could overflow or underflow a double */
     long double variance[UNCERTAIN_VALUES] = {0}, part[UNCERTAIN_VALUES][UNCERTAIN_NAMES];
     for (size_t i = 0; i < of->count; i++)
         x[i] = out->x[i];
@@ -105,7 +104,7 @@ static bool first_order(state *s, uncertainty_answer *out, calc_error *error) {
 
 /* ---- Monte Carlo ------------------------------------------------------------------------------- */
 
-/* Mean and sum of squared distances from it, as they go along (Welford). */
+/* Updates the mean and the sum of squared deviations from it (Welford). */
 static void take_sample(uncertain *u, double v, long double *squares) {
     const long double off = (long double)v - u->mean;
     u->samples++;
@@ -122,7 +121,7 @@ static bool differs(const uncertain *u) {
     return fabs(u->mean - (double)u->v) > mean || fabs(u->spread - u->deviation) > spread;
 }
 
-/* The i-th of a sequence of 64 random bits, from a counter alone (SplitMix64: Steele, Lea and Flood 2014). */
+/* The i-th 64 random bits of the sequence `key`, from a counter alone (SplitMix64, Steele et al. 2014). */
 static uint64_t random_bits(uint64_t key, uint64_t i) {
     uint64_t z = key + (i + 1) * UINT64_C(0x9e3779b97f4a7c15);
     z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
@@ -130,7 +129,7 @@ static uint64_t random_bits(uint64_t key, uint64_t i) {
     return z ^ (z >> 31);
 }
 
-/* Each sample has a seed of its own: who draws it need not draw those before. */
+/* Each sample has its own sequence, so that it can be drawn without those before it. */
 static double normal_deviate(unsigned seed, size_t sample, size_t i) {
     const uint64_t own = random_bits(random_bits(seed, 0), sample);
     return gsl_cdf_ugaussian_Pinv(((double)(random_bits(own, i) >> 11) + 0.5) * 0x1p-53);
