@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Limits of axes, steps of tics, levels of contours. */
+/* Limits of axes, steps of tics, levels of contours. Depends on script.h. */
 #include <float.h>
 #include <math.h>
 
 #include "plot/script.h"
 
-/* Numbers closer than this part of their size are one: what differs is rounding. */
+/* Relative difference below which two numbers are equal but for rounding. */
 static const double same = 1e-9;
 
 static void span(plot_extent *e, double v, bool log) {
@@ -15,7 +15,7 @@ static void span(plot_extent *e, double v, bool log) {
     }
 }
 
-/* Does x go one way only between gaps? */
+/* Is x monotonic? Gaps (NaN) do not count. */
 static bool one_way(const plot_series *s) {
     bool up = true, down = true;
     for (size_t i = 1; i < s->count; i++) {
@@ -25,7 +25,7 @@ static bool one_way(const plot_series *s) {
     return up || down;
 }
 
-/* lo > hi: an axis from right to left. */
+/* Is v within the limits? lo > hi: an axis from right to left. */
 static bool inside(double v, double lo, double hi) {
     return lo > hi ? inside(v, hi, lo) : !(v < lo) && !(v > hi);
 }
@@ -37,7 +37,7 @@ static plot_extents extent_of(const plot_panel *p) {
         if (s->role == PLOT_MEASURED || (s->role == PLOT_CURVE && !one_way(s)))
             e.x.graph = false;
         for (size_t i = 0; i < s->count; i++) {
-            /* of what lies outside the limits along x, nothing is seen */
+            /* points outside the limits of x are not shown and must not widen y */
             if (!isfinite(s->x[i]) || !isfinite(s->y[i]) || !inside(s->x[i], p->xlo, p->xhi))
                 continue;
             span(&e.x, s->x[i], p->logx);
@@ -70,7 +70,7 @@ plot_extents plot_extent_join(plot_extents a, plot_extents b) {
 }
 
 /* Widens the limits that are not fixed. */
-static void air(plot_axis *a, bool tight) {
+static void widen(plot_axis *a, bool tight) {
     double lo = a->log ? log10(a->lo) : a->lo, hi = a->log ? log10(a->hi) : a->hi;
     double most = fmax(fabs(lo), fabs(hi)), width = hi - lo;
     double below = 0, above = 0;
@@ -78,7 +78,7 @@ static void air(plot_axis *a, bool tight) {
         below = above = a->log ? 0.5 : most > 0 ? 0.1 * most : 1;
     } else if (!tight) {
         below = above = 0.05 * width;
-        /* what begins at nothing is shown from there on */
+        /* an axis that begins close to 0 begins at 0 */
         if (!a->log && lo >= 0 && lo < 0.05 * width)
             below = lo;
         if (!a->log && hi <= 0 && -hi < 0.05 * width)
@@ -111,8 +111,8 @@ static bool limits(const char *name, plot_axis *a, plot_extent e, double lo, dou
                          : a->log       ? "there is nothing above 0 to plot on a logarithmic %s axis"
                                         : "there is nothing to plot along %s",
                          name);
-    air(a, e.graph || !airy);
-    /* gnuplot reckons with differences of limits */
+    widen(a, e.graph || !airy);
+    /* gnuplot computes differences of limits, which must not overflow or underflow */
     if (!(fabs(a->lo) < 1e300 && fabs(a->hi) < 1e300 && (a->lo == 0 || fabs(a->lo) > DBL_MIN) &&
           (a->hi == 0 || fabs(a->hi) > DBL_MIN)))
         return calc_fail(error, 0, 0, "the numbers along %s are too large or too small to plot", name);
@@ -167,7 +167,7 @@ size_t plot_levels(const plot_map *m, double *level, size_t room) {
     size_t n = 0;
     if (!(hi - lo > same * fmax(fabs(lo), fabs(hi))))
         return 0;
-    if (lo > 0 && hi / lo > 300) { /* by decades, with 2 and 5 between where there is room */
+    if (lo > 0 && hi / lo > 300) { /* at powers of ten, and at 2 and 5 times these if there is room */
         static const double steps[] = {1, 2, 5};
         double decades = log10(hi / lo);
         int each = 3 * decades < (double)room - 1 ? 3 : 1,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cells as of a terminal: dots and the characters of braille that show them, lines, texts. Pure. */
+/* A raster of terminal cells: dots, lines, signs, texts, and showing them. Depends on text/characters. */
 #include "plot/cells.h"
 
 #include <limits.h>
@@ -24,7 +24,7 @@ plot_cells plot_cells_part(const plot_cells *of, int column, int row, int cols, 
     return part;
 }
 
-/* NULL: outside. */
+/* The cell at a place; NULL: outside. */
 static plot_cell *cell_of(const plot_cells *c, int column, int row) {
     if (column < 0 || row < 0 || column >= c->cols || row >= c->rows)
         return NULL;
@@ -59,7 +59,7 @@ void plot_cells_text(const plot_cells *c, int column, int row, const char *text,
         n = character_at(text, left, NULL);
         n = n ? n : 1;
         const int wide = (int)text_columns(text, n);
-        size_t held = wide ? 0 : strlen(one); /* of none: goes onto the one before */
+        size_t held = wide ? 0 : strlen(one); /* a combining character joins the one before */
         if (held + n >= sizeof one)
             continue;
         memcpy(one + held, text, n);
@@ -91,8 +91,8 @@ static void put_dot(plot_pen *p, int x, int y) {
         plot_cells_dot(c, x, y, p->ink);
 }
 
-/* Half a dot at a time, as far as the line lies in the cells or near them: between the parts t0 and t1 of it,
- * which division by a difference of 0 makes infinite, or an empty part beside the cells. */
+/* Clips the line to the raster with a margin of a dot, t = t0..t1, then walks along it by half a dot. Along an
+ * axis a division by 0 gives infinities, which clip nothing within the raster and everything beside it. */
 void plot_pen_line(plot_pen *p, double x0, double y0, double x1, double y1) {
     const double from[2] = {x0, y0}, d[2] = {x1 - x0, y1 - y0},
                  most[2] = {p->on->cols * p->on->across, p->on->rows * p->on->up};

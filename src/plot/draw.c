@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a figure to its target: the script, gnuplot, and what it drew to where it belongs. */
+/* From a figure to its target: writes the script, runs gnuplot and copies its output. Depends on script.h. */
 #include <errno.h>
 #include <poll.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 
 /* ---- files -------------------------------------------------------------------------------------- */
 
-/* What is no file. */
+/* Kinds of pictures that are printed, not stored in a file. */
 static const plot_kind sixel = {.form = PLOT_ENHANCED,
                                 .terminal = "sixelgd size %.0f,%.0f font 'Sans,%.3g' enhanced truecolor",
                                 .per_pixel = 1,
@@ -24,7 +24,7 @@ static const plot_kind in_page = {
     .line = 3,
     .begin = "<svg"};
 
-/* Copies what gnuplot drew; every error of reading or writing is one. */
+/* Copies gnuplot's output from kind->begin on. The caller checks `to` for write errors. */
 static bool copy(const plot_run *r, FILE *to, const plot_kind *kind, calc_error *error) {
     char block[1 << 14];
     FILE *const from = r->out;
@@ -57,8 +57,8 @@ static bool write_script(FILE *to, const scripted *s, calc_error *error) {
                     : plot_write_picture(to, s->reel, s->kind, s->target, error);
 }
 
-/* Writes the script and has it drawn. */
-static bool have_drawn(const plot_run *r, const scripted *s, calc_error *error) {
+/* Writes the script and runs gnuplot on it. */
+static bool draw_script(const plot_run *r, const scripted *s, calc_error *error) {
     const bool ok = write_script(r->script, s, error);
     if (fflush(r->script) || ferror(r->script))
         return calc_errno(error, errno, "cannot write a script for gnuplot");
@@ -75,7 +75,7 @@ static bool to_file(const scripted *s, file_report *report, calc_error *error) {
     if (s->kind->terminal) {
         ok = plot_run_open(&r, error);
         if (ok) {
-            ok = have_drawn(&r, s, error) && copy(&r, out.to, s->kind, error);
+            ok = draw_script(&r, s, error) && copy(&r, out.to, s->kind, error);
             plot_run_close(&r);
         }
     } else {
@@ -86,8 +86,8 @@ static bool to_file(const scripted *s, file_report *report, calc_error *error) {
 
 /* ---- text --------------------------------------------------------------------------------------- */
 
-/* The next page of what gnuplot drew, which form feeds part: the number of its lines. Blanks at their ends
- * are not worth their bytes; what follows the last one sets colours back. */
+/* Prints the next page of gnuplot's output, in which form feeds separate pages, without blanks at the ends of
+ * lines, and returns the number of its lines. The text behind the last line resets the colours. */
 static size_t print_page(FILE *from, FILE *out, const char *end) {
     char *page = NULL;
     size_t room = 0, lines = 0;
@@ -107,14 +107,15 @@ static size_t print_page(FILE *from, FILE *out, const char *end) {
     return lines;
 }
 
-static size_t lost_read(const plot_run *r, calc_error *error) {
+/* Raises the error that a page is missing; returns 0. */
+static size_t no_page(const plot_run *r, calc_error *error) {
     if (!feof(r->out)) /* an error, or no memory for a page */
         calc_raise_errno(error, ferror(r->out) ? EIO : ENOMEM, "cannot read what gnuplot drew");
     calc_raise(error, 0, 0, "gnuplot drew nothing"); /* the first error stays */
     return 0;
 }
 
-/* A frame of pages that gnuplot drew; NULL: as it is drawn here. The number of lines; 0 with the error. */
+/* Prints a frame from gnuplot's output; r NULL: draws it in braille. Returns the lines; 0 with the error. */
 static size_t print_frame(const plot_run *r, const scripted *w, size_t n, const char *end,
                           calc_error *error) {
     if (!r)
@@ -124,12 +125,12 @@ static size_t print_frame(const plot_run *r, const scripted *w, size_t n, const 
         const size_t more = print_page(r->out, w->target->out, end);
         lines += more;
         if (!more)
-            return lost_read(r, error);
+            return no_page(r, error);
     }
     return lines;
 }
 
-/* Frames one after another in place: the cursor goes back up, each line is written over. */
+/* Prints the frames in place: the cursor goes up again, and each line is overwritten. */
 static bool play(const plot_run *r, const scripted *w, calc_error *error) {
     const plot_target *t = w->target;
     const size_t frames = w->reel->count;
@@ -151,14 +152,14 @@ static bool play(const plot_run *r, const scripted *w, calc_error *error) {
     return true;
 }
 
-/* What gnuplot drew to the terminal. */
+/* Prints gnuplot's output to the terminal. */
 static bool show_drawn(const plot_run *r, const scripted *s, calc_error *error) {
     if (s->kind) {
         const bool ok = copy(r, s->target->out, s->kind, error);
         fputc('\n', s->target->out);
         return ok;
     }
-    for (int c; (c = getc(r->out)) != '\f' && c != EOF;) /* before the first page */
+    for (int c; (c = getc(r->out)) != '\f' && c != EOF;) /* a form feed precedes the first page */
         continue;
     return play(r, s, error);
 }
@@ -171,13 +172,13 @@ static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error 
     scripted s = {.reel = reel, .target = t, .pages = &pages};
     if (pages.braille)
         return play(NULL, &s, error);
-    if (reel->count == 1) /* pictures that follow each other would scroll away */
+    if (reel->count == 1) /* not for several: pictures cannot replace each other and would scroll */
         s.kind = t->terminal == PLOT_SIXEL ? &sixel : t->terminal == PLOT_PAGE ? &in_page : NULL;
     if (s.kind)
         s.pages = NULL;
     if (!plot_run_open(&r, error))
         return false;
-    const bool ok = have_drawn(&r, &s, error) && show_drawn(&r, &s, error);
+    const bool ok = draw_script(&r, &s, error) && show_drawn(&r, &s, error);
     plot_run_close(&r);
     return ok;
 }
@@ -192,7 +193,7 @@ bool plot_check(const char *file, file_stop stop, calc_error *error) {
     return true;
 }
 
-/* What the panels of all frames span. */
+/* Thins all series, and sets extent[] to the ranges of each panel over all frames. */
 static bool settle(plot_figure *frame, size_t frames, plot_extents *extent, calc_error *error) {
     for (size_t i = 0; i < frames; i++) {
         if (!frame[i].count)
@@ -209,7 +210,7 @@ static bool settle(plot_figure *frame, size_t frames, plot_extents *extent, calc
 
 bool plot_draw(plot_figure *frame, size_t frames, const plot_target *t, file_report *report,
                calc_error *error) {
-    static const double SECONDS = 0.05; /* a frame lasts */
+    static const double SECONDS = 0.05; /* duration of a frame */
     plot_extents extent[PLOT_PANELS];
     if (frames < 1 || frames > PLOT_FRAMES)
         return calc_fail(error, 0, 0, "an animation has 1 to %d frames", PLOT_FRAMES);

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pages as scripts for gnuplot's terminal of plain characters, which draws frame, tics and texts, and puts a
- * character where curves are. */
+/* Pages as scripts for gnuplot's `dumb` terminal of plain characters. Depends on page.h. */
 #include <stdlib.h>
 
 #include "plot/page.h"
 
-/* Of inks. As the colours of pictures, on grounds both dark and light. */
+/* RGB of each ink: like the colours of pictures, and visible on dark and light backgrounds. */
 static const int colors[] = {0,        0x0087ff, 0xff5f00, 0x00af5f, 0xd75faf,
                              0xd7af00, 0x5fd7ff, 0x878787, 0xa8a8a8};
 
@@ -20,12 +19,13 @@ static void set_tics(FILE *to, char name, const page_ruler *r) {
     fputs(")\n", to);
 }
 
-/* Pages beside each other are one of gnuplot's, which counts rows from below. */
+/* Pages side by side, which are one page of gnuplot. */
 typedef struct sheet {
     FILE *to;
     int columns, rows, from; /* from: column where the present page begins */
 } sheet;
 
+/* gnuplot counts rows from below. */
 static void set_label(const sheet *s, const char *text, int column, int row) {
     fputs("set label ", s->to);
     plot_quote(s->to, text);
@@ -53,7 +53,7 @@ static void set_texts(const sheet *s, const plot_page *g) {
     }
 }
 
-/* False: out of memory. */
+/* Writes the curves as labels of one character at each cell that they touch. False: out of memory. */
 static bool draw(FILE *to, const plot_page *g) {
     plot_cells frame;
     if (!plot_cells_make(&frame, g->x.cells + 1, g->y.cells + 1, 1, 1))
@@ -74,7 +74,6 @@ static bool draw(FILE *to, const plot_page *g) {
     return ok;
 }
 
-/* False: out of memory. */
 static bool write_page(const sheet *s, const plot_page *g) {
     const int left = s->from + g->left;
     fprintf(s->to,
@@ -87,7 +86,7 @@ static bool write_page(const sheet *s, const plot_page *g) {
     return draw(s->to, g);
 }
 
-/* Panels beside each other, from the first one on. */
+/* Writes the panels side by side, or if pages->beside is false the one panel `first`. */
 static bool write_sheet(FILE *to, const plot_reel *reel, size_t n, size_t first, const plot_target *target,
                         const plot_pages *pages, calc_error *error) {
     plot_page page[PLOT_PANELS];

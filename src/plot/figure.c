@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures in memory: panels, series, points, and their thinning. */
+/* Figures in memory: panels, series, points, and their thinning. Depends on plot.h. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,7 +84,7 @@ bool plot_map_make(plot_panel *p, size_t nx, size_t ny, calc_error *error) {
 
 /* ---- thinning ----------------------------------------------------------------------------------- */
 
-/* The first point, the last, both extremes of three coordinates, and a gap. */
+/* Most points kept of a stretch: the first, the last, both extremes of three coordinates, and a gap. */
 enum { PICKS = 9 };
 
 static bool is_gap(const plot_series *s, size_t i) {
@@ -103,7 +103,7 @@ static int by_place(const void *a, const void *b) {
     return (*m > *n) - (*m < *n);
 }
 
-/* What to keep of `count` points from `begin`, in order, without repeats. */
+/* Picks the points to keep of `count` from `begin` on, ascending without repeats; returns how many. */
 static size_t choose(const plot_series *s, size_t begin, size_t count, size_t pick[PICKS]) {
     const double *of[3] = {s->x, s->y, s->y2};
     size_t n = 0, end = begin + count, first = begin, gap = end;
@@ -135,10 +135,9 @@ static size_t choose(const plot_series *s, size_t begin, size_t count, size_t pi
     return kept;
 }
 
-/* Moves what is kept of the points from begin to end, about `goal` of them, to `to`; returns where they end.
- */
+/* Moves about `goal` of the points from begin to end to index `to`; returns where they end. */
 static size_t squeeze(plot_series *s, size_t begin, size_t end, size_t goal, size_t to) {
-    const size_t count = end - begin, buckets = goal / 4 ? goal / 4 : 1; /* 4: what a zigzag keeps */
+    const size_t count = end - begin, buckets = goal / 4 ? goal / 4 : 1; /* 4: kept of a zigzag */
     for (size_t i = 0; i < buckets && count; i++) {
         size_t pick[PICKS];
         const size_t from = begin + count / buckets * i + count % buckets * i / buckets,
@@ -150,9 +149,10 @@ static size_t squeeze(plot_series *s, size_t begin, size_t end, size_t goal, siz
     return to;
 }
 
-/* Points that stand for others already keep their part of all that came: the series stays spread evenly. */
+/* Thins a full series. Points left from earlier thinning keep a share in proportion to those they stand for,
+ * so that the series stays evenly spread. */
 static void make_room(plot_series *s) {
-    enum { GOAL = PLOT_KEPT / 4 }; /* of 16 points of a full series PICKS stay at most */
+    enum { GOAL = PLOT_KEPT / 4 }; /* buckets of 16 points, of which at most PICKS stay */
     const size_t fresh = s->count - s->thinned,
                  old = (size_t)((double)GOAL * (1 - (double)fresh / (double)s->came)),
                  to = squeeze(s, 0, s->thinned, old, 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Running gnuplot: on files of our own without names, in a process group of its own, with a time-out. It
- * reads its standard input and writes its standard output; no name of a file ever reaches it. */
+/* Runs gnuplot on unnamed temporary files, in its own process group, with a time-out. It reads standard input
+ * and writes standard output; no file name ever reaches it. Depends on POSIX, script.h and text. */
 #define _GNU_SOURCE /* mkostemp */
 #include <errno.h>
 #include <fcntl.h>
@@ -18,7 +18,7 @@ extern char **environ;
 
 enum { PAUSE = 1 /* ms */ };
 
-/* A file to write and to read again, which is gone when it is closed. NULL with errno. */
+/* A temporary file for writing and reading that disappears when it is closed. NULL with errno. */
 static FILE *nameless(const char *dir) {
     char path[FILE_PATH];
     sigset_t before;
@@ -26,7 +26,7 @@ static FILE *nameless(const char *dir) {
         errno = ENAMETOOLONG;
         return NULL;
     }
-    file_signals_hold(&before); /* it has a name for a moment */
+    file_signals_hold(&before); /* it must not stay if a signal comes before unlink */
     const int fd = mkostemp(path, O_CLOEXEC);
     if (fd >= 0)
         unlink(path);
@@ -60,18 +60,18 @@ bool plot_run_open(plot_run *r, calc_error *error) {
 
 /* Starts gnuplot; 0 or an error number. */
 static int start(const plot_run *r, pid_t *pid, int *guard) {
-    /* loaded as a file, not typed in: then it stops at the first error */
+    /* run as a script file: read as plain standard input it would go on after an error */
     char *const argv[] = {"gnuplot", "-d", "/dev/stdin", NULL};
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t before, defaults;
-    posix_spawn_file_actions_init(&actions); /* neither of them asks for memory */
+    posix_spawn_file_actions_init(&actions); /* neither init can fail: they allocate nothing */
     posix_spawnattr_init(&attributes);
     int code = fseek(r->script, 0, SEEK_SET) ? errno : 0;
     code = code ? code : posix_spawn_file_actions_adddup2(&actions, fileno(r->script), 0);
     code = code ? code : posix_spawn_file_actions_adddup2(&actions, fileno(r->out), 1);
     code = code ? code : posix_spawn_file_actions_adddup2(&actions, fileno(r->err), 2);
-    /* a group of its own: Ctrl-C reaches fret alone, which then ends it whole */
+    /* own process group: Ctrl-C reaches fret alone, which then kills the group */
     posix_spawnattr_setflags(&attributes,
                              POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     posix_spawnattr_setpgroup(&attributes, 0);
@@ -79,7 +79,7 @@ static int start(const plot_run *r, pid_t *pid, int *guard) {
     sigaddset(&defaults, SIGPIPE);
     sigaddset(&defaults, SIGXFSZ);
     posix_spawnattr_setsigdefault(&attributes, &defaults);
-    /* gnuplot begins with the terminal that it names, and ends where that is none of its own */
+    /* gnuplot would start with the terminal named by GNUTERM, and exit if it does not know that */
     unsetenv("GNUTERM");
     file_signals_hold(&before);
     posix_spawnattr_setsigmask(&attributes, &before);
@@ -113,8 +113,8 @@ static end wait_for(pid_t pid, int guard, const plot_target *target, double time
     }
 }
 
-/* The last message, without gnuplot's words of where and without anything a terminal would obey. */
-static void message(const plot_run *r, char *text, size_t size) {
+/* The last message of gnuplot without its place, and without control characters. */
+static void last_message(const plot_run *r, char *text, size_t size) {
     char line[300];
     *text = 0;
     rewind(r->err);
@@ -157,9 +157,9 @@ bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *
         return calc_errno(error, errno, "cannot read what gnuplot drew");
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return true;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 127) /* a C library that finds out late */
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 127) /* how some C libraries report a missing program */
         return calc_fail(error, 0, 0, "%s", missing);
     char text[300];
-    message(r, text, sizeof text);
+    last_message(r, text, sizeof text);
     return calc_fail(error, 0, 0, "gnuplot failed: %s", text);
 }

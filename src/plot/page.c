@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pages of text, one for each panel: the room for texts, frame and key, cell by cell, so that every tic has
- * its own row; which cells the curves touch, and by what they are told apart. Draws nothing itself. */
+/* Lays out a panel as a page of text: texts, frame and key, with every tic on its own row; and traces the
+ * cells that curves touch, with the sign and dashes of each curve. Depends on script.h and text/characters.
+ */
 #include "plot/page.h"
 
 #include <math.h>
@@ -41,7 +42,7 @@ static void tic(page_ruler *r, double v, const char *format, int digits) {
     r->width = n > r->width ? n : r->width;
 }
 
-/* Tics at multiples of a step, all with the same digits. */
+/* Tics at multiples of a step, all with the same number of digits. */
 static void linear_tics(page_ruler *r, double step) {
     const plot_axis *a = &r->axis;
     double most = fmax(fabs(a->lo), fabs(a->hi));
@@ -67,8 +68,8 @@ static void log_tics(page_ruler *r, int most) {
         tic(r, pow(10, e), "%.*g", 6);
 }
 
-/* Chooses tics at least `gap` cells apart. Limits that are not fixed move out to tics, and the cells that are
- * over are given up, so that every step is as many cells as the next. */
+/* Chooses tics at least `gap` cells apart. Unless a limit is fixed, both move out to tics, and the ruler gets
+ * shorter so that every step is the same whole number of cells. */
 static void make_ruler(page_ruler *r, const plot_axis *axis, int cells, int gap) {
     *r = (page_ruler){.axis = *axis, .cells = cells};
     plot_axis *a = &r->axis;
@@ -87,7 +88,7 @@ static void make_ruler(page_ruler *r, const plot_axis *axis, int cells, int gap)
         int n = (int)(hi - lo), each = cells / n;
         if (each < gap || n > PAGE_TICS - 1)
             continue;
-        /* how much of the page shows points; too few tics are as bad as lost room */
+        /* the part of the cells that shows points, reduced if there are few tics */
         double score = width / (n * step) * ((double)(n * each) / cells) * (n < 3 ? 0.6 : n < 5 ? 0.95 : 1);
         if (score > best) {
             best = score;
@@ -113,8 +114,8 @@ static bool is_helping(const plot_series *s) {
     return s->thin || s->role == PLOT_BAND;
 }
 
-/* Which dots along a line of braille are put down: helping lines are dotted; dashes tell curves apart in a
- * copy without colours, and others of the same colour. */
+/* The dash pattern of a line in braille: helping lines are dotted; curves differ by dashes too, for prints
+ * without colour and for curves of the same colour. */
 static const char *dash_of(const plot_page *g, size_t at) {
     static const char *const dashes[] = {"1", "11111000", "1000", "11111001000", "1110", "1100", "10"};
     if (!g->braille)
@@ -125,7 +126,7 @@ static const char *dash_of(const plot_page *g, size_t at) {
     return dashes[(style + round) % (sizeof dashes / sizeof *dashes)];
 }
 
-/* In the key: a stretch of the line, or its character. */
+/* The sign of a series in the key, a piece of its line or its character, and its ink. */
 static void sign_of(const plot_page *g, size_t at, char sign[PAGE_SIGN], unsigned char *ink) {
     const plot_panel *p = g->panel;
     const plot_series *s = p->series[at];
@@ -158,7 +159,7 @@ void page_word(const plot_page *g, size_t i, int *column, int *row) {
     *row = g->top + g->y.cells - (int)lround(at[1] * g->y.cells);
 }
 
-/* In cells of the frame, row 0 at the top; not finite where there is no point. */
+/* at[]: column and row of a point in the frame, row 0 at the top; NaN: not on the page. */
 static void locate(const plot_page *g, double x, double y, double at[2]) {
     at[0] = at[1] = NAN;
     if (!isfinite(x) || !isfinite(y) || (g->x.axis.log && x <= 0) || (g->y.axis.log && y <= 0))
@@ -196,7 +197,7 @@ static void trace_points(const plot_page *g, const plot_series *s, const plot_ce
     }
 }
 
-/* The index i with list[i] <= v <= list[i+1], rising or falling: v lies within. */
+/* The index i with v between list[i] and list[i+1]; the list is monotonic and contains v. */
 static size_t find(const double *list, double v) {
     size_t i = 0;
     while (!((list[i] <= v && v <= list[i + 1]) || (list[i] >= v && v >= list[i + 1])))
@@ -204,7 +205,7 @@ static size_t find(const double *list, double v) {
     return i;
 }
 
-/* The nearest value of a list, rising or falling. */
+/* v clamped to the range of a monotonic list. */
 static double within(const double *list, size_t n, double v) {
     const double first = list[0] + 1e-9 * (list[1] - list[0]), last = list[n - 1];
     return fmin(fmax(v, fmin(first, last)), fmax(first, last));
@@ -226,7 +227,7 @@ static int band_at(const plot_page *g, int c, int r) {
     return below;
 }
 
-/* The contour of level k lies between cells with k levels below and more. */
+/* Draws the contour of level k where a cell has at most k levels below it and its neighbour more. */
 static bool trace_map(const plot_page *g, const plot_cells *frame) {
     char sign[PAGE_SIGN];
     unsigned char ink;
@@ -287,7 +288,7 @@ static char *shown(const plot_page *g, const char *text) {
     return plot_text(text ? text : "", g->form);
 }
 
-/* The label of y stands level, in the line of the title. */
+/* Makes the line above the frame, from the labels of y and z and the title, and the label of x below. */
 static bool take_texts(plot_page *g) {
     const plot_panel *p = g->panel;
     char *title = shown(g, p->title), *y = shown(g, p->ylabel), *z = shown(g, p->map.nx ? p->map.label : "");
@@ -308,7 +309,7 @@ static bool take_texts(plot_page *g) {
 
 /* ---- the key ------------------------------------------------------------------------------------ */
 
-/* More words on the series before, which has the points? */
+/* Is the entry a second line of the one before: a series of the same style without points? */
 static bool goes_on(const plot_panel *p, size_t i) {
     const plot_series *s = p->series[i];
     return i && !s->count && s->style >= 0 && s->style == p->series[i - 1]->style;
@@ -344,7 +345,7 @@ static int sign_columns(const plot_page *g) {
     return most;
 }
 
-/* From that row on; the rows that the entries take. Those below the page are not shown. */
+/* Places the entries from `row` on; returns the rows they take. Entries below the page are hidden. */
 static int place_entries(plot_page *g, int row) {
     const int sign = sign_columns(g), first = row;
     int column = g->key_right ? g->left + g->x.cells + 3 : 2;
@@ -363,14 +364,14 @@ static int place_entries(plot_page *g, int row) {
     return g->entries ? row - first + 1 : 0;
 }
 
-/* The room that the key takes. */
+/* Decides where the key is, and its room. */
 static void place_key(plot_page *g) {
     int longest = 0;
     for (size_t i = 0; i < g->entries; i++) {
         const int c = columns_of(g->entry[i].text);
         longest = c > longest ? c : longest;
     }
-    const int sign = sign_columns(g), most = (g->rows - 4) / 2; /* more would leave no picture */
+    const int sign = sign_columns(g), most = (g->rows - 4) / 2; /* leaves room for the frame */
     g->key_right = g->entries && longest + sign + 3 <= g->columns / 4 && (int)g->entries <= g->rows - 4;
     g->key_rows = g->key_right ? 0 : place_entries(g, 0);
     g->key_rows = g->key_rows < most ? g->key_rows : most;
@@ -379,7 +380,7 @@ static void place_key(plot_page *g) {
 
 /* ---- the page ----------------------------------------------------------------------------------- */
 
-/* Texts first, then the frame takes what is left. */
+/* The frame takes the room that key and tics leave. */
 static void place_frame(plot_page *g, const plot_axis *x, const plot_axis *y) {
     place_key(g);
     g->top = 1;
@@ -388,12 +389,12 @@ static void place_frame(plot_page *g, const plot_axis *x, const plot_axis *y) {
     make_ruler(&g->y, y, height, 2);
     g->left = (int)g->y.width + 2;
     const int width = g->columns - 1 - g->left - g->right;
-    for (size_t gap = 6;; gap = g->x.width + 2) { /* numbers side by side, with blanks between */
+    for (size_t gap = 6;; gap = g->x.width + 2) { /* until all numbers have blanks between them */
         make_ruler(&g->x, x, width < 10 ? 10 : width, (int)gap);
         if (g->x.width + 2 <= gap)
             break;
     }
-    /* what is over goes below and to the right */
+    /* unused cells stay below and at the right */
     g->rows -= height - g->y.cells;
     place_entries(g, g->key_right ? g->top : g->rows - g->key_rows);
 }

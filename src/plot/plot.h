@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures: numbers, texts and looks in; a picture in a file or text in the terminal out. gnuplot draws them,
- * but for dots in a terminal.
- * Nothing here knows a scene or a quantity.
+/* Figures: from numbers and texts to a picture in a file or text in the terminal. gnuplot draws them, except
+ * for braille dots in a terminal. Depends on text; knows no scene and no quantity.
  *
  *     plot_figure f;
  *     plot_figure_init(&f);
@@ -20,38 +19,37 @@
 enum {
     PLOT_PANELS = 6,     /* side by side */
     PLOT_CURVES = 64,    /* series of a panel */
-    PLOT_KEPT = 300000,  /* points a series holds; beyond, it thins itself and keeps the extremes */
-    PLOT_WRITTEN = 1000, /* points of a curve that go into a picture, about */
-    PLOT_MARKS = 8000,   /* and of marks, which no line joins: few of many would stand in clumps */
+    PLOT_KEPT = 300000,  /* points a series holds; with more it thins itself and keeps the extremes */
+    PLOT_WRITTEN = 1000, /* points of a curve written to a picture, about */
+    PLOT_MARKS = 8000,   /* marks written; more, since no line joins them and thinned marks form clumps */
     PLOT_GRID = 500,     /* points of a map along an axis */
-    PLOT_WORDS = 4,      /* within the frame of a panel */
-    PLOT_FRAMES = 1000,  /* of an animation */
-    PLOT_PIXELS = 8000   /* of a picture along an axis */
+    PLOT_WORDS = 4,      /* annotations within the frame of a panel */
+    PLOT_FRAMES = 1000,  /* frames of an animation */
+    PLOT_PIXELS = 8000   /* pixels of a picture along an axis */
 };
 
 /* ---- texts -------------------------------------------------------------------------------------- */
 
-/* Texts are UTF-8 and reach the reader as they are: no character means anything to gnuplot or TeX. What
- * stands between PLOT_EXPR or PLOT_UNIT and PLOT_END is an expression of the language or a unit, and is
- * typeset: Fx/(mu*FN) with subscripts and Greek letters, um with its micro sign. */
+/* Texts are UTF-8 and are shown as they are: characters special to gnuplot or TeX are escaped. The text
+ * between PLOT_EXPR or PLOT_UNIT and PLOT_END is an expression of the language or a unit, and is typeset:
+ * Fx/(mu*FN) with subscripts and Greek letters, um with its micro sign. */
 #define PLOT_EXPR "\001"
 #define PLOT_UNIT "\002"
 #define PLOT_END "\003"
 
-/* `expression [unit]`, typeset; without a unit (NULL or "") the expression alone. "k = 0.5", "mu = 0.3, k =
- * 0" and "FN = 20 N" are expressions, too. To be freed; NULL: out of memory. */
+/* The text `expression [unit]` with these marks, or the expression alone if unit is NULL or "". "k = 0.5",
+ * "mu = 0.3, k = 0" and "FN = 20 N" are expressions too. The caller frees it; NULL: out of memory. */
 char *plot_label(const char *expression, const char *unit);
 
 /* Forms of a text. */
 typedef enum plot_form {
     PLOT_ASCII,    /* as typed */
     PLOT_UNICODE,  /* Fx/(μ FN), µm */
-    PLOT_ENHANCED, /* gnuplot's own markup; what is not ours is escaped */
+    PLOT_ENHANCED, /* with gnuplot's enhanced-text markup */
     PLOT_TEX
 } plot_form;
 
-/* The text in a form; control characters and bytes that are no UTF-8 become `?`. To be freed; NULL: out of
- * memory. */
+/* Converts a text; control characters and invalid UTF-8 become `?`. The caller frees it; NULL: no memory. */
 char *plot_text(const char *text, plot_form form);
 
 /* ---- figures ------------------------------------------------------------------------------------ */
@@ -59,28 +57,28 @@ char *plot_text(const char *text, plot_form form);
 typedef enum plot_role {
     PLOT_CURVE,    /* a line through the points; a point that is not finite is a gap */
     PLOT_MEASURED, /* marks without a line */
-    PLOT_BAND,     /* the area between y and y2; without y2 the one inside, of pictures alone */
-    PLOT_NOW       /* the present point, above all */
+    PLOT_BAND, /* the area between y and y2; without y2 the area inside a closed curve, in pictures only */
+    PLOT_NOW   /* the present point, drawn above all others */
 } plot_role;
 
 typedef struct plot_series {
     plot_role role;
-    int style;          /* of the series that look alike, from 0; -1: by its place among the curves */
-    bool thin;          /* a helping line: half as wide, not in the cycle of styles, grey */
-    char *title;        /* in the key; NULL: not there */
-    double *x, *y, *y2; /* y2 of bands only */
-    size_t count, room;
-    size_t came, thinned; /* points in all; the first of those held, which stand for others too */
+    int style;          /* number of the style, from 0; -1: the place of the series among those of its role */
+    bool thin;          /* a helping line: half as wide and grey, without a style */
+    char *title;        /* text in the key; NULL: no entry */
+    double *x, *y, *y2; /* y2: of bands only */
+    size_t count, room; /* points held; allocated */
+    size_t came, thinned; /* points added in all; the first `thinned` points held are left from thinning */
 } plot_series;
 
-/* z over a grid, as contours with their values. */
+/* z over a grid, drawn as contours with their values. */
 typedef struct plot_map {
     size_t nx, ny;
-    double *x, *y, *z; /* z[j*nx + i] at x[i], y[j]; not finite: no value there */
+    double *x, *y, *z; /* z[j*nx + i] is the value at x[i], y[j]; not finite: no value */
     char *label;       /* of z */
 } plot_map;
 
-/* Within the frame: its middle in parts of it, from the lower left. */
+/* An annotation within the frame; `at` is its centre as parts 0..1 of the frame, from the lower left. */
 typedef struct plot_word {
     const char *text;
     double at[2];
@@ -91,9 +89,10 @@ typedef struct plot_panel {
     double xlo, xhi, ylo, yhi;     /* limits; NaN: from the points */
     bool logx, logy, flipx, flipy;
     bool key_off;
-    bool points; /* marked on the lines */
-    bool airy;   /* room around the points along x, too; else curves that are graphs over x fill its axis */
-    bool below;  /* the panel before it, and lower than that; else beside it */
+    bool points; /* mark the points on the lines */
+    bool airy;  /* leave room around the points along x too; else curves that are functions of x fill its axis
+                 */
+    bool below; /* it lies below the panel before it, and is less high; else beside it */
     plot_map map;
     plot_word word[PLOT_WORDS];
     size_t words;
@@ -109,49 +108,48 @@ typedef struct plot_figure {
 void plot_figure_init(plot_figure *f);
 void plot_figure_free(plot_figure *f);
 
-/* NULL with the error: too many, or out of memory. */
+/* Adds a panel; NULL with the error: too many, or out of memory. */
 plot_panel *plot_panel_add(plot_figure *f, calc_error *error);
-/* Copies the title, which may be NULL. */
+/* Adds a series, likewise, with a copy of the title, which may be NULL. */
 plot_series *plot_series_add(plot_panel *p, plot_role role, const char *title, calc_error *error);
-/* Gives a panel its grid, z without values. */
+/* Gives a panel a map with all z missing; false with the error. */
 bool plot_map_make(plot_panel *p, size_t nx, size_t ny, calc_error *error);
 
-/* False: out of memory. */
+/* Add a point to a series, or to a band. False: out of memory. */
 bool plot_point(plot_series *s, double x, double y);
 bool plot_band(plot_series *s, double x, double y, double y2);
 
-/* ---- where it goes ------------------------------------------------------------------------------ */
+/* ---- the target --------------------------------------------------------------------------------- */
 
-/* page: SVG, to stand within HTML. */
+/* PLOT_PAGE: SVG to be embedded in an HTML page. */
 typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL, PLOT_PAGE } plot_terminal;
 
 typedef struct plot_target {
-    const char *caption;    /* lines below a picture, as typed; NULL: none */
-    const char *file;       /* .png .svg .pdf .tex .html .gif .gp; NULL: text to `out` */
-    FILE *out;              /* of text */
-    plot_terminal terminal; /* of text; auto: dumb */
+    const char *caption;    /* lines below a picture, as typed, each with a newline; NULL: none */
+    const char *file;       /* .png .svg .pdf .tex .html .gif .gp; NULL: output goes to `out` */
+    FILE *out;              /* the terminal */
+    plot_terminal terminal; /* the kind of output to `out`; PLOT_AUTO: PLOT_DUMB */
     bool color, unicode;    /* what the terminal can show */
-    bool moving;            /* `out` is a terminal whose cursor can go back up: frames in place */
-    int columns, rows;      /* of the terminal; 0: 79 x 24 */
-    int width, height;      /* of a picture in pixels; 0: 900 a panel (640 with several) x 675 */
-    double text;            /* texts and lines of a picture, times this; 0: 1 */
+    bool moving;            /* `out` is a terminal whose cursor can go up: frames replace each other */
+    int columns, rows;      /* size of the terminal; 0: 79 x 24 */
+    int width, height;      /* size of a picture in pixels; 0: 900 (640 for each of several panels) x 675 */
+    double text;            /* factor for texts and lines of a picture; 0: 1 */
     double timeout;         /* seconds for gnuplot; 0: 30 */
-    file_stop stop;         /* NULL: nothing stops it */
+    file_stop stop;         /* the stop flag, or NULL */
 } plot_target;
 
-/* Can a picture go to the file? To be asked before long work; the error names what stands against it. */
+/* Can a picture be written to the file? False with the error. To be asked before long work. */
 bool plot_check(const char *file, file_stop stop, calc_error *error);
 
-/* Draws a figure, or `frames` of them that have the same panels: to a .gif file, or in the terminal (where
- * not `moving` the last one alone), on axes that hold for all. Series are thinned to what is drawn of them.
- * On failure the error, and no file left behind. The report may be NULL; it is of files only. */
+/* Draws a figure, or `frames` figures with the same panels on common axes: to a .gif file, or in the
+ * terminal, where only the last one is shown unless `moving`. Thins the series. On failure returns false with
+ * the error and leaves no file behind. The report, which may be NULL, is filled in for files only. */
 bool plot_draw(plot_figure *frame, size_t frames, const plot_target *target, file_report *report,
                calc_error *error);
 
 /* ---- numbers, for tests ------------------------------------------------------------------------- */
 
-/* Thins to about `goal` points: of each stretch the first, the last, both extremes of each coordinate, and a
- * gap. */
+/* Thins to about `goal` points: of each stretch both ends, the extremes of each coordinate, and a gap. */
 void plot_thin(plot_series *s, size_t goal);
 
 #endif

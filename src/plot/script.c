@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scripts for pictures. A script holds its data: it can be kept, edited and run again. */
+/* Scripts for pictures, which contain their data and can be kept and run again. Depends on script.h. */
 #include "plot/script.h"
 
 #include <ctype.h>
@@ -14,8 +14,8 @@ enum { WIDTH = 900, BESIDE = 640, HEIGHT = 675, HIGHER = 840, LEVELS = 9 };
 
 /* ---- kinds -------------------------------------------------------------------------------------- */
 
-/* The macros that gnuplot's pictures for TikZ call, so that one file and \usepackage{tikz} are enough. A
- * group keeps them from the rest of a document. */
+/* The macros that gnuplot's TikZ output calls, so that the file needs only \usepackage{tikz}, not gnuplot's
+ * own style. A TeX group keeps them local. */
 static const char head_tex[] =
     "% a figure for \\input; it needs \\usepackage{tikz} and \\usetikzlibrary{plotmarks}\n"
     "\\begingroup\n"
@@ -46,7 +46,7 @@ static const char head_html[] =
 
 static const char foot_html[] = "</body></html>\n";
 
-/* Lengths: 900 pixels are 12 cm of a page. */
+/* For lengths in cm: WIDTH pixels are 12 cm of a page. */
 static const plot_kind kinds[] = {
     {".png", PLOT_ENHANCED, "pngcairo size %.0f,%.0f font 'Sans,%.3g' enhanced", 1, 16, .line = 3},
     {".svg", PLOT_ENHANCED, "svg size %.0f,%.0f font 'Sans,%.3g' enhanced background rgb 'white'", 1, 19,
@@ -76,8 +76,8 @@ const plot_kind *plot_kind_of(const char *file, calc_error *error) {
 
 /* ---- looks -------------------------------------------------------------------------------------- */
 
-/* Okabe and Ito's colours, which the colour-blind tell apart (their yellow is too pale for lines), each with
- * its own dashes for print in black; the eighth curve begins again with marks on its line. */
+/* The colours of Okabe and Ito for colour-blind readers, without their yellow, too pale for lines; each with
+ * its own dashes for print in black. The eighth curve has the first look again, with marks on its line. */
 static const struct {
     const char *color, *tint, *dash;
 } looks[] = {{"#0072b2", "#cce3f0", "solid"},  {"#d55e00", "#f7dfcc", "(14,6)"},
@@ -89,8 +89,8 @@ enum { LOOKS = sizeof looks / sizeof *looks };
 static const int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12};
 enum { MARKS = sizeof marks / sizeof *marks };
 
-/* Between double quotes, all but the harmless as octal codes: between single quotes a doubled quote stands
- * for one, but two of them in a row end the text, and what follows is a command. */
+/* Double quotes, and octal codes for all that is not harmless. Single quotes are unsafe: '' stands for a
+ * quote, but a text that contains two in a row would end the string, and what follows would be a command. */
 void plot_quote(FILE *to, const char *text) {
     static const char harmless[] = " _{}^/:=.,;()[]<>+*-!?&~|%";
     putc('"', to);
@@ -102,7 +102,7 @@ void plot_quote(FILE *to, const char *text) {
 /* ---- data --------------------------------------------------------------------------------------- */
 
 static void write_series(FILE *to, const plot_series *s) {
-    bool gap = true; /* none before the first point */
+    bool gap = true; /* no empty line before the first point */
     for (size_t i = 0; i < s->count; i++) {
         bool shown = isfinite(s->x[i]) && isfinite(s->y[i]) && (!s->y2 || isfinite(s->y2[i]));
         if (!shown && !gap)
@@ -124,7 +124,7 @@ size_t plot_style_of(const plot_panel *p, size_t at) {
     return n;
 }
 
-/* So many measured points hide a curve: they lie below it, and are small. */
+/* Many measured points would hide a curve: they are drawn below it, and small. */
 static bool is_crowd(const plot_series *s) {
     enum { FEW = 100 };
     return s->role == PLOT_MEASURED && s->count > FEW;
@@ -143,7 +143,7 @@ int plot_layer(const plot_series *s) {
     }
 }
 
-/* Curves beyond the looks have marks on their lines, where not every point is one. */
+/* Curves beyond the number of looks have marks on their lines, unless all points are marked. */
 static bool is_marked(const plot_panel *p, size_t at) {
     const plot_series *s = p->series[at];
     return s->role == PLOT_CURVE && !s->thin && !p->points && plot_style_of(p, at) >= LOOKS;
@@ -159,7 +159,7 @@ static void write_map(FILE *to, const plot_map *m, const plot_target *t) {
     }
 }
 
-/* Unfinished where it is stopped. */
+/* Writes all data; incomplete if the stop flag is set, which the caller checks. */
 static void write_data(FILE *to, const plot_reel *reel, const plot_target *t) {
     for (size_t n = 0; n < reel->count && !plot_stopped(t); n++)
         for (size_t i = 0; i < reel->frame[n].count; i++) {
@@ -182,15 +182,15 @@ static void write_data(FILE *to, const plot_reel *reel, const plot_target *t) {
 typedef struct scribe {
     FILE *to;
     const plot_kind *kind;
-    double scale; /* of points against the usual size */
-    double text;  /* and against that of the picture */
+    double scale; /* of font, lines and marks relative to the usual size */
+    double text;  /* the factor that the user gives for texts */
     size_t frame, panel;
-    size_t panels, column; /* beside each other; which of them */
-    bool parted, below;    /* it has one below it, or is such a one; */
-    bool stacked;          /* one of them has */
+    size_t panels, column; /* number of panels side by side; the column of this one */
+    bool has_lower, below; /* the panel has one below it; it is one below another */
+    bool stacked;          /* some panel of the figure has one below it */
     const char *caption;
-    double foot; /* its part of the height */
-    bool lost;   /* a text found no memory */
+    double foot; /* part of the height that the caption takes */
+    bool lost;   /* out of memory for a text */
 } scribe;
 
 static void quoted(scribe *s, const char *text) {
@@ -224,14 +224,14 @@ static void set_axis(scribe *s, char name, const plot_axis *a) {
             fprintf(s->to,
                     s->kind->form == PLOT_TEX ? "set format %c '$10^{%%T}$'\n" : "set format %c '10^{%%T}'\n",
                     name);
-        else /* powers of ten alone would not tell its scale */
+        else /* too few powers of ten to show the scale */
             set_log_tics(s, name, a);
     } else if (fmax(fabs(a->lo), fabs(a->hi)) >= 1e5 || fmax(fabs(a->lo), fabs(a->hi)) < 1e-3) {
         fprintf(s->to, "set format %c '%%h'\n", name);
     }
 }
 
-/* Entries of the key, and the columns of the longest. */
+/* The number of entries in the key; *longest: columns of the longest text. */
 static size_t key_entries(scribe *s, const plot_panel *p, size_t *longest) {
     size_t entries = 0;
     *longest = 0;
@@ -248,12 +248,12 @@ static size_t key_entries(scribe *s, const plot_panel *p, size_t *longest) {
     return p->key_off ? 0 : entries;
 }
 
-/* Of a key below the frame. */
+/* The columns of entries in a key below the frame. */
 static int key_columns(const scribe *s, size_t longest) {
     return longest > 40 ? 1 : longest > 24 ? 2 : s->panels > 1 ? 3 : 4;
 }
 
-/* Outside the frame, so that it covers nothing: beside it where entries are many and short, else below. */
+/* Puts the key outside the frame: at the right if entries are many and short, else below. */
 static void set_key(scribe *s, const plot_panel *p) {
     size_t longest, entries = key_entries(s, p, &longest);
     if (!entries)
@@ -267,15 +267,15 @@ static void set_key(scribe *s, const plot_panel *p) {
                 s->kind->form == PLOT_TEX ? "2.5" : "1.2", key_columns(s, longest));
 }
 
-/* Its part of the picture, where the layout of them side by side does not tell. */
+/* Sets the panel's part of the picture, unless gnuplot's layout of panels side by side is enough. */
 static void set_place(const scribe *s) {
-    const double lower = 0.36, high = 1 - s->foot, from = s->parted ? lower : 0, to = s->below ? lower : 1;
+    const double lower = 0.36, high = 1 - s->foot, from = s->has_lower ? lower : 0, to = s->below ? lower : 1;
     if (s->caption || s->stacked)
         fprintf(s->to, "set origin %.6g,%.6g\nset size %.6g,%.6g\n", (double)s->column / (double)s->panels,
                 s->foot + from * high, 1 / (double)s->panels, (to - from) * high);
 }
 
-/* The lines below all panels, which keep to what is above it. */
+/* Writes the lines of the caption below all panels, with the first panel. */
 static void set_caption(scribe *s) {
     double line = 0, lines = 0.5;
     if (!s->caption)
@@ -293,8 +293,7 @@ static void set_caption(scribe *s) {
     }
 }
 
-/* Panels side by side stand on one line and are of one height, whatever titles and keys they have; one below
- * another is as wide. */
+/* Aligns frames: the same height for panels side by side, the same width for one below another. */
 static void set_margins(scribe *s, const plot_figure *f) {
     size_t rows = 0;
     bool titled = false;
@@ -308,7 +307,7 @@ static void set_margins(scribe *s, const plot_figure *f) {
         rows = needed > rows ? needed : rows;
         titled |= p->title && *p->title;
     }
-    if (s->parted || s->below)
+    if (s->has_lower || s->below)
         fprintf(s->to, "set lmargin at screen %.4g\nset rmargin at screen %.4g\n",
                 ((double)s->column + 0.13 * s->text) / (double)s->panels,
                 ((double)s->column + 0.97) / (double)s->panels);
@@ -325,7 +324,7 @@ static void set_margins(scribe *s, const plot_figure *f) {
 static void with_curve(scribe *s, const plot_panel *p, size_t at, const char *how) {
     const plot_series *c = p->series[at];
     size_t style = plot_style_of(p, at), mark = style / LOOKS;
-    const double wide = p->map.nx ? 3 : 1; /* over a map: its border hides a line of its own width */
+    const double wide = p->map.nx ? 3 : 1; /* over a map, whose border would hide a thin line */
     const double line = wide * s->kind->line * s->scale;
     if (c->thin) {
         fprintf(s->to, "lines lw %.3g lc rgb '#707070' dt solid", 0.5 * line);
@@ -338,7 +337,7 @@ static void with_curve(scribe *s, const plot_panel *p, size_t at, const char *ho
                 p->points ? "" : " pn 8");
 }
 
-/* One element of the plot command. */
+/* Writes one element of the plot command. */
 static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
     const plot_series *c = p->series[at];
     size_t style = plot_style_of(p, at);
@@ -347,7 +346,7 @@ static void draw_series(scribe *s, const plot_panel *p, size_t at, bool deep) {
                 deep    ? ":(0)"
                 : c->y2 ? ":3"
                         : "");
-    else /* in the key alone */
+    else /* an entry of the key alone */
         fputs("NaN with ", s->to);
     switch (c->role) {
     case PLOT_CURVE:
@@ -385,16 +384,16 @@ static void draw_all(scribe *s, const plot_panel *p, bool first, bool deep) {
     putc('\n', s->to);
 }
 
-/* Places for the values of contours: within the frame, near its middle, apart from each other. */
+/* Search for the places of contour labels: within the frame, near its middle, apart from each other. */
 typedef struct spots {
     const plot_map *map;
     const plot_axis *x, *y;
     size_t count;
-    double at[LEVELS][2]; /* parts of the frame */
-    double best, here[2]; /* for the present level */
+    double at[LEVELS][2]; /* places chosen, as parts of the frame */
+    double best, here[2]; /* best score and place for the present level */
 } spots;
 
-/* Offers the crossing of a level between two points of the grid. */
+/* Scores the place where a level crosses between two neighbouring points of the grid, if it does. */
 static void offer(spots *s, size_t from, size_t to, double level) {
     const plot_map *m = s->map;
     const double a = m->z[from], b = m->z[to];
@@ -417,7 +416,7 @@ static void offer(spots *s, size_t from, size_t to, double level) {
     }
 }
 
-/* The values of the contours; one without room bears none. */
+/* Writes the labels of the contours; a contour without room gets none. */
 static void set_values(const scribe *s, const plot_map *m, const plot_axis *x, const plot_axis *y,
                        const double *level, size_t n) {
     spots of = {.map = m, .x = x, .y = y};
@@ -442,9 +441,9 @@ static void set_values(const scribe *s, const plot_map *m, const plot_axis *x, c
     }
 }
 
-/* Columns of the widest number beside an axis with tics a step apart, or at powers of ten. */
+/* Columns of the widest tic label of an axis, with tics `step` apart or at powers of ten. */
 static int tic_columns(const plot_axis *a, double step) {
-    enum { TICS = 60, POWER_OF_TEN = 5, MORE = 4 /* of 1x10^-5 than of 1e-05 */ };
+    enum { TICS = 60, POWER_OF_TEN = 5, MORE = 4 /* columns of 1x10^-5 beyond those of 1e-05 */ };
     const double first = ceil(a->lo / step);
     int widest = a->log ? POWER_OF_TEN : 1;
     for (int i = 0; i < TICS && !a->log && (first + i) * step <= a->hi; i++) {
@@ -456,7 +455,7 @@ static int tic_columns(const plot_axis *a, double step) {
     return widest;
 }
 
-/* Contours on a light ground, with their values on them. */
+/* Contours on a light background, with their values. */
 static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const plot_axis *y) {
     double level[LEVELS], part = 1.0 / (double)s->panels, from = (double)s->column * part;
     const bool narrow = s->panels > 1 || s->kind->form == PLOT_TEX;
@@ -488,7 +487,7 @@ static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const p
         fprintf(s->to, "set xtics %.9g\n", plot_step((x->hi - x->lo) / 6));
     if (!y->log)
         fprintf(s->to, "set ytics %.9g\n", step);
-    fputs("set ylabel offset -1.5,0\n", s->to); /* numbers are wider than gnuplot thinks */
+    fputs("set ylabel offset -1.5,0\n", s->to); /* gnuplot underestimates the width of numbers */
     set_values(s, &p->map, x, y, level, n);
     fprintf(s->to, "splot $map%zu_%zu using 1:2:3 with pm3d nocontour notitle", s->frame, s->panel);
     if (n)
@@ -502,16 +501,16 @@ static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, c
     plot_axis x, y;
     if (!plot_axes(p, e, true, &x, &y, error))
         return false;
-    /* not `reset`, which would lose the panel's place */
+    /* not `reset`, which would lose the panel's place in the multiplot */
     fputs("set encoding utf8\nset minussign\nunset arrow\nunset label\nunset logscale\nset format\n"
           "unset contour\nunset pm3d\nset grid layerdefault\nunset grid\nunset xzeroaxis\nunset yzeroaxis\n"
           "unset colorbox\n",
           s->to);
-    if (s->kind->form != PLOT_TEX) /* the usual format puts a blank before each number */
+    if (s->kind->form != PLOT_TEX) /* the default format puts a blank before each number */
         fputs("set format '%h'\n", s->to);
     set_margins(s, f);
     set_text(s, "title", p->title);
-    set_text(s, "xlabel", s->parted ? NULL : p->xlabel);
+    set_text(s, "xlabel", s->has_lower ? NULL : p->xlabel);
     set_text(s, "ylabel", p->ylabel);
     set_axis(s, 'x', &x);
     set_axis(s, 'y', &y);
@@ -553,11 +552,11 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
            h = t->height ? t->height
                : lower   ? HIGHER
                          : HEIGHT;
-    /* texts keep their part of a panel */
+    /* texts keep their size relative to a panel */
     double scale = fmin(w / (double)panels / (panels > 1 ? BESIDE : WIDTH), h / (double)HEIGHT);
     const double text = t->text > 0 ? t->text : 1;
     scale = fmax(scale, 0.5) * text;
-    static const double line = 20; /* pixels */
+    static const double line = 20; /* pixels of a line of the caption */
     double foot = t->caption ? 0.5 : 0;
     for (const char *p = t->caption; p && *p; p++)
         foot += *p == '\n';
@@ -588,7 +587,7 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
                         .panel = i,
                         .panels = panels,
                         .column = column,
-                        .parted = i + 1 < f->count && f->panel[i + 1]->below,
+                        .has_lower = i + 1 < f->count && f->panel[i + 1]->below,
                         .below = f->panel[i]->below,
                         .stacked = lower,
                         .caption = t->caption,

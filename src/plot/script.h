@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Between the files of this room: limits, scripts for gnuplot, and running it. */
+/* Internal to this room: limits of axes, scripts for gnuplot, and running it. Depends on cells.h, plot.h. */
 #ifndef PLOT_SCRIPT_H
 #define PLOT_SCRIPT_H
 
@@ -8,115 +8,114 @@
 
 /* ---- axis.c: limits and tics -------------------------------------------------------------------- */
 
-/* From lo to hi, lo < hi; a logarithmic axis has lo > 0. */
+/* An axis from lo to hi, lo < hi; if logarithmic, lo > 0. */
 typedef struct plot_axis {
     double lo, hi;
-    bool log, flip;
-    bool fixed_lo, fixed_hi; /* by the reader */
+    bool log, flip;          /* flip: from right to left, or from the top */
+    bool fixed_lo, fixed_hi; /* the user has given the limit */
 } plot_axis;
 
-/* What the points of a panel span. */
+/* The range of the points of a panel along one axis. */
 typedef struct plot_extent {
-    double lo, hi; /* lo > hi: nothing to see */
-    bool graph;    /* along x: every line goes one way only */
+    double lo, hi; /* lo > hi: no points */
+    bool graph;    /* no room around them: curves that are functions of x, along x; a map, along y */
 } plot_extent;
 
 typedef struct plot_extents {
     plot_extent x, y;
 } plot_extents;
 
-/* Thins its series to what is drawn of them. */
+/* Returns the ranges of a panel, and thins its series to what is drawn. */
 plot_extents plot_settle(plot_panel *p);
-/* Of both together, as for the frames of an animation. */
+/* The union of two ranges, as for the frames of an animation. */
 plot_extents plot_extent_join(plot_extents a, plot_extents b);
 
-/* Axes, `airy` with room around the points. False with the error when nothing can be shown. */
+/* The axes of a panel, `airy` with room around the points. False with the error: nothing to show. */
 bool plot_axes(const plot_panel *p, const plot_extents *e, bool airy, plot_axis *x, plot_axis *y,
                calc_error *error);
 
-/* Where a value lies along the axis, from 0 at lo to 1 at hi. */
+/* The position of a value along the axis, from 0 at lo to 1 at hi. */
 double plot_part(const plot_axis *a, double v);
-/* The step 1, 2 or 5 times a power of ten next to `least` or above. */
+/* The smallest step of 1, 2 or 5 times a power of ten that is not below `least`. */
 double plot_step(double least);
-/* The tics of a logarithmic axis over less than two decades: at 1, 2, 5, or a step apart where these are few.
- * How many. */
+/* Tics of a logarithmic axis over less than two decades, at 1, 2, 5 or equal steps; returns how many. */
 enum { PLOT_TICS = 12 };
 size_t plot_log_tics(const plot_axis *a, double at[PLOT_TICS]);
 
-/* At most `room` levels for contours of z, in rising order. */
+/* Chooses at most `room` levels for contours of z, ascending, and returns their number. */
 size_t plot_levels(const plot_map *m, double *level, size_t room);
 
-/* Panels beside each other, those below others left out. */
+/* The number of panels side by side, without those below others. */
 size_t plot_columns(const plot_figure *f);
 
 /* ---- script.c: pictures ------------------------------------------------------------------------- */
 
 /* A kind of picture. */
 typedef struct plot_kind {
-    const char *ending;
+    const char *ending; /* of the file's name */
     plot_form form;
-    const char *terminal;    /* for printf: width, height, font size; NULL: the script itself */
-    double per_pixel;        /* of the terminal's unit of length */
-    double font;             /* at the usual size, in its own unit */
+    const char *terminal;    /* printf format for width, height, font size; NULL: the script is the picture */
+    double per_pixel;        /* units of length of gnuplot's terminal per pixel */
+    double font;             /* font size at the usual size of a picture, in the terminal's unit */
     double line;             /* width of a curve */
-    const char *begin;       /* of what is wanted of gnuplot's output; NULL: all is */
-    const char *head, *foot; /* around it; NULL: nothing */
+    const char *begin;       /* the wanted part of gnuplot's output begins with this; NULL: all is wanted */
+    const char *head, *foot; /* texts written before and after it; NULL: none */
 } plot_kind;
 
-/* The kind by a file's ending; NULL with the error. */
+/* The kind of picture by the ending of the file's name; NULL with the error. */
 const plot_kind *plot_kind_of(const char *file, calc_error *error);
 
-/* The text as a string of gnuplot in which nothing but its characters is left. */
+/* Writes a text as a gnuplot string, with all special characters escaped. */
 void plot_quote(FILE *to, const char *text);
 
-/* The style of a series: its own, or its place among those of its role. */
+/* The number of the style of series `at`: its own, or its place among those of its role. */
 size_t plot_style_of(const plot_panel *p, size_t at);
 
-/* From the lowest: bands, thin lines, crowds, curves, measured points, the present one. */
+/* The layer of a series, lowest first: bands, thin lines, many marks, curves, few marks, present point. */
 enum { PLOT_LAYERS = 6 };
 int plot_layer(const plot_series *s);
 
-/* Frames that share axes. */
+/* The frames of an animation, or one figure. */
 typedef struct plot_reel {
     const plot_figure *frame;
     size_t count;
-    const plot_extents *extent; /* of a panel over all frames */
-    double seconds;             /* a frame */
+    const plot_extents *extent; /* of each panel over all frames */
+    double seconds;             /* that a frame lasts */
 } plot_reel;
 
-/* The whole script for a picture. False with the error when there is nothing to show, or it is stopped.
- * Writing is checked by the caller. */
+/* Writes the script of a picture. False: nothing to show, or stopped; the caller checks for write errors. */
 bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, const plot_target *target,
                         calc_error *error);
+/* Is the stop flag set? */
 bool plot_stopped(const plot_target *target);
 
 /* ---- text: page.c, dumb.c, sheet.c --------------------------------------------------------------- */
 
-/* Panels on pages of text. */
+/* How panels are laid out as pages of text. */
 typedef struct plot_pages {
-    int columns, rows; /* of a panel */
+    int columns, rows; /* of the page of a panel */
     bool beside;       /* panels side by side, else one below the other */
     bool braille;
 } plot_pages;
 
+/* Chooses the layout; one_screen: all panels must fit on the screen at once. */
 plot_pages plot_pages_for(const plot_target *target, const plot_figure *f, bool one_screen);
-/* A page of gnuplot for each panel of each frame; not of braille. */
+/* Writes a script that draws the pages of all frames, not in braille. Errors as plot_write_picture. */
 bool plot_write_pages(FILE *to, const plot_reel *reel, const plot_target *target, const plot_pages *pages,
                       calc_error *error);
-/* Draws frame n and prints it, each line with the end given: of braille. The number of lines; 0 with the
- * error. */
+/* Prints frame n in braille, with `end` behind each line. Returns the number of lines; 0 with the error. */
 size_t plot_print_frame(const plot_reel *reel, size_t n, const plot_target *target, const plot_pages *pages,
                         const char *end, calc_error *error);
 
 /* ---- gnuplot.c: running it ---------------------------------------------------------------------- */
 
-/* Files of our own for a run: gnuplot reads `script`, and leaves its output and its words in the others. */
+/* Unnamed temporary files that are gnuplot's standard input, output and error. */
 typedef struct plot_run {
     FILE *script, *out, *err;
 } plot_run;
 
 bool plot_run_open(plot_run *r, calc_error *error);
-/* Runs gnuplot on the script; its output is then read from the beginning. */
+/* Runs gnuplot and rewinds its output. False with the error: its message, the time-out, or stopped. */
 bool plot_run_gnuplot(const plot_run *r, const plot_target *target, calc_error *error);
 void plot_run_close(plot_run *r);
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pages drawn on cells, panels side by side on one sheet, and printed with the terminal's colours. Writes to
- * the terminal only. */
+/* Draws pages on cells, panels side by side, and prints them with colours. Depends on page.h. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,7 +68,7 @@ static bool draw_page(const plot_page *g, const plot_cells *page) {
 
 /* ---- printing ----------------------------------------------------------------------------------- */
 
-/* As the colours of pictures, on grounds both dark and light, in the palette of 256. */
+/* Sets the colour of an ink from the palette of 256: like in pictures, for dark and light backgrounds. */
 static void print_ink(FILE *out, unsigned char ink) {
     static const unsigned char palette[] = {0, 33, 202, 35, 169, 178, 81, 102, 248};
     if (ink)
@@ -79,7 +78,7 @@ static void print_ink(FILE *out, unsigned char ink) {
 }
 
 static void print_row(FILE *out, const plot_cells *sheet, int row, bool color, const char *end) {
-    int blanks = 0; /* at the end of a line they are not worth their bytes */
+    int blanks = 0; /* printed only if something follows them */
     unsigned char holds = 0;
     char text[CELL_TEXT];
     for (int column = 0; column < sheet->cols; column++) {
@@ -102,7 +101,7 @@ static void print_row(FILE *out, const plot_cells *sheet, int row, bool color, c
 
 /* ---- frames ------------------------------------------------------------------------------------- */
 
-/* The rows that are used; 0 with the error. */
+/* Draws `count` panels from `first` on; returns the rows used, 0 with the error. */
 static int draw_panels(const plot_cells *sheet, const plot_reel *reel, size_t n, size_t first, size_t count,
                        const plot_target *target, const plot_pages *pages, calc_error *error) {
     plot_page g;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Texts of figures in the forms that the terminals of gnuplot take. Whatever the reader wrote stays text:
- * here is the only place where a character could get a meaning. */
+/* Converts texts of figures to the forms that gnuplot's terminals take. All escaping for gnuplot's markup and
+ * for TeX is done here. Depends on script.h and text. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ typedef struct writer {
 
 /* ---- characters --------------------------------------------------------------------------------- */
 
-/* Greek and the like: typed in ASCII, and in the mathematics of TeX. */
+/* Symbols: how they are typed in ASCII and in TeX's math mode. */
 static const struct symbol {
     unsigned code;
     const char *ascii, *tex;
@@ -65,7 +65,7 @@ static void put_tex(writer *w, unsigned c) {
                    {'"', "\\textquotedbl{}"},   {'`', "\\textasciigrave{}"}};
     for (size_t i = 0; i < sizeof special / sizeof *special; i++)
         if (c == (unsigned char)special[i].c) {
-            /* the quotation mark needs another encoding of the font: two primes do as well */
+            /* \textquotedbl needs a font encoding that may not be loaded: '' is used instead */
             fputs(c == '"'               ? "''"
                   : w->math && c != '\\' ? (char[2]){special[i].c, 0}
                                          : special[i].tex,
@@ -90,7 +90,7 @@ static void put_char(writer *w, const char *p, size_t n, unsigned c) {
             fputs(s ? s->ascii : "?", w->to);
         break;
     case PLOT_UNICODE:
-        if (c == THIN_SPACE) /* not every terminal has one */
+        if (c == THIN_SPACE) /* not every terminal shows one */
             putc(' ', w->to);
         else
             fwrite(p, 1, n, w->to);
@@ -130,7 +130,7 @@ static void puts_text(writer *w, const char *text) {
 
 /* ---- names -------------------------------------------------------------------------------------- */
 
-/* Those that are no letter with its number. */
+/* Names with a symbol of their own; others like x1 or F_A are split into letter and index. */
 typedef struct glyph {
     const char *name, *base, *sub;
 } glyph;
@@ -148,7 +148,7 @@ static const glyph glyphs[] = {
     {"eta", "η", ""},      {"beta_k", "β", "k"},      {"phase", "φ", ""},    {"Ksec", "K", "sec"},
     {"Kp", "K′", ""},      {"Kpp", "K″", ""},         {"pi", "π", ""},       {"time", "t", ""}};
 
-/* Functions and words that stand upright. */
+/* Functions and words set upright. */
 static const struct {
     const char *name, *shown;
 } words[] = {{"sqrt", "√"}, {"gamma", "Γ"}, {"beta", "B"}, {"loss_factor", "loss factor"}};
@@ -170,7 +170,7 @@ static void upright(writer *w, const char *text, size_t n) {
         putc('}', w->to);
 }
 
-/* Parts between commas: an index of one small letter is a variable, all else a word or number. */
+/* A part between commas that is one small letter is a variable, in italics; others are words or numbers. */
 static void subscript(writer *w, const char *sub) {
     bool marked = w->form == PLOT_ENHANCED || w->form == PLOT_TEX;
     if (!*sub)
@@ -237,7 +237,7 @@ static size_t number_length(const char *p, const char *end) {
     return lex_decimal(p, (size_t)(end - p), '.', 0, &unused);
 }
 
-/* Exponents: of gnuplot's and TeX's markup, or small figures. */
+/* Writes an exponent, by markup or in superscript digits. */
 static void superscript(writer *w, const char *p, size_t n) {
     static const char *const small[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     if (w->form == PLOT_UNICODE) {
@@ -255,7 +255,7 @@ static void superscript(writer *w, const char *p, size_t n) {
     fputs(tex ? "}$" : "}", w->to);
 }
 
-/* Bytes of an exponent that superscript shows: a plain number, whole where there are no small points. */
+/* Bytes of an exponent that superscript() can show: a number, and in Unicode an integer only. */
 static size_t exponent_length(const writer *w, const char *p, const char *end) {
     size_t sign = p < end && *p == '-', n = sign;
     while (p + n < end && (isdigit((unsigned char)p[n]) || (p[n] == '.' && w->form != PLOT_UNICODE)))
@@ -264,7 +264,7 @@ static size_t exponent_length(const writer *w, const char *p, const char *end) {
     return n > sign && !cut ? n : 0;
 }
 
-/* The name of a unit: µ for its u, signs for words. */
+/* Writes the name of a unit: µ for the prefix u, ° for deg, in for inch. */
 static void put_unit_name(writer *w, const char *p, size_t n) {
     if (n == 3 && !strncmp(p, "deg", 3)) {
         puts_text(w, "°");
@@ -357,7 +357,7 @@ char *plot_text(const char *text, plot_form form) {
     if (!file_text_open(&made))
         return NULL;
     writer w = {.to = made.to, .form = form};
-    /* a bracket at the beginning is an option to some of gnuplot's terminals for TeX */
+    /* some of gnuplot's TeX terminals take a bracket at the beginning as an option */
     if (form == PLOT_TEX && *text)
         fputs("\\relax ", w.to);
     while (*text) {
