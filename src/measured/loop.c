@@ -125,7 +125,7 @@ static loop_cycle measure(const measured *m, size_t a, size_t b, size_t c) {
     out.secant = out.FA / out.dxA;
     out.unloading = (unloading(m, a, b) + unloading(m, b, c)) / 2;
     out.flank = (flank(m, a, b, &error[0]) + flank(m, b, c, &error[1])) / 2 / out.unloading;
-    out.slides = out.flank < 0.05 + hypot(error[0], error[1]) / out.unloading; /* 2 errors of the mean */
+    out.slides = out.flank < 0.05 + hypot(error[0], error[1]) / out.unloading; /* 2 errors of their mean */
     return out;
 }
 

@@ -60,8 +60,7 @@ typedef struct residuals {
     double largest; /* largest side of the equations computed so far */
     dim d;          /* of the residuals */
     size_t bad_row; /* the last row without a value; NO_ROW: the failure concerns no row */
-    size_t stride;  /* coarse search: every stride-th row of part of the data, measured turning points; 0: all
-                       rows */
+    size_t stride;  /* coarse search: every stride-th row of part of the data alone; 0: all rows */
     branches loop;
     fit_points *kept; /* receives the sides of equations too; or NULL */
     unsigned evaluations;

@@ -308,7 +308,7 @@ static void run_active_set(active *s) {
     s->used[s->count++] = s->n - 1;
     for (size_t round = 0, next = 0; next < s->n; round++) {
         do
-            if (!solve_used(s) || round == 3 * s->n) /* unreached: by no rows that have been met */
+            if (!solve_used(s) || round == 3 * s->n) /* unreached: no such rows are known */
                 return;
         while (!approach(s));
         next = best_unused(s);

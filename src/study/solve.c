@@ -24,7 +24,7 @@ typedef struct search {
     points p;
     dim d;
     bool known, ratios;
-    double lo, hi; /* searched */
+    double lo, hi; /* the range searched */
     unsigned places;
     place at[FINE + 1];
     place root[ROOTS], other[ROOTS]; /* brackets: a change of sign between them */

@@ -51,7 +51,7 @@ static bool derivative(state *s, const double *x, size_t i, double h, long doubl
         down[i] = x[i] - j * h;
         if (!all_at(s, up, above) || !all_at(s, down, below))
             return false;
-        const long double apart = up[i] - down[i]; /* as it has been rounded */
+        const long double apart = up[i] - down[i]; /* 2 j h with the rounding of x */
         for (size_t k = 0; k < s->of->expressions; k++)
             slope[k] += 2 * j * points_slope[j - 1] * (above[k].v - below[k].v) / apart;
     }

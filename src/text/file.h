@@ -112,13 +112,15 @@ typedef char *file_ask(void *self, bool continued);
 
 /* An input read by lines: UTF-8 with or without a byte order mark, or UTF-16, which is converted to UTF-8. */
 typedef struct file_in {
-    int fd;                  /* -1: not open */
-    file_ask *ask;           /* the source of lines in place of a file, or NULL */
-    void *self;              /* the argument of `ask` */
-    bool owned;              /* file_in_close closes fd */
-    bool ended, waits, told; /* at its end; poll before reading: no regular file; the encoding is known */
-    iconv_t decoder;         /* of UTF-16, or NULL */
-    size_t halves;           /* bytes of an incomplete UTF-16 character */
+    int fd;              /* -1: not open */
+    file_ask *ask;       /* the source of lines in place of a file, or NULL */
+    void *self;          /* the argument of `ask` */
+    bool owned;          /* file_in_close closes fd */
+    bool ended;          /* it has been read to its end */
+    bool waits;          /* reading may block: poll first */
+    bool encoding_known; /* the first bytes have been read */
+    iconv_t decoder;     /* of UTF-16, or NULL */
+    size_t incomplete;   /* bytes of an incomplete UTF-16 character */
     char *name;
     char *block;
     size_t at, have; /* index of the next byte in the block, and bytes in it */

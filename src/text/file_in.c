@@ -132,12 +132,12 @@ static file_got read_some(file_in *in, char *to, size_t room, size_t *got, calc_
 
 /* ---- UTF-16 ------------------------------------------------------------------------------------ */
 
-/* Decodes the n bytes that were read behind the incomplete character of in->halves bytes. */
+/* Decodes the n bytes that were read behind the incomplete character of in->incomplete bytes. */
 static void decode(file_in *in, size_t n) {
-    const size_t len = in->halves + n;
-    in->halves = len;
-    in->have = encoding_decode(in->decoder, 2, in->block + RAW, &in->halves, in->block, RAW);
-    memmove(in->block + RAW, in->block + RAW + len - in->halves, in->halves);
+    const size_t len = in->incomplete + n;
+    in->incomplete = len;
+    in->have = encoding_decode(in->decoder, 2, in->block + RAW, &in->incomplete, in->block, RAW);
+    memmove(in->block + RAW, in->block + RAW + len - in->incomplete, in->incomplete);
 }
 
 /* ---- the mark ---------------------------------------------------------------------------------- */
@@ -173,7 +173,7 @@ static file_got read_beginning(file_in *in, calc_error *error) {
             encoding = marks[i].encoding;
             in->at = marks[i].length;
         }
-    in->told = true;
+    in->encoding_known = true;
     if (!encoding)
         return FILE_GOT_LINE;
     if (!encoding_open(&in->decoder, encoding, "UTF-16", in->name, error))
@@ -202,20 +202,20 @@ static file_got fill_block(file_in *in, calc_error *error) {
     in->at = in->have = 0;
     if (in->ask)
         return ask_more(in);
-    if (!in->told)
+    if (!in->encoding_known)
         got = read_beginning(in, error);
     while (got == FILE_GOT_LINE && in->at == in->have) {
         size_t n = 0;
         in->at = in->have = 0;
-        const size_t from = in->decoder ? RAW + in->halves : 0;
+        const size_t from = in->decoder ? RAW + in->incomplete : 0;
         got = read_some(in, in->block + from, BLOCK - from, &n, error);
         if (!in->decoder) {
             in->have = n;
         } else if (got == FILE_GOT_LINE) {
             decode(in, n);
-        } else if (got == FILE_GOT_END && in->halves) {
+        } else if (got == FILE_GOT_END && in->incomplete) {
             in->have = character_put(CHARACTER_LOST, in->block);
-            in->halves = 0;
+            in->incomplete = 0;
         }
     }
     return got == FILE_GOT_END && in->have > 0 ? FILE_GOT_LINE : got;

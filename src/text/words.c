@@ -16,7 +16,7 @@ bool word_find(word_index *x, const char *word, size_t len, size_t *row) {
     if (len == 0)
         return false;
     for (size_t i = 0; !x->made && (name = x->name(i)); i++) {
-        assert(i < WORDS); /* unreached: a table that has grown longer */
+        assert(i < WORDS); /* unreached: WORDS must grow with the tables */
         unsigned char *first = &x->first[word_slot(x, name, strlen(name))];
         x->next[i] = *first;
         *first = (unsigned char)(i + 1);
