@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pressure, traction and surface displacements of a state: closed forms within the head of the gap, sums over
- * rings beyond it. Allocates fields, and frees them. */
+/* Pressure, traction and surface displacements of a state: closed forms within the head of the gap, sums
+ * over rings beyond it. Allocates and frees fields; uses `law`, `history` and `number`. */
 #include "field/field.h"
 
 #include <float.h>
@@ -10,13 +10,11 @@
 #include "law/check.h"
 #include "number/real.h"
 
-/* ---- making ------------------------------------------------------------------------------------ */
-
-/* Of a steep power g = G (x/a)^n only the last a/n of the contact counts, where series in the radius are
- * long: it goes into rings. */
+/* A steep power g = G (x/a)^n matters only in the outer a/n of the contact, and its series in the radius
+ * converge slowly: rings sum it instead. */
 static const double STEEP = 20; /* the least such n */
 
-/* The profile within a contact of radius a as powers, without steep ones. */
+/* The powers of the profile within a contact of radius a, without the steep ones; returns their number. */
 static int head_terms(const fret_normal *n, fret_real a, fret_term term[FRET_MOST_TERMS]) {
     const fret_power *power;
     const int all = fret_gap_series(&n->gap, &n->rule, a, term);
@@ -29,7 +27,7 @@ static int head_terms(const fret_normal *n, fret_real a, fret_term term[FRET_MOS
     return gentle;
 }
 
-/* Room for so many slices. */
+/* Allocates a field with room for `slices` slices. */
 static fret_status begin(const fret_normal *n, double mu, int loads, size_t slices, fret_field **out) {
     fret_field *f = calloc(1, sizeof *f);
     slice *s = f ? calloc(slices + 1, sizeof *s) : NULL;
@@ -48,7 +46,7 @@ static fret_status begin(const fret_normal *n, double mu, int loads, size_t slic
     return fret_ok();
 }
 
-/* Unless no number holds its radius. */
+/* Skips a slice whose radius underflows to 0. */
 static void add_slice(fret_field *f, fret_real y, fret_real sigma) {
     const fret_real a = fret_law_radius(f->normal, y);
     if (a > 0)
@@ -77,7 +75,7 @@ static fret_real weight_at(const fret_field *f, int load, size_t i) {
     return weight_of(f->slice, f->slices, load, i);
 }
 
-/* The head ends where the law's second cell begins; of a flat end there is none, of powers nothing else. */
+/* The head ends at the law's second cell: it is empty if the end is flat, and all of a power law. */
 static void find_head(fret_field *f) {
     const fret_normal *n = f->normal;
     const fret_cells *cells = n->cells;
@@ -92,7 +90,7 @@ static void find_head(fret_field *f) {
         f->heads++;
 }
 
-/* Once the slices are there. */
+/* Makes the rings of a field whose slices are complete; frees the field on error. */
 static fret_status finish(fret_field *f, fret_status st, fret_field **out) {
     find_head(f);
     const slice *last = f->slices > 0 ? &f->slice[f->slices - 1] : NULL;
@@ -155,7 +153,7 @@ static fret_real slope_of(const arc *p) {
     return m + up > 0 ? (up - m) / (m + up) : 0;
 }
 
-/* Straight arcs are slices; of curved ones copies are kept, whose slices have no slope. */
+/* Straight arcs become slices. Curved arcs are copied, and their slices get slope 0. */
 static fret_status make_of_swing(const fret_swing *c, fret_field **out) {
     fret_status st = begin(c->normal, c->mu, LOADS, c->count, out);
     if (st.code)
@@ -223,7 +221,7 @@ bool fret_field_infinite(const fret_normal *n, fret_real r) {
                                     : fret_gap_tip(&n->gap) + k <= 1);
 }
 
-/* Of the head, where r lies in it, and of what is nothing but a flat punch: a depth that no radius tells. */
+/* The share of the head, if r lies in it, and of slices that are flat punches (field.h, `punch`). */
 static fret_real head_slope(const fret_field *f, int load, fret_real r) {
     const fret_real start = fret_gap_start(&f->normal->gap), k = f->normal->foundation.k;
     fret_term term[FRET_MOST_TERMS];
@@ -240,7 +238,7 @@ static fret_real head_slope(const fret_field *f, int load, fret_real r) {
     return sum;
 }
 
-/* At the tip, slice by slice: a core without slope spares it, however much each contact presses there. */
+/* The sum at the tip by slices: finite if the innermost slice has no slope, unlike that of a contact. */
 static fret_real tip_slope(const fret_field *f, int load) {
     fret_term term[FRET_MOST_TERMS];
     fret_real sum = 0;
@@ -260,7 +258,8 @@ static bool any_weight(const fret_field *f, int load) {
     return false;
 }
 
-/* int sigma g' (x^2-r^2)^((k-1)/2) dx. The core that spares a sharp edge ends where numbers can tell it. */
+/* int sigma g' (x^2-r^2)^((k-1)/2) dx. At a sharp edge this is finite only if the innermost slice has no
+ * slope and its radius differs from that of the edge. */
 static fret_status slope_sum(const fret_field *f, int load, fret_real r, fret_real *sum) {
     const fret_normal *n = f->normal;
     const bool flat = fret_gap_start(&n->gap) > 0, infinite = fret_field_infinite(n, r);
@@ -292,7 +291,7 @@ fret_status fret_field_traction(const fret_field *f, fret_real r, fret_real *q) 
 
 /* ---- surfaces ---------------------------------------------------------------------------------- */
 
-/* What the head takes from the surface of a flat punch, of all contacts that reach beyond it alike. */
+/* What the head's gap takes from the displacement of a flat punch, the same in all larger contacts. */
 static fret_real head_depth(const fret_field *f, fret_real r) {
     fret_term term[FRET_MOST_TERMS];
     const int terms = head_terms(f->normal, f->head, term);
@@ -300,8 +299,8 @@ static fret_real head_depth(const fret_field *f, fret_real r) {
            fret_powers_surface(term, terms, &f->flat, f->head_depth, f->head, r);
 }
 
-/* int x^k w (r^2-x^2)^(-(1+k)/2) dx of the contact of slice i, which ends before r, but for its rings. head:
- * NAN until it is known. */
+/* int x^k w (r^2-x^2)^(-(1+k)/2) dx of the contact that ends with slice i, inside r, without its rings.
+ * *head caches head_depth; NAN until it is computed. */
 static fret_real contact_depth(const fret_field *f, size_t i, fret_real r, fret_real *head) {
     const slice *s = &f->slice[i];
     fret_term term[FRET_MOST_TERMS];
@@ -312,8 +311,8 @@ static fret_real contact_depth(const fret_field *f, size_t i, fret_real r, fret_
     return s->y * fret_kernel_flat(&f->flat, s->a, r) - *head;
 }
 
-/* Slices that reach beyond r have the gap there, which all of them share; the others count by how much more
- * they weigh. left: what a surface leaves of the depth, in its place. */
+/* Slices that end beyond r share the gap f(r) there; each slice inside r counts by the difference of its
+ * weight from the next. left: sums depth - displacement instead of the displacement. */
 static fret_status depth_sum(const fret_field *f, int load, fret_real r, bool left, fret_real *sum) {
     fret_status st = fret_check_not_negative("r", (double)r);
     fret_real head = (fret_real)NAN, gap = 0, outside = 0, depth = 0;
@@ -357,7 +356,7 @@ fret_status fret_field_surface_x(const fret_field *f, fret_real r, fret_real *u)
     return fret_unless_stopped(f->normal, st);
 }
 
-/* Where no slice slips, no sum says so but for rounding. */
+/* delta_x - u_x from the depths `left`: a difference would not be exactly 0 where nothing slips. */
 fret_status fret_field_slip(const fret_field *f, fret_real r, fret_real *s) {
     fret_status st;
     if (f->swung.count > 0) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Series where they converge fast, from there on recurrences in the direction that is stable. Arithmetic
- * alone. */
+/* Integrals of powers against the kernels: series where they converge fast, and from there recurrences in
+ * their stable direction. Pure functions; uses `number`. */
 #include "field/kernel.h"
 
 #include <float.h>
@@ -8,7 +8,7 @@
 
 #include "number/real.h"
 
-/* c0 + c1 z + c2 z^2 + ..., by fours; |z| <= 2/3. */
+/* c0 + c1 z + c2 z^2 + ..., four terms at a time; |z| <= 2/3. */
 static fret_real series(const fret_real *c, fret_real z) {
     const fret_real z2 = z * z, z4 = z2 * z2;
     fret_real sum = 0, power = 1;
@@ -21,7 +21,7 @@ static fret_real series(const fret_real *c, fret_real z) {
     return sum;
 }
 
-/* The terms of (1-z)^-b as far as each is divided by c + n. */
+/* Coefficient n of (1-z)^-b, divided by c + n. */
 static void make_series(fret_real b, fret_real c, fret_real *out) {
     fret_real term = 1;
     for (int n = 0; n < SERIES; n++) {
@@ -30,7 +30,7 @@ static void make_series(fret_real b, fret_real c, fret_real *out) {
     }
 }
 
-/* The same of Gauss's hypergeometric series F(b, 1; c; z). */
+/* Coefficients of Gauss's hypergeometric series F(b, 1; c; z). */
 static void make_gauss(fret_real b, fret_real c, fret_real *out) {
     fret_real term = 1;
     for (int n = 0; n < SERIES; n++) {
@@ -39,7 +39,7 @@ static void make_gauss(fret_real b, fret_real c, fret_real *out) {
     }
 }
 
-/* Takes the term out of `far` that may be infinite. */
+/* Leaves out of `far` the term that may be infinite; far_part adds it as a logarithm, or nearly one. */
 static void make_far(powers *p, fret_real m) {
     const fret_real t = p->q + m;
     make_series(1 - m, -t, p->far);
@@ -96,8 +96,8 @@ static fret_real to_q(const powers *p, fret_real x, fret_real x_m) {
     return p->whole == 0 ? v : p->whole > 0 ? v * x : v / x;
 }
 
-/* From r to x, 2d < x, but for what is constant of d^(q+m): the kernel in powers of d/y, where the nearest
- * term is a logarithm or near one. */
+/* The integral for 2d < x by the kernel in powers of d/y; nil: the coefficient of d^(q+m). The nearest term
+ * is (x^away - (2d)^away)/away, a logarithm where away = 0. */
 static fret_real far_part(const powers *p, const distances *c, fret_real sign, fret_real nil) {
     const fret_real u = c->d / c->x, d_power = to_q(p, c->d, c->d_m) * c->d_m;
     fret_real outer = to_q(p, c->x, c->x_m) * c->x_m, b = p->nearest_b;
@@ -137,7 +137,7 @@ void fret_kernel_below(const powers *p, const distances *c, int count, fret_real
         }
         return;
     }
-    /* downwards from the last, which is small */
+    /* downward recurrence from j = MOST, whose integral is small */
     fret_real step[MOST];
     const fret_real down = 1 / d;
     for (int j = 0; j < MOST; j++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The largest pressure of a field, and presses to a pressure: by the values of p alone. */
+/* The largest pressure, and the press that reaches a given pressure, by values of p. Uses `number`. */
 #include <float.h>
 
 #include "field/field.h"
@@ -8,9 +8,7 @@
 #include "number/real.h"
 #include "number/root.h"
 
-/* ---- the largest -------------------------------------------------------------------------------- */
-
-/* The best place so far, and its neighbours, as distances from the edge. */
+/* The best place so far and its neighbours, as distances from the edge. */
 typedef struct peak {
     const fret_field *field;
     fret_real a, inner, best, outer, p;
@@ -25,7 +23,7 @@ static fret_real pressure_at(peak *k, fret_real e) {
     return p;
 }
 
-/* Of places in order, from `inner` to `outer`. */
+/* Evaluates p at the distance e, whose neighbours are `inner` and `outer`. */
 static void try_place(peak *k, fret_real inner, fret_real e, fret_real outer) {
     const fret_real p = pressure_at(k, e);
     if (p > k->p) {
@@ -36,14 +34,14 @@ static void try_place(peak *k, fret_real inner, fret_real e, fret_real outer) {
     }
 }
 
-/* Ever closer to the edge, for steep gaps and flat ends. */
+/* Places ever closer to the edge, where steep gaps and flat ends have their peak. */
 static void try_all(peak *k) {
     static const fret_real CLOSER = 0.75L, CLOSE = 1e-16L;
     for (fret_real e = k->a, inner = k->a; e > CLOSE * k->a && !k->st.code; inner = e, e *= CLOSER)
         try_place(k, inner, e, CLOSER * e);
 }
 
-/* A row of a table may be a bump. */
+/* Places in every cell of the law, since any row of a table may be a bump. */
 static void try_cells(peak *k) {
     enum { PARTS = 3 };
     const fret_cells *cells = k->field->normal->cells;
@@ -66,7 +64,7 @@ static fret_real less_pressure(fret_real e, fret_real *slope, void *context) {
 fret_status fret_field_peak(const fret_field *f, fret_real *r, fret_real *p) {
     peak k = {.field = f, .a = f->slices > 0 ? f->slice[f->slices - 1].a : 0, .st = fret_ok()};
     const fret_real start = fret_gap_start(&f->normal->gap);
-    k.st = fret_field_pressure(f, start, p); /* a tip, or a sharp edge, where it may have a cusp */
+    k.st = fret_field_pressure(f, start, p); /* the tip or a sharp edge, where p may have a cusp */
     try_all(&k);
     try_cells(&k);
     k.best = fret_least(less_pressure, &k, k.outer, k.inner, k.best, 1e-9L);
@@ -105,7 +103,7 @@ typedef struct search {
     fret_status st;
 } search;
 
-/* ln of the pressure over the target, at ln F. */
+/* ln(pressure/target) at ln F; 0 within the rounding of a double. */
 static fret_real miss_at(fret_real load, fret_real *slope, void *context) {
     search *s = context;
     fret_real p = 0;
@@ -117,17 +115,17 @@ static fret_real miss_at(fret_real load, fret_real *slope, void *context) {
     return s->st.code ? (fret_real)NAN : fabsl(miss) < DBL_EPSILON ? 0 : miss;
 }
 
-/* The last load that the gap carries; of most it is not known. */
+/* ln F at the end of the gap; infinite if the gap has no end. */
 static fret_real most_load(const fret_normal *n) {
     fret_press end;
     const bool ends = isfinite(n->end) && !fret_press_by_radius(n, (double)n->end, &end).code;
     return ends && end.F > 0 ? logl(end.F) : (fret_real)INFINITY;
 }
 
-/* From a load of 1 N, or a part of what the gap carries, in steps of a factor e until the target is passed:
- * of a flat-ended gap the mean may rise and fall. */
+/* Steps from F = 1 N (or below the end of the gap) by factors e until the target is passed, then a root.
+ * The first slope gives the direction: over a flat end the mean pressure may rise and fall. */
 static fret_status press_to(search *s, const char *name, fret_press *out) {
-    static const fret_real STEP = 1, FLAT = 1e-12L, FAR = 700; /* of ln F: a double holds it */
+    static const fret_real STEP = 1, FLAT = 1e-12L, FAR = 700; /* of ln F; e^700 is still a double */
     const double target = (double)s->target;
     fret_status st = fret_check_positive(name, target);
     if (st.code)
@@ -154,7 +152,7 @@ static fret_status press_to(search *s, const char *name, fret_press *out) {
         at = next;
         f = there;
     }
-    if (s->st.code == FRET_OVERFLOW) /* it tends to less, or more */
+    if (s->st.code == FRET_OVERFLOW) /* the pressure tends to a limit short of the target */
         return fret_fail(FRET_OUTSIDE, name, target, (double)(s->target * expl(f)));
     return s->st.code ? s->st : fret_press_by_force(s->normal, (double)expl(at), out);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Series of positive terms for powers, and quadrature where none serves. Pure. */
+/* Fields of sums of powers, by series of positive terms or quadrature. Pure functions on `number`. */
 #include "field/powers.h"
 
 #include <float.h>
@@ -50,7 +50,7 @@ static fret_real power_integral(fret_real n, fret_real m, fret_real r, fret_real
     return fret_pow(b, n + 2 * m - 2) * near_edge(n, m, 1 - most, most) + far_from_edge(n, m, r, b, 1 - most);
 }
 
-/* From one to the next where powers grow by 2: with w = 1-(r/a)^2, by parts. */
+/* Where exponents grow by 2, integration by parts gives each integral from the last; w = 1-(r/a)^2. */
 fret_real fret_powers_slope(const fret_term *term, int terms, fret_real k, fret_real a, fret_real r) {
     const fret_real part = r / a, w = (a - r) / a * ((a + r) / a), m = (k + 1) / 2, outer = fret_pow(w, m);
     fret_real sum = 0, last = 0, before = 0;
@@ -96,7 +96,7 @@ static fret_real surface_far(fret_real m, const fret_term *term, int terms, fret
     return sum * fret_pow(q, m) / 2;
 }
 
-/* From the edge: the whole, which makes the gap itself, less what is beyond x = a. away: 1-(a/r)^2. */
+/* Near the edge: the integral over x < r, whose g gives the gap, less that over a < x < r. */
 static fret_real surface_near(const fret_term *term, int terms, const flat_field *flat, fret_real dz,
                               fret_real a, fret_real r, fret_real away) {
     const fret_real m = flat->m, whole = flat->whole, edge = fret_pow(away, 1 - m);
@@ -113,7 +113,7 @@ static fret_real surface_near(const fret_term *term, int terms, const flat_field
     return sum;
 }
 
-/* Linear in x^(k+1), which takes x^k away. */
+/* Context of the quadrature in t = (x/a)^(k+1), which absorbs the factor x^k. */
 typedef struct outside {
     const fret_term *term;
     int terms;
@@ -129,7 +129,7 @@ static fret_real outside_rate(fret_real t, fret_real rest, void *context) {
     return depth * fret_pow((c->r - c->a + below) * (c->r + c->a * expl(l)), -c->m);
 }
 
-/* Neither series serves where the exponents or what is left of the kernel are next to nothing. */
+/* Quadrature replaces both series where an exponent n, or m or 1-m near the edge, is close to 0. */
 fret_real fret_powers_surface(const fret_term *term, int terms, const flat_field *flat, fret_real dz,
                               fret_real a, fret_real r) {
     static const fret_real NEAR = 0.3L, LITTLE = 1e-3L;

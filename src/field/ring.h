@@ -1,46 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sum that every field is: rings, each a cell of the law, with the slopes of the slices that end in them.
- * Made once, only read afterwards. Not installed. */
+/* The sums over rings that make a field: each ring is a cell of the law with the slices that end in it.
+ * Rings are immutable once made. Not installed. */
 #ifndef FRET_FIELD_RING_H
 #define FRET_FIELD_RING_H
 
 #include "field/kernel.h"
 #include "law/normal.h"
 
-/* Two sums are taken at once: of the contact as it is pressed, and of its slices by their slopes. */
+/* The two loads of a sum: PRESSED, all slices of weight 1, and DRAGGED, each weighted by its slope. */
 enum { PRESSED, DRAGGED, LOADS };
 
-/* What reaches from the end of the slice before to the radius a, y deep, with its slope. */
+/* A slice: the depths up to y, at radius a, from the end of the slice before; its weight in each sum. */
 typedef struct slice {
     fret_real y, a, weight[LOADS];
 } slice;
 
-/* The end of a slice: v of a ring, linear in the square of the radius, which right next to a flat end tells
- * it better than the radius. */
-typedef struct rim {
+/* Where a slice ends: v of a ring, linear in x^2. by_v: v is the more exact, right next to a flat end. */
+typedef struct slice_end {
     size_t ring;
     fret_real v;
     bool by_v;
-} rim;
+} slice_end;
 
-/* g' against (x^2-r^2)^(m-1), and x^k g against (r^2-x^2)^-m. */
+/* The two integrands: g' (x^2-r^2)^(m-1), and x^k g (r^2-x^2)^-m. */
 enum { SLOPES, DEPTHS, KINDS };
 
 typedef struct ring {
     const fret_cell *cell;
-    fret_cell *own;         /* the same where it is made for this sum alone */
+    fret_cell *own;         /* the same where this sum owns it, else NULL */
     fret_real lo, hi;       /* radii */
     fret_real scale[KINDS]; /* width^(m-1), width^-m/2m */
-    size_t first;           /* the first slice that ends in it or beyond */
-    bool cut;               /* in it */
+    size_t first;           /* index of the first slice that ends in the ring or beyond */
+    bool cut;               /* does a slice end in it? */
 } ring;
 
-/* Rings i 2^l .. (i+1) 2^l from afar: moments about the middle, times those of the kernel's series, of those
- * that no slice ends in. */
+/* Block i of level l: the rings i 2^l to (i+1) 2^l - 1 seen from afar, as moments about the middle times
+ * the coefficients of the kernel's series. Rings in which a slice ends are left out. */
 enum { TAYLOR = 36, LEVELS = 40 };
 typedef struct block {
     fret_real lo, hi, half;
-    double log_half; /* of half in units */
+    double log_half; /* ln(half / unit of the rings) */
     double of[LOADS][KINDS][TAYLOR];
 } block;
 
@@ -48,35 +47,36 @@ enum { OF_ONE, OF_SLOPE, OF_DEPTH, POWERS };
 
 typedef struct rings {
     const fret_normal *normal;
-    size_t first_cell;    /* of the law; */
-    fret_real steep;      /* or the power that it is of, else 0 */
+    size_t first_cell;    /* index of the first of the law's cells in use */
+    fret_real steep;      /* the exponent of one steep power, else 0 */
     fret_real m, unit;    /* (k+1)/2; the square of the largest radius */
-    powers power[POWERS]; /* q = 0, that of the slope at a kink, and of the depth */
+    powers power[POWERS]; /* for q = 0, and for g' and g at a kink */
     int loads;
     size_t slices, count, room;
     const slice *slice; /* borrowed */
-    rim *rim;
+    slice_end *ends;
     ring *ring;
     block *block[LEVELS];
 } rings;
 
-/* Of the law's cells from number `first` on, or of one steep power, told at the end of the last slice. Slices
- * from the inner to the outer, there is one. Errors: FRET_NO_MEMORY, FRET_INTERRUPTED. */
+/* Makes rings of the law's cells from index `first` on or, where `steep` is not NULL, of that power, whose
+ * G is its depth at the end of the last slice. count >= 1 slices, the innermost first, are borrowed.
+ * Errors: FRET_NO_MEMORY, FRET_INTERRUPTED. */
 fret_status fret_rings_make(const fret_normal *normal, size_t first, const fret_term *steep,
                             const slice *slices, size_t count, int loads, rings **out);
 void fret_rings_free(rings *all);
 
-/* Where a slice ends, which lies within. */
-rim fret_rings_rim(const rings *all, const slice *s);
+/* The position of a slice's end within the rings. */
+slice_end fret_rings_rim(const rings *all, const slice *s);
 
-/* The sums at r: int g' (x^2-r^2)^(m-1) dx over x > r, each slice by its weight; of rings that have one slice
- * alone, as if that were `cut`, which lies within it; else NULL. */
+/* int g' (x^2-r^2)^(m-1) dx over x > r, by weight. cut: a smaller slice for the only one, or NULL. */
 fret_real fret_rings_slope(const rings *all, int load, fret_real r, const slice *cut);
-/* int x^k g (r^2-x^2)^-m dx over the slices before number `end`, which r lies in or beyond, by how much more
- * they weigh than that one. */
+/* int x^k g (r^2-x^2)^-m dx over the slices before index `end`, each by its weight less that of slice
+ * `end`; r lies in slice `end` or beyond the contact. */
 fret_real fret_rings_depth(const rings *all, int load, fret_real r, size_t end, const slice *cut);
 
-/* What is integrated over a cell, by v: a polynomial, and one times v^q, or for slopes v^(q-1). */
+/* The integrand over a cell: a polynomial in v, plus (kinked) one times v^q, or v^(q-1) for slopes: the
+ * number of their terms, and coefficient j. */
 static inline int terms_of(const fret_cell *c, int kind, bool kinked) {
     return c->count[(kind == SLOPES ? RISE : AREA) + kinked];
 }
@@ -85,12 +85,12 @@ static inline fret_real term_of(const fret_cell *c, int kind, bool kinked, int j
                           : c->of[AREA + kinked][j];
 }
 
-/* The distance of squares, with all digits. */
+/* x^2 - y^2 without cancellation. */
 static inline fret_real square_distance(fret_real x, fret_real y) {
     return (x - y) * (x + y);
 }
 
-/* How much a slice weighs; beyond the last there is nothing. */
+/* The weight of slice i; 0 beyond the last. */
 static inline fret_real weight_of(const slice *s, size_t count, int load, size_t i) {
     return i < count ? s[i].weight[load] : 0;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes rings: the cells of the law as they are, those that are powers, and steep powers, in cells of their
- * own; and the moments of blocks. Allocates them, and frees them. */
+/* Makes rings: the law's polynomial cells as they are, powers in fitted cells of their own; and moments of
+ * blocks. Allocates and frees rings; uses `law` and `number`. */
 #include <stdlib.h>
 
 #include "field/ring.h"
@@ -10,9 +10,9 @@
 
 typedef struct maker {
     rings *all;
-    fret_chebyshev nodes;                /* where own cells are made; count: 0 until then */
+    fret_chebyshev nodes;                /* Chebyshev nodes for own cells; count 0 until needed */
     double moment[POWERS][MOST][TAYLOR]; /* int_0^1 v^(q+j) (2v-1)^n dv */
-    double binomial[KINDS][TAYLOR];      /* of the kernel's series */
+    double binomial[KINDS][TAYLOR];      /* coefficients of the kernel's Taylor series */
     bool failed;
 } maker;
 
@@ -33,8 +33,7 @@ static bool add_ring(maker *mk, const fret_cell *c, fret_cell *own) {
     return true;
 }
 
-/* How much a cell of powers rises over v in the square of the radius beyond x, by logarithms, of which a
- * large power would make much. */
+/* The rise of g in a cell of powers over v in x^2, by logarithms so that large exponents lose no digits. */
 static fret_real rise_of_powers(const fret_cell *c, fret_real x, fret_real v) {
     const fret_real l = log1pl((x - c->x) / c->x), grown = log1pl(v / (x * x)) / 2;
     fret_real sum = 0;
@@ -43,7 +42,7 @@ static fret_real rise_of_powers(const fret_cell *c, fret_real x, fret_real v) {
     return sum;
 }
 
-/* A ring of a cell of its own from the radius lo of a cell of powers on, where that is y deep. */
+/* Adds a ring from the radius lo, where g = y, with its own cell fitted to the cell of powers `of`. */
 static bool add_own(maker *mk, const fret_cell *of, fret_real lo, fret_real width, fret_real y) {
     static const fret_real LITTLE = 1e-20L;
     fret_real value[FRET_CELL_TERMS], terms[FRET_CELL_TERMS], tail;
@@ -68,7 +67,7 @@ static bool add_own(maker *mk, const fret_cell *of, fret_real lo, fret_real widt
     return false;
 }
 
-/* From its beginning up to the radius a, as far at a time as polynomials serve: twice the square. */
+/* Adds rings of a cell of powers up to the radius a. So that polynomials converge, x^2 at most doubles. */
 static bool add_powers(maker *mk, const fret_cell *of, fret_real a) {
     fret_real y = of->y;
     for (fret_real lo = of->x, hi; lo < a; lo = hi) {
@@ -80,7 +79,7 @@ static bool add_powers(maker *mk, const fret_cell *of, fret_real a) {
     return true;
 }
 
-/* The law's cells up to the last slice. */
+/* Adds the law's cells from index `first` up to the one in which the last slice ends. */
 static bool add_cells(maker *mk, size_t first, const slice *last) {
     const fret_cells *all = mk->all->normal->cells;
     fret_place end;
@@ -93,16 +92,16 @@ static bool add_cells(maker *mk, size_t first, const slice *last) {
     return true;
 }
 
-/* Of a steep power the logarithm of g tells places: it falls by so much over a ring. */
+/* Rings of a steep power are cut by ln g, which falls by this much over each. */
 static const fret_real PART = 4;
 
-/* How far below that of the last slice it is where one ends. */
+/* ln g at the end of the last slice less ln g at the end of slice s. */
 static fret_real fall_of(const rings *all, fret_real n, const slice *s) {
     const slice *last = &all->slice[all->slices - 1];
     return fret_normal_closed(all->normal) ? logl(last->y / s->y) : -n * log1pl((s->a - last->a) / last->a);
 }
 
-/* From the last slice inwards, to where even the first has next to nothing. */
+/* Adds rings from the last slice inwards, until even within the first slice g is negligible (e^-48). */
 static bool add_steep(maker *mk, const fret_term *term) {
     static const fret_real NOTHING = 48;
     const rings *all = mk->all;
@@ -121,34 +120,33 @@ static bool add_steep(maker *mk, const fret_term *term) {
 
 /* ---- slices ------------------------------------------------------------------------------------ */
 
-/* Where a slice ends by its radius. */
-static rim rim_by_radius(const rings *all, fret_real a) {
+static slice_end end_by_radius(const rings *all, fret_real a) {
     size_t i = all->count - 1;
     while (i > 0 && all->ring[i].lo >= a)
         i--;
     const ring *p = &all->ring[i];
-    return (rim){i, fminl(fmaxl(square_distance(a, p->lo) / p->cell->width, 0), 1), false};
+    return (slice_end){i, fminl(fmaxl(square_distance(a, p->lo) / p->cell->width, 0), 1), false};
 }
 
-/* By its depth, which tells it better next to a flat end; the first cell is number `first`. */
-static rim rim_by_depth(const rings *all, size_t first, const slice *s) {
+/* By depth, more exact than the radius next to a flat end; first: index of the first cell in use. */
+static slice_end end_by_depth(const rings *all, size_t first, const slice *s) {
     const fret_cells *cells = all->normal->cells;
     fret_place at;
     if (!fret_cells_find(cells, BY_DEPTH, fminl(s->y, cells->most[BY_DEPTH]), &at) || at.i < first)
-        return (rim){0, 0, false};
-    return cells->cell[at.i].powers ? rim_by_radius(all, s->a) : (rim){at.i - first, at.s, false};
+        return (slice_end){0, 0, false};
+    return cells->cell[at.i].powers ? end_by_radius(all, s->a) : (slice_end){at.i - first, at.s, false};
 }
 
-static rim rim_of_steep(const rings *all, fret_real n, const slice *s) {
+static slice_end end_in_steep(const rings *all, fret_real n, const slice *s) {
     const fret_real fall = fall_of(all, n, s), i = fminl(floorl(fall / PART) + 1, (fret_real)all->count);
-    return (rim){all->count - (size_t)i, fmaxl(expm1l(2 / n * (PART * i - fall)) / expm1l(2 / n * PART), 0),
-                 false};
+    return (slice_end){all->count - (size_t)i,
+                       fmaxl(expm1l(2 / n * (PART * i - fall)) / expm1l(2 / n * PART), 0), false};
 }
 
-rim fret_rings_rim(const rings *all, const slice *s) {
-    static const fret_real NEAR = 0x1p-14L; /* an edge further away keeps 50 bits */
+slice_end fret_rings_rim(const rings *all, const slice *s) {
+    static const fret_real NEAR = 0x1p-14L; /* relative; a radius farther out keeps 50 bits of its distance */
     const fret_real start = fret_gap_start(&all->normal->gap);
-    rim at = all->steep > 0 ? rim_of_steep(all, all->steep, s) : rim_by_depth(all, all->first_cell, s);
+    slice_end at = all->steep > 0 ? end_in_steep(all, all->steep, s) : end_by_depth(all, all->first_cell, s);
     at.by_v = s->a - start < NEAR * start;
     return at;
 }
@@ -156,12 +154,12 @@ rim fret_rings_rim(const rings *all, const slice *s) {
 static void place_slices(rings *all) {
     size_t next = 0;
     for (size_t i = 0; i < all->slices; i++)
-        all->rim[i] = fret_rings_rim(all, &all->slice[i]);
+        all->ends[i] = fret_rings_rim(all, &all->slice[i]);
     for (size_t i = 0; i < all->count; i++) {
-        while (next < all->slices && all->rim[next].ring < i)
+        while (next < all->slices && all->ends[next].ring < i)
             next++;
         all->ring[i].first = next;
-        all->ring[i].cut = next < all->slices && all->rim[next].ring == i;
+        all->ring[i].cut = next < all->slices && all->ends[next].ring == i;
     }
 }
 
@@ -191,21 +189,22 @@ static void make_tables(maker *mk) {
     }
 }
 
-/* Adds moments of a part, moved to the middle of the whole: shift and ratio in half-widths of that. */
+/* Adds the moments of a part, shifted to the middle of the whole. shift and ratio: distance of the middles
+ * and half-width of the part, in half-widths of the whole. */
 static void add_moved(double *whole, const double *part, double shift, double ratio) {
     double moved[TAYLOR], power = 1;
     for (int n = 0; n < TAYLOR; n++) {
         moved[n] = part[n] * power;
         power *= ratio;
     }
-    for (int pass = 1; pass < TAYLOR; pass++) /* binomials */
+    for (int pass = 1; pass < TAYLOR; pass++) /* binomial expansion */
         for (int n = TAYLOR - 1; n >= pass; n--)
             moved[n] += shift * moved[n - 1];
     for (int n = 0; n < TAYLOR; n++)
         whole[n] += moved[n];
 }
 
-/* Of a ring that no slice ends in: others are always near. */
+/* Moments of one ring. A ring in which a slice ends is always summed as a near one, so its moments stay 0. */
 static void make_leaf(const maker *mk, const ring *p, block *b) {
     const rings *all = mk->all;
     for (int kind = 0; kind < KINDS && p->first < all->slices && !p->cut; kind++) {
@@ -250,7 +249,7 @@ static void make_block(const maker *mk, int level, size_t i) {
         add_half(b, &all->block[level - 1][j], all->loads);
 }
 
-/* The kernel's factors, once nothing is moved any more. */
+/* Multiplies in the kernel's coefficients, after all shifts. */
 static void finish_block(const maker *mk, block *b) {
     for (int load = 0; load < LOADS; load++)
         for (int kind = 0; kind < KINDS; kind++)
@@ -274,14 +273,12 @@ static void make_blocks(maker *mk) {
             finish_block(mk, &all->block[level][i]);
 }
 
-/* ---- all --------------------------------------------------------------------------------------- */
-
 fret_status fret_rings_make(const fret_normal *n, size_t first, const fret_term *steep, const slice *slices,
                             size_t count, int loads, rings **out) {
     maker *mk = calloc(1, sizeof *mk);
     rings *all = calloc(1, sizeof *all);
-    rim *rims = calloc(count, sizeof *rims);
-    const bool room = mk && all && rims;
+    slice_end *ends = calloc(count, sizeof *ends);
+    const bool room = mk && all && ends;
     *out = all;
     if (room) {
         const fret_real a = slices[count - 1].a;
@@ -290,7 +287,7 @@ fret_status fret_rings_make(const fret_normal *n, size_t first, const fret_term 
         all->steep = steep ? steep->n : 0;
         all->slices = count;
         all->slice = slices;
-        all->rim = rims;
+        all->ends = ends;
         mk->all = all;
         make_tables(mk);
         if ((steep ? add_steep(mk, steep) : add_cells(mk, first, &slices[count - 1])) && all->count > 0) {
@@ -298,7 +295,7 @@ fret_status fret_rings_make(const fret_normal *n, size_t first, const fret_term 
             make_blocks(mk);
         }
     } else {
-        free(rims);
+        free(ends);
     }
     const fret_status st =
         fret_unless_stopped(n, room && !mk->failed ? fret_ok() : fret_fail(FRET_NO_MEMORY, NULL, 0, 0));
@@ -318,6 +315,6 @@ void fret_rings_free(rings *all) {
     for (int level = 0; level < LEVELS; level++)
         free(all->block[level]);
     free(all->ring);
-    free(all->rim);
+    free(all->ends);
     free(all);
 }

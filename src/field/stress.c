@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stress inside homogeneous bodies, from the line loads of the one-dimensional model put on the imaginary
- * axis. Reads fields, and changes nothing. */
+/* Stress inside homogeneous bodies (k = 0), from the line loads of the one-dimensional model placed on the
+ * imaginary axis. Reads fields only; uses `law` and `number`. */
 #include <complex.h>
 #include <math.h>
-#undef I /* an integral elsewhere */
+#undef I /* `I` names integrals in this room */
 
 #include "field/field.h"
 #include "law/check.h"
@@ -27,14 +27,14 @@ typedef struct place_inside {
     double mu_sigma;
 } place_inside;
 
-/* What g' is between two radii, in those units: powers, or a cell of the law. */
+/* g' between two radii in units of the contact radius: a sum of powers, or a cell of the law. */
 typedef struct profile_part {
-    double lo, hi, unit; /* unit: contact radius [m] */
+    double lo, hi, unit; /* unit: the contact radius [m] */
     const fret_cell *cell;
     int terms;
-    double of[FRET_MOST_TERMS], n[FRET_MOST_TERMS]; /* sum of x^(n-1) */
+    double of[FRET_MOST_TERMS], n[FRET_MOST_TERMS]; /* g' = sum of[i] x^(n[i]-1) */
     double steep;                                   /* the largest n */
-    bool kinked, branches;                          /* half powers at its inner end; others at the centre */
+    bool kinked, branches;                          /* half-integer powers at lo; others at the centre */
 } profile_part;
 
 static double complex slope_at(const profile_part *p, double complex t) {
@@ -63,7 +63,7 @@ static double complex lambda_at(const place_inside *a, double t) {
     return csqrt((a->r - t) * (a->r + t) + a->z * a->z + _Complex_I * (2 * a->z * t)) + zeta;
 }
 
-/* Adds rho (P + mu sigma Q) times `factor`, of which the real part counts. */
+/* Adds Re(factor rho (P + mu sigma Q)) to the six sums. */
 static void add_node(const place_inside *a, double complex lambda, double complex factor, double sum[6]) {
     const double x = a->x, y = a->y, z = a->z, nu = a->nu, xx = x * x, yy = y * y, xy = x * y,
                  s = a->mu_sigma;
@@ -90,7 +90,8 @@ static void add_node(const place_inside *a, double complex lambda, double comple
         sum[i] += creal(factor * c[i]);
 }
 
-/* Eight points; from a kink on evenly in the square root. */
+/* Gauss's eight points along a straight line in lambda. rooted: nodes are even in the square root of the
+ * distance from `from`, for a kink there. */
 static void add_straight(const place_inside *a, const profile_part *p, double complex from, double complex to,
                          bool rooted, double sum[6]) {
     for (int i = 0; i < 8; i++) {
@@ -101,19 +102,19 @@ static void add_straight(const place_inside *a, const profile_part *p, double co
     }
 }
 
-/* Where g' has its kink lambda comes twice: on the way, and at -r^2/lambda. */
+/* The kink of g' is singular at two places of lambda: lambda itself, on the path, and -r^2/lambda. */
 static double complex mirrored(const place_inside *a, double complex lambda) {
     return lambda != 0 ? -a->r * a->r / lambda : 0;
 }
 
-/* Evenly in the root: not where those two are one. */
+/* Does the piece begin at the kink, with the two singular places apart? Then its nodes are rooted. */
 static bool is_rooted(const place_inside *a, const profile_part *p, double t0, double complex from) {
     static const double ONE = 1e-7;
     return p->kinked && t0 == p->lo && !(cabs(from - mirrored(a, from)) < ONE);
 }
 
-/* Short enough for eight points, seen from what is singular: lambda = 0, rho = 0 but on the surface, and
- * kinks. */
+/* Is the piece short enough for eight points, compared with its distance from the singularities lambda = 0,
+ * rho = 0 (none at the surface) and kinks? */
 static bool is_short(const place_inside *a, const profile_part *p, double t0, double t1, double complex from,
                      double complex to) {
     static const double NEAR = 0.5, STEEP = 2, TIP = 1e-6;
@@ -127,7 +128,7 @@ static bool is_short(const place_inside *a, const profile_part *p, double t0, do
             off = fmin(off, cabs(middle - kink));
         if (t0 > p->lo || is_rooted(a, p, t0, from))
             off = fmin(off, cabs(middle - mirrored(a, kink)));
-        if (is_rooted(a, p, t0, from)) /* of the square eight points tell less */
+        if (is_rooted(a, p, t0, from)) /* the substitution doubles the degree */
             off /= 3;
     }
     return !(cabs(to - from) > NEAR * off) && (p->steep < 8 || (t1 - t0) * p->steep <= STEEP * t1) &&
@@ -149,7 +150,7 @@ static void add_between(const place_inside *a, const profile_part *p, double t0,
     add_between(a, p, mid, t1, between, to, sum);
 }
 
-/* Of a steep power what is far within is nothing. */
+/* Adds a part between lo and hi; the inner region of a steep power is negligible (below e^-45). */
 static void add_part(const place_inside *a, const profile_part *p, double lo, double hi, double sum[6]) {
     static const double NOTHING = 45;
     double from = fmax(lo, p->lo), to = fmin(hi, p->hi);
@@ -167,7 +168,6 @@ static void put_powers(profile_part *p, double n, double of) {
     p->kinked |= p->lo == 0 && n != floor(n);
 }
 
-/* Of a power law all of it. */
 static void part_of_law(const fret_normal *n, fret_real a, profile_part *p) {
     fret_term term[FRET_MOST_TERMS];
     const int terms = fret_gap_series(&n->gap, &n->rule, a, term);
@@ -189,19 +189,19 @@ static void part_of_cell(const fret_cell *c, fret_real a, profile_part *p) {
     }
 }
 
-/* At the edge of a flat punch g is all depth at once. */
+/* At the edge of a flat punch g jumps by the whole depth. */
 static void add_edge(const place_inside *a, double edge, double depth, double sum[6]) {
     const double complex lambda = lambda_at(a, edge), rho = (lambda + a->r * a->r / lambda) / 2;
     add_node(a, lambda, _Complex_I * depth / rho, sum);
 }
 
 static void add_all(const fret_field *f, place_inside *a, double sum[6]) {
-    static const fret_real NEAR = 1e-7L; /* of the way to the edge: what ends so close to it is a punch */
+    static const fret_real NEAR = 1e-7L; /* of the distance to the edge: slices closer to it are punches */
     const fret_real unit = f->slice[f->slices - 1].a, start = fret_gap_start(&f->normal->gap),
                     near = NEAR * hypotl(a->r * unit - start, a->z * unit);
     const fret_cells *cells = f->normal->cells;
     const size_t parts = cells ? cells->count : 1;
-    size_t next = 0; /* the first part that reaches beyond the slice before */
+    size_t next = 0; /* the first part that reaches beyond the previous slice */
     profile_part p;
     for (size_t i = 0; i < f->slices; i++) {
         const double lo = i > 0 ? (double)(f->slice[i - 1].a / unit) : 0, hi = (double)(f->slice[i].a / unit);
@@ -225,9 +225,9 @@ static void add_all(const fret_field *f, place_inside *a, double sum[6]) {
     }
 }
 
-/* Beyond so many contact radii there is less than is promised of. */
+/* In contact radii: stresses farther away are below the promised accuracy, and given as 0. */
 static const double FAR = 1e6;
-/* So close below the surface a radius of double does not tell how close. */
+/* In contact radii: depths below this are taken as the surface, since r as a double is no more exact. */
 static const double SURFACE = 1e-15;
 
 static fret_status check(const fret_field *f, double nu, const double at[3]) {
@@ -254,7 +254,7 @@ fret_status fret_field_stress(const fret_field *f, double nu, double x, double y
     if (z == 0 && fret_field_infinite(f->normal, r))
         return fret_fail(FRET_SINGULAR, "r", r, 0);
     const double unit = (double)f->slice[f->slices - 1].a, side = z < 0 ? -1 : 1;
-    /* the other body is pushed the other way: turned about z, and seen from its own side */
+    /* the other body is pushed the other way: x and y are reversed, and z counts from its own surface */
     place_inside a = {
         .x = side * x / unit, .y = side * y / unit, .z = fabs(z) / unit, .r = r / unit, .nu = nu};
     if (a.z < SURFACE)
@@ -263,7 +263,7 @@ fret_status fret_field_stress(const fret_field *f, double nu, double x, double y
         add_all(f, &a, sum);
     const double scale = -(double)(f->normal->foundation.cN0 / FRET_PI);
     for (int i = XX; i <= YZ; i++)
-        sum[i] = scale * sum[i] + 0.0; /* and no -0 */
+        sum[i] = scale * sum[i] + 0.0; /* + 0.0 turns -0 into 0 */
     *out = (fret_stress){sum[XX], sum[YY], sum[ZZ], sum[XY], sum[XZ], sum[YZ]};
     return fret_unless_stopped(f->normal, st);
 }
@@ -275,7 +275,7 @@ double fret_stress_mises(const fret_stress *s) {
     return sqrt((a * a + b * b + c * c) / 2 + 3 * (s->xy * s->xy + s->xz * s->xz + s->yz * s->yz));
 }
 
-/* By the angle of the deviator's cubic. */
+/* By the trigonometric solution (Lode angle) of the deviator's cubic. */
 void fret_stress_principal(const fret_stress *s, double out[3]) {
     const double mean = (s->xx + s->yy + s->zz) / 3, size = fret_stress_mises(s) * 2 / 3;
     const double x = s->xx - mean, y = s->yy - mean, z = s->zz - mean;

@@ -1,50 +1,50 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fields of the curved arcs of a memory: the field of what each contact adds to the one within it, which
- * has a formula, along the way itself. Allocates nothing. */
+/* Fields of the curved arcs that a harmonic load leaves: an arc is a superposition of flat punches, whose
+ * fields are integrated over the time of the load. Allocates nothing; uses `law`, `history` and `number`. */
 #include "field/field.h"
 #include "number/integral.h"
 
-/* What a place asks of a curved arc: int weight sigma dy along it. The normal and the tangential load are
- * the coordinates M and P of `of`; instants count from `from`, where the load is `beyond` more than N. */
+/* The integral of weight sigma dy along a curved arc, for one radius r. `of` has the normal and tangential
+ * force as coordinates M and P; times w count from `from`, where the normal force exceeds N by `beyond`. */
 typedef enum weight { ALONG, OUTSIDE, INSIDE } weight;
-typedef struct bend {
+typedef struct arc_integral {
     const fret_normal *normal;
     const flat_field *flat;
     way of;
-    fret_real r, N; /* the place, and the load of a contact that ends there */
-    fret_real steep,
-        bent; /* but of powers: its radius grows by steep x (1 + bent x) with so much more load x */
+    fret_real r, N;              /* the radius, and the normal force of the contact that ends there */
+    fret_real growth, curvature; /* a(N+x) - r = growth x (1 + curvature x); not for powers */
     fret_real from, beyond;
     weight weight;
-    fret_real lo, hi, near, side, power, sign; /* sign: of the slope */
-} bend;
+    fret_real lo, hi, near, side, power, sign; /* sign: that of the slope sigma */
+} arc_integral;
 
-/* How far the load at the time w is above N, with all digits where that is little. */
-static fret_real rise_at(const bend *b, fret_real w) {
+/* The normal force at time w less N, without cancellation. */
+static fret_real rise_at(const arc_integral *b, fret_real w) {
     return b->beyond - 2 * b->of.size[M] * sinl(b->from + w / 2 - b->of.lag[M]) * sinl(w / 2);
 }
 
-/* Below so much of N a radius is told by its growth. */
+/* Below this part of N a radius is extrapolated by its growth. */
 static const fret_real NEAR = 1e-6L;
 
-/* a^2/r^2 - 1 of the contact that has so much more load; its radius is a. */
-static fret_real square_rise(const bend *b, fret_real rise, fret_real a) {
+/* (a/r)^2 - 1 of the contact of radius a whose normal force is N + rise. */
+static fret_real square_rise(const arc_integral *b, fret_real rise, fret_real a) {
     const fret_real ratio = rise / b->N;
     const bool known = b->N > 0 && isfinite(ratio);
     if (known && fret_normal_closed(b->normal))
         return expm1l(2 / b->normal->s * log1pl(ratio));
-    const fret_real e = known && fabsl(ratio) <= NEAR ? b->steep * rise * (1 + b->bent * rise) : a - b->r;
+    const fret_real e =
+        known && fabsl(ratio) <= NEAR ? b->growth * rise * (1 + b->curvature * rise) : a - b->r;
     return e / b->r * (2 + e / b->r);
 }
 
-/* sigma dy/dt, y and its stiffness those of N */
-static fret_real depth_rate(const bend *b, fret_real w, const fret_point *at) {
+/* sigma dy/dt; y and the stiffness are functions of the normal force. */
+static fret_real depth_rate(const arc_integral *b, fret_real w, const fret_point *at) {
     const fret_real turn = -way_fall(&b->of, P, b->from + w);
     return fret_normal_closed(b->normal) ? turn * b->normal->q * at->y / at->F : turn / at->K;
 }
 
-/* At the time w; a kernel that is singular at w = 0 but for |w|^(1-power). */
-static fret_real rate_at(const bend *b, fret_real w, bool but) {
+/* The integrand at time w. but: divides the kernel by its singular factor w^((k-1)/2). */
+static fret_real rate_at(const arc_integral *b, fret_real w, bool but) {
     if (fret_stopped(b->normal))
         return 0;
     const fret_point at = fret_law_at_force(b->normal, way_at(&b->of, M, b->from + w));
@@ -60,30 +60,30 @@ static fret_real rate_at(const bend *b, fret_real w, bool but) {
     return sum * fret_kernel_flat_of(b->flat, 1 - away, away);
 }
 
-/* From `from` on, t to the power of what takes the singularity away. */
+/* The integrand near w = 0 in t = (w/hi)^(1/power), which absorbs the singularity. */
 static fret_real touching_rate(fret_real t, fret_real rest, void *context) {
     static const fret_real deep = 1e-100L;
-    const bend *b = context;
+    const arc_integral *b = context;
     const fret_real w = b->hi * fmaxl(fret_pow(t, b->power), deep);
     (void)rest;
     return rate_at(b, w, b->weight == ALONG);
 }
 
-/* Between lo and hi, evenly in the logarithm of the time to what is singular, `near` before the time 0. */
+/* The integrand between lo and hi in the logarithm of the time to the singularity, `near` before w = 0. */
 static fret_real other_rate(fret_real t, fret_real rest, void *context) {
-    const bend *b = context;
+    const arc_integral *b = context;
     const fret_real off = b->near + b->lo, span = log1pl((b->hi - b->lo) / off),
                     w = b->lo + off * expm1l(span * t);
     (void)rest;
     return b->sign * span * (b->near + w) * rate_at(b, b->side * w, false);
 }
 
-/* From lo to hi, both times after 0 or, on the other side, before it. */
-static fret_real sum_between(bend *b, fret_real lo, fret_real hi) {
+/* The integral over lo < |w| < hi, on the side of w = 0 that `side` names. */
+static fret_real sum_between(arc_integral *b, fret_real lo, fret_real hi) {
     static const fret_real little = 1e-16L;
     const fret_real turned = b->side * (b->of.lag[P] - b->from);
     fret_real sum = 0;
-    for (fret_real end; hi - lo > little; lo = end) { /* where it does, the sign changes */
+    for (fret_real end; hi - lo > little; lo = end) { /* the sign of sigma changes at turns of F_x */
         fret_real turn = turned_to(turned, lo);
         while (turn <= lo + little)
             turn += FRET_PI;
@@ -96,23 +96,23 @@ static fret_real sum_between(bend *b, fret_real lo, fret_real hi) {
     return sum;
 }
 
-/* How far from the time 0 the load is nothing, or was N before it turned: in the plane of complex times what
- * is singular but there. */
-static fret_real alone(const bend *b) {
+/* The distance from w = 0 to the nearest other singularity in the complex plane of times: where the normal
+ * force vanishes, or was N before it turned. */
+static fret_real alone(const arc_integral *b) {
     const fret_real angle = turned_to(b->from - b->of.lag[M], -FRET_PI / 2);
     return fminl(sqrtl(2 * b->N / b->of.size[M]), 2 * (angle + FRET_PI));
 }
 
-/* The same where the load at the time 0 is more than N, or less; far is a turn. */
-static fret_real near_to(const bend *b) {
+/* The distance from w = 0 to the nearest singularity if the normal force there is not N; at most a period. */
+static fret_real near_to(const arc_integral *b) {
     static const fret_real least = 1e-15L, most = 2 * FRET_PI;
     const fret_real off = fabsl(b->beyond) / b->of.size[M],
                     near = fminl(sqrtl(off), off / fabsl(sinl(b->from - b->of.lag[M])));
     return b->weight == INSIDE ? most : fminl(fmaxl(near, least), most);
 }
 
-/* The same by a rule for each doubling, however far down: what is little there need not agree. */
-static fret_real sum_doubling(bend *b, fret_real lo, fret_real hi) {
+/* The integral over lo < |w| < hi by a Gauss rule per doubling; small pieces need no error check. */
+static fret_real sum_doubling(arc_integral *b, fret_real lo, fret_real hi) {
     fret_real sum = 0;
     b->sign = 1;
     for (b->lo = lo; b->lo < hi; b->lo = b->hi) {
@@ -122,8 +122,8 @@ static fret_real sum_doubling(bend *b, fret_real lo, fret_real hi) {
     return sum;
 }
 
-/* From the time 0 to `end`, before it or after it. */
-static fret_real integral(bend *b, fret_real end) {
+/* The integral between w = 0 and w = end, of either sign. */
+static fret_real integral(arc_integral *b, fret_real end) {
     static const fret_real least = 1e-15L;
     const fret_real whole = fabsl(end), m = (b->normal->foundation.k + 1) / 2;
     fret_real sum = 0, from = 0, clear = whole / 8;
@@ -144,8 +144,8 @@ static fret_real integral(bend *b, fret_real end) {
     return sum + sum_between(b, from, whole);
 }
 
-/* The parts of a curved arc within and beyond the load N. */
-static fret_real sum_of(bend *b, const arc *p, weight outside, weight inside, fret_real factor) {
+/* The sum over one arc: `outside` weights the part whose contacts end inside r, `inside` the other. */
+static fret_real sum_of(arc_integral *b, const arc *p, weight outside, weight inside, fret_real factor) {
     fret_real sum = 0;
     fret_swing_loads(&p->way, &b->of);
     const fret_real first = way_at(&b->of, M, p->lo) - b->N, last = way_at(&b->of, M, p->hi) - b->N;
@@ -160,10 +160,10 @@ static fret_real sum_of(bend *b, const arc *p, weight outside, weight inside, fr
     return sum;
 }
 
-static bend begin(const fret_swing *c, fret_real r) {
+static arc_integral begin(const fret_swing *c, fret_real r) {
     const fret_normal *n = c->normal;
     const fret_real e = r - fret_gap_start(&n->gap);
-    bend b = {.normal = n, .r = r};
+    arc_integral b = {.normal = n, .r = r};
     if (!(r < n->end))
         b.N = (fret_real)INFINITY;
     else if (e > 0) {
@@ -171,15 +171,15 @@ static bend begin(const fret_swing *c, fret_real r) {
         b.N = fret_law_at_radius(n, r).F;
         if (!fret_normal_closed(n)) {
             const fret_real less = 1e-4L * b.N, inner = fret_law_at_force(n, b.N - less).a;
-            b.steep = 1 / (p.slope * fret_normal_stiffness(n, r));
-            b.bent = (1 - (r - inner) / (b.steep * less)) / less;
+            b.growth = 1 / (p.slope * fret_normal_stiffness(n, r));
+            b.curvature = (1 - (r - inner) / (b.growth * less)) / less;
         }
     }
     return b;
 }
 
 fret_real fret_swing_slope(const fret_swing *c, fret_real r) {
-    bend b = begin(c, r);
+    arc_integral b = begin(c, r);
     fret_real sum = 0;
     for (size_t i = 0; i < c->count && r < c->a; i++)
         sum += sum_of(&b, &c->arcs[i], ALONG, ALONG, 0);
@@ -187,7 +187,7 @@ fret_real fret_swing_slope(const fret_swing *c, fret_real r) {
 }
 
 fret_real fret_swing_surface(const fret_swing *c, const flat_field *flat, fret_real factor, fret_real r) {
-    bend b = begin(c, r);
+    arc_integral b = begin(c, r);
     fret_real sum = 0;
     b.flat = flat;
     for (size_t i = 0; i < c->count; i++)

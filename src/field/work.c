@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The work of friction at a place, phase by phase of slip. Allocates works. */
+/* The work of friction per area at a radius, summed over the recorded phases of slip. Allocates and frees
+ * works; uses `law`, `history` and `number`. */
 #include "fret/work.h"
 
 #include <stdlib.h>
@@ -11,7 +12,7 @@
 struct fret_work {
     const fret_normal *normal; /* borrowed */
     double mu;
-    fret_field *whole; /* of the deepest contact, or NULL */
+    fret_field *whole; /* the pressed field of the deepest contact, or NULL */
     size_t count;
     slip_phase *phase;
     swung_phase *swung;
@@ -21,7 +22,7 @@ static fret_real load_of(const way *w, fret_real s) {
     return (way_at(w, M, s) + way_at(w, P, s)) / 2;
 }
 
-/* When the load of a way turns between two times: at most once as long as M falls or P does. */
+/* Does the normal force of a way turn in (lo, hi), and when? Once at most while M or P falls. */
 static bool turns(const way *w, fret_real lo, fret_real hi, fret_real *when) {
     way loads;
     if (!w->harmonic)
@@ -92,14 +93,14 @@ void fret_work_free(fret_work *w) {
 
 /* ---- a place ----------------------------------------------------------------------------------- */
 
-/* A place, and the contact that ends there by depth and load: y = N = 0 up to the beginning of the gap,
- * infinite beyond its end. */
+/* The radius asked for, and the depth and normal force of the contact that ends there: both 0 up to the
+ * start of the gap, infinite beyond its end. */
 typedef struct place_asked {
     const fret_work *work;
     fret_real r, at[2];
     fret_field part;
     slice end;
-    fret_real depth, p; /* the last pressure that was asked for */
+    fret_real depth, p; /* cache: p(r) of the contact of this depth */
     fret_status st;
 } place_asked;
 
@@ -108,7 +109,7 @@ static void keep(place_asked *a, fret_status st) {
         a->st = st;
 }
 
-/* p of the contact that is so deep. */
+/* p(r) in the contact of a given depth. */
 static fret_real pressure(place_asked *a, fret_real depth) {
     if (depth != a->depth) {
         fret_field_cut(a->work->whole, depth, &a->part);
@@ -118,7 +119,7 @@ static fret_real pressure(place_asked *a, fret_real depth) {
     return a->p;
 }
 
-/* int K dd up to the front at a depth. */
+/* int K dd over fronts up to a depth: depth - u_z(r). */
 static fret_real carried(place_asked *a, fret_real depth) {
     fret_real left;
     fret_field_cut(a->work->whole, depth, &a->part);
@@ -126,7 +127,7 @@ static fret_real carried(place_asked *a, fret_real depth) {
     return left;
 }
 
-/* K of a front at the radius d. */
+/* K: the slip at r per unit of slip of the springs outside a front at the radius d. */
 static fret_real carry(const place_asked *a, fret_real d) {
     const fret_field *f = a->work->whole;
     return d >= a->r ? 0 : d > 0 ? 1 - f->of_depth * fret_kernel_flat(&f->flat, d, a->r) : 1;
@@ -142,7 +143,7 @@ static fret_real tolerance(const place_asked *a) {
 
 /* ---- straight phases --------------------------------------------------------------------------- */
 
-/* Between two depths of the front, or of the edge where all slips. */
+/* Context of a straight phase, between two depths of the front, or of the edge in gross slip. */
 typedef struct straight {
     place_asked *place;
     const slip_phase *phase;
@@ -175,7 +176,7 @@ static fret_real gross_work(place_asked *a, const slip_phase *p) {
                : p->gain * (s.to - s.from) / rise * fret_integral_ends(straight_rate, &s, tolerance(a));
 }
 
-/* The front is within the place, and the edge beyond it, from one time to another. */
+/* The work of the part of a straight phase in which the front lies inside r and the edge outside. */
 static fret_real straight_work(place_asked *a, const slip_phase *p) {
     const coordinate by = p->kind == BY_LOADS ? LOAD : DEPTH;
     const fret_real at = a->at[by], travel = p->front[0] - p->front[1], rise = p->edge[1] - p->edge[0];
@@ -197,17 +198,17 @@ static fret_real straight_work(place_asked *a, const slip_phase *p) {
                           : (s.from - s.to) * fret_integral_ends(straight_rate, &s, tolerance(a)));
 }
 
-/* ---- swinging ---------------------------------------------------------------------------------- */
+/* ---- harmonic loads ---------------------------------------------------------------------------- */
 
-typedef struct swinging {
+typedef struct swing_integral {
     place_asked *place;
     const swung_phase *phase;
-    fret_real lo, hi, end; /* end: the level at hi */
-} swinging;
+    fret_real lo, hi, end; /* end: the level (M or P) of the front at hi */
+} swing_integral;
 
-/* As slip_rate of history/swing.c: from the end, where the level may be 0. */
+/* As slip_rate of history/swing.c: counts from the end, where the level may be 0. */
 static fret_real swung_rate(fret_real t, fret_real rest, void *context) {
-    const swinging *l = context;
+    const swing_integral *l = context;
     const swung_phase *p = l->phase;
     place_asked *a = l->place;
     const fret_normal *n = a->work->normal;
@@ -222,11 +223,11 @@ static fret_real swung_rate(fret_real t, fret_real rest, void *context) {
            way_fall(&p->way, p->which, s) / front.K;
 }
 
-/* While the load goes one way: as long as it is beyond that of the place. */
+/* The work while the normal force is monotone, over the times at which the contact reaches beyond r. */
 static fret_real swung_part(place_asked *a, const swung_phase *p, fret_real lo, fret_real hi) {
     const fret_real N = a->at[LOAD], first = load_of(&p->way, lo), last = load_of(&p->way, hi);
     way loads = p->way;
-    swinging s = {a, p, lo, hi, 0};
+    swing_integral s = {a, p, lo, hi, 0};
     if (!(fmaxl(first, last) > N) || !(hi > lo))
         return 0;
     if (fminl(first, last) < N) {
@@ -241,7 +242,7 @@ static fret_real swung_part(place_asked *a, const swung_phase *p, fret_real lo, 
     return (s.hi - s.lo) * fret_integral_ends(swung_rate, &s, tolerance(a));
 }
 
-/* On an arc the level of `which` where the load is N, within it. */
+/* The level (M or P, by `which`) of an arc where its normal force is N; infinite if N lies off the arc. */
 static fret_real level_at(const arc *p, int which, fret_real N) {
     const fret_real first = (p->first[M] + p->first[P]) / 2, last = (p->last[M] + p->last[P]) / 2;
     way loads;
@@ -266,15 +267,13 @@ static fret_real swung_work(place_asked *a, const swung_phase *p) {
                                               : swung_part(a, p, from, p->hi);
 }
 
-/* ---- all --------------------------------------------------------------------------------------- */
-
-/* The load of a front when its level is that. */
+/* The normal force at which the front's arc has this level. */
 static fret_real front_load(const swung_phase *p, fret_real level) {
     const fret_real here = fmaxl(fminl(level, p->front.last[p->which]), p->front.first[p->which]);
     return (here + fret_swing_other(&p->front, p->which, here)) / 2;
 }
 
-/* Loads, or depths, where a phase begins and ends: of its front and of its edge. */
+/* Normal forces, or depths, of edge and front where a phase begins and ends; returns their number. */
 static size_t ends_of(const fret_work *w, const slip_phase *p, fret_real at[FRET_WORK_ENDS]) {
     if (p->kind != SWUNG) {
         at[0] = p->edge[0];
