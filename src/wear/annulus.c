@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How fast the nodes of a worn ring wear: pressure and slip of the springs, by matrices that are made once.
- * Allocates an annulus. */
+/* The wear rate of each node: pressure and slip of the springs, by matrices that are made once. Allocates and
+ * frees annuli; uses `law` and `number`. */
 #include "wear/annulus.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "law/normal.h"
 #include "number/real.h"
 
-/* Four sums at once. */
+/* The scalar product in four partial sums, which compilers vectorise. */
 static double dot(const double *a, const double *b, size_t n) {
     double s[4] = {0, 0, 0, 0};
     size_t i = 0;
@@ -30,7 +30,7 @@ static double *row_p(const fret_annulus *a, size_t i) {
     return a->to_p + i * (a->count - 1) - i * (i + 1) / 2 + i;
 }
 
-/* The integral of the power m - 1 over the distances a..b, and its moment about their middle. */
+/* int_a^b s^(m-1) ds, and its first moment about the middle of a..b. */
 static fret_real between(fret_real m, fret_real a, fret_real b, fret_real *moment) {
     const fret_real from = a > 0 ? fret_pow(a, m) : 0, to = fret_pow(b, m), whole = (to - from) / m;
     *moment = (b * to - a * from) / (m + 1) - (a + b) / 2 * whole;
@@ -39,8 +39,8 @@ static fret_real between(fret_real m, fret_real a, fret_real b, fret_real *momen
 
 /* ---- making ------------------------------------------------------------------------------------ */
 
-/* Nodes ever closer to where the worn profile is steep, an eighth of them within; evenly from an axis that
- * slips; beyond the ring the closer the nearer to it. */
+/* Places nodes densest at `steep`, an eighth of them inside it, or evenly where steep = 0 (slip reaches the
+ * axis); beyond the ring the spacing grows outwards. */
 static void make_places(fret_annulus *a, fret_real inner, fret_real steep, fret_real outer, fret_real second,
                         fret_real end) {
     const size_t n = a->count, within = steep > inner ? n / 8 : 0;
@@ -55,9 +55,9 @@ static void make_places(fret_annulus *a, fret_real inner, fret_real steep, fret_
     a->x[1] = fminl(a->x[1], second);
 }
 
-/* What a change of f, or w, in each of the cells from..to gives at node i: the integral of f' over its
- * distance in t to the power m - 1. In a cell f' is straight, as in its neighbours' middles (one of its own
- * at an end), about its mean: errors are of second order, else of that of the power, 1 + m. */
+/* Row of node i: factors of the change of f (or w) in the cells from..to, the integral of f' times the
+ * distance in t to the power m - 1. Within a cell f' varies linearly, with the slope between the middles of
+ * its neighbours (its own at an end): errors are of second order instead of 1 + m. */
 static void make_row(const fret_annulus *a, fret_real m, size_t i, size_t from, size_t to, double *row) {
     const fret_real *x = a->x;
     for (size_t j = from; j <= to; j++) {
@@ -134,13 +134,13 @@ fret_status fret_annulus_make(const fret_normal *normal, const fret_wear_held *h
 }
 
 void fret_annulus_free(fret_annulus *a) {
-    free(a->t); /* the first part of all */
+    free(a->t); /* all arrays are one allocation */
     free(a->x);
 }
 
 /* ---- the rate ---------------------------------------------------------------------------------- */
 
-/* What depths add to g. A place that is worn as deep everywhere within has that depth more. */
+/* The change of g by the worn depths h. A uniform depth h[0] adds itself. */
 static void added_profile(fret_annulus *a, const double *h, size_t rows) {
     for (size_t j = 0; j + 1 < a->count; j++)
         a->change[j] = h[j + 1] - h[j];
@@ -160,13 +160,14 @@ static void pressures(const fret_annulus *a, const double *change, size_t last, 
         p[i] = i < last ? a->of_slope * dot(row_p(a, i), change + i, last - i) : 0;
 }
 
-/* How far a spring is pressed at a depth. Those up to `touched` pull too, until they do not; others press
- * where they are reached. */
+/* The compression of spring i at a depth. Springs up to `touched` may also pull; others press where reached.
+ */
 static double pressed(const fret_annulus *a, size_t i, size_t touched, double depth) {
     return i <= touched || a->g[i] < depth ? depth - a->g[i] : 0;
 }
 
-/* The depth of a load: convex, Newton's steps from any other end after finitely many. */
+/* The depth at a normal force, by Newton's method from `depth`: F_N is convex and piecewise linear, so that
+ * it ends after finitely many steps. */
 static double depth_of(const fret_annulus *a, double load, size_t touched, double depth) {
     double step = INFINITY;
     for (int i = 0; i < 100 && fabs(step) > 1e-15 * fabs(depth); i++) {
@@ -182,19 +183,19 @@ static double depth_of(const fret_annulus *a, double load, size_t touched, doubl
     return depth;
 }
 
-/* That which is held counts from the tip as it is. */
+/* The depth under what is held; a held depth counts from the worn tip. */
 static double press_depth(const fret_annulus *a, size_t touched) {
     return a->by_depth ? a->press + a->g[0] : depth_of(a, a->press, touched, a->depth);
 }
 
 const double *fret_annulus_profile(fret_annulus *a, const double *h, double *depth) {
     worn_profile(a, h, a->rows);
-    *depth = press_depth(a, 0) - a->g[0]; /* of a contact that has no past */
+    *depth = press_depth(a, 0) - a->g[0]; /* as if no spring had been touched before */
     return a->g;
 }
 
-/* By how much of its depth the contact has slipped at the turning point, delta_A/(mu eta): of a force until
- * what sticks carries F_N - F_A/mu. */
+/* The depth range that slips at the turning point, delta_A/(mu eta). F_A held: what sticks carries F_N -
+ * F_A/mu. */
 static fret_status find_slipped(const fret_annulus *a, double *slipped) {
     double load = a->inner * a->depth;
     for (size_t i = 0; i < a->count; i++)
@@ -202,12 +203,12 @@ static fret_status find_slipped(const fret_annulus *a, double *slipped) {
     if (!a->by_displacement && a->amplitude > (load + a->within) * (1 + 1e-12))
         return fret_fail(FRET_GROSS_SLIP, "FA", a->amplitude * a->mu, a->mu * (load + a->within));
     *slipped = a->by_displacement ? a->amplitude : a->depth - depth_of(a, load - a->amplitude, 0, a->depth);
-    if (a->inner > 0 || !a->by_displacement) /* what is within sticks */
+    if (a->inner > 0 || !a->by_displacement) /* the springs inside the inner end stick */
         *slipped = fmin(*slipped, a->depth - a->g[0]);
     return fret_ok();
 }
 
-/* The gap f of a profile g, the inverse of added_profile. */
+/* The gap f of a profile g: inverts added_profile row by row. */
 static void gap_of(fret_annulus *a, const double *g, double *f) {
     f[0] = g[0];
     for (size_t i = 1; i < a->count; i++) {
@@ -234,7 +235,7 @@ fret_status fret_annulus_rate(fret_annulus *a, const double *h, double *rate) {
     pressures(a, a->change, last + 1 < a->count ? last + 1 : last, a->p);
     for (size_t i = 0; i < a->count; i++)
         a->g[i] = a->mu * a->eta * fmax(slipped - a->w[i], 0);
-    gap_of(a, a->g, a->slip); /* of the springs' slip, as they tell f of g */
+    gap_of(a, a->g, a->slip); /* the surface slip follows from that of the springs as f from g */
     for (size_t i = 0; i < a->count; i++) {
         rate[i] = 4 * a->mu * a->alpha * a->p[i] * a->slip[i];
         work += a->weight[i] * a->w[i] * fmax(slipped - a->w[i], 0);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blocks of cycles: what wears fast where it is pressed decays far faster than the whole, which Runge-Kutta-
- * Chebyshev's explicit steps of second order bear, in as many stages as the root of that ratio. Their ends
- * are kept: they follow from each other alone, so that what is told between them does not depend on what has
- * been asked before. Allocates. */
+/* Blocks of cycles, by explicit Runge-Kutta-Chebyshev steps of second order: uneven wear decays far faster
+ * than the whole, and the number of stages grows with the root of that ratio only. Each block follows from
+ * the last alone, so that results do not depend on earlier calls. Allocates; uses `law` and `number`. */
 #include "wear/blocks.h"
 
 #include <math.h>
@@ -16,15 +15,16 @@
 #include "number/real.h"
 
 enum { STAGES = 250, RATES = 1000000 };
-static const double LATE = 1e-3, FOLLOW = 0.5; /* of the tolerance; FOLLOW: the cell of c, of the ring */
+static const double LATE = 1e-3,
+                    FOLLOW = 0.5; /* of the tolerance; FOLLOW: node spacing at c, by ring width */
 
-/* y after a block of `cycles` from y0, whose rate is rate0, in `stages` (Sommeijer, Shampine, Verwer 1997).
- * before, rate: room. */
-static fret_status block(fret_annulus *a, size_t n, const double *y0, const double *rate0, double cycles,
-                         int stages, double *y, double *before, double *rate) {
+/* y after a block of `cycles` from y0 with the rate rate0, in `stages` (Sommeijer, Shampine, Verwer 1997);
+ * rate: its rate there. before: a work vector. */
+static fret_status run_block(fret_annulus *a, size_t n, const double *y0, const double *rate0, double cycles,
+                             int stages, double *y, double *before, double *rate) {
     const double w0 = 1 + 2 / 13.0 / stages / stages, root = sqrt(w0 * w0 - 1), arg = stages * log(w0 + root),
                  w1 = sinh(arg) * root * root / (cosh(arg) * stages * root - w0 * sinh(arg));
-    double T[3] = {0, w0, 1}, d[3] = {0, 1, 0}, d2[3] = {0, 0, 0}; /* of the stage, the last, that before */
+    double T[3] = {0, w0, 1}, d[3] = {0, 1, 0}, d2[3] = {0, 0, 0}; /* this stage, the last, the one before */
     double b[3] = {0, 1 / (4 * w0 * w0), 1 / (4 * w0 * w0)};
     memcpy(before, y0, n * sizeof *y);
     for (size_t i = 0; i < n; i++)
@@ -55,20 +55,17 @@ static fret_status block(fret_annulus *a, size_t n, const double *y0, const doub
     return fret_annulus_rate(a, y, rate);
 }
 
-/* How far a block is off, as a part of what it has worn, or of little of all: what is worn off is no longer
- * to be told from what it was. */
+/* The relative error of a block: of the depth that it wears, or of 2 % of the whole depth if that is more. */
 static double error_of(const fret_annulus *a, const double *y0, const double *rate0, const double *y,
-                       const double *rate, double cycles, double *room) {
+                       const double *rate, double cycles, double *scratch) {
     static const double little = 0.02;
     for (size_t i = 0; i < a->count; i++)
-        room[i] = 0.8 * (y0[i] - y[i]) + 0.4 * cycles * (rate0[i] + rate[i]);
-    const double off = fret_annulus_norm(a, room);
+        scratch[i] = 0.8 * (y0[i] - y[i]) + 0.4 * cycles * (rate0[i] + rate[i]);
+    const double off = fret_annulus_norm(a, scratch);
     for (size_t i = 0; i < a->count; i++)
-        room[i] = y[i] - y0[i];
-    return off > 0 ? off / fmax(fret_annulus_norm(a, room), little * fret_annulus_norm(a, y)) : off;
+        scratch[i] = y[i] - y0[i];
+    return off > 0 ? off / fmax(fret_annulus_norm(a, scratch), little * fret_annulus_norm(a, y)) : off;
 }
-
-/* ---- rows -------------------------------------------------------------------------------------- */
 
 static double *depths(const fret_blocks *b, size_t i) {
     return b->row + i * (1 + 2 * (b->ring.count + 1)) + 1;
@@ -101,7 +98,7 @@ double fret_blocks_reached(const fret_wear_run *run) {
 
 /* ---- rings ------------------------------------------------------------------------------------- */
 
-/* The same depths, cubic between nodes, and springs that have been touched, on another ring. */
+/* Copies the last depths, by cubic interpolation, and the touched springs to the nodes of another ring. */
 static fret_status take_over(fret_blocks *to, const fret_blocks *from, fret_stop stop) {
     const fret_annulus *old = &from->ring;
     const double *h = depths(from, from->count - 1);
@@ -151,7 +148,7 @@ fret_status fret_blocks_begin(fret_wear_run *run, fret_real inner, fret_real ste
     return st;
 }
 
-/* Where c grows, the last node that sticks. */
+/* The last node that sticks if c grows (F_N and delta_A held), else 0. */
 static size_t stick_end(const fret_wear_run *run) {
     const fret_annulus *a = &last_of(run)->ring;
     size_t i = 0;
@@ -180,7 +177,7 @@ fret_status fret_blocks_go_on(fret_wear_run *run) {
     const double *h = depths(b, b->count - 1), *rate = rates(b, b->count - 1),
                  done = fret_blocks_reached(run), size = fret_annulus_norm(a, rate);
     double *next = depths(b, b->count), *next_rate = rates(b, b->count);
-    /* a thousand times as many would wear next to nothing */
+    /* even a thousand times as many cycles would wear less than the tolerance */
     run->arrived = !(size > 0) || done * size < LATE * run->tolerance * fret_annulus_norm(a, h);
     if (run->arrived)
         return fret_ok();
@@ -188,7 +185,8 @@ fret_status fret_blocks_go_on(fret_wear_run *run) {
         run->fastest = fret_annulus_stiffness(a, run->stiff);
     const double step = fmin(run->step, 0.65 * (STAGES * STAGES - 1) / run->fastest);
     const int stages = (int)fmax(2, ceil(sqrt(1 + step * run->fastest / 0.65)));
-    const fret_status tried = block(a, run->nodes + 1, h, rate, step, stages, next, run->before, next_rate);
+    const fret_status tried =
+        run_block(a, run->nodes + 1, h, rate, step, stages, next, run->before, next_rate);
     const double off =
         tried.code ? INFINITY : error_of(a, h, rate, next, next_rate, step, run->before) / run->tolerance;
     if (tried.code && !(step > 1e-6 * done))
@@ -221,7 +219,7 @@ fret_annulus *fret_blocks_at(const fret_wear_run *run, double n, double *h) {
     const double *from = depths(b, i), *to = depths(b, end), *rate = rates(b, i), *next = rates(b, end),
                  step = *cycles(b, end) - *cycles(b, i), t = step > 0 ? (n - *cycles(b, i)) / step : 0,
                  rest = 1 - t;
-    for (size_t j = 0; j <= b->ring.count; j++) { /* no less worn than before, nor more than after */
+    for (size_t j = 0; j <= b->ring.count; j++) { /* the clamp keeps depths monotone */
         const double at = rest * rest * ((1 + 2 * t) * from[j] + t * step * rate[j]) +
                           t * t * ((1 + 2 * rest) * to[j] - rest * step * next[j]);
         h[j] = fmin(fmax(at, from[j]), fmax(to[j], from[j]));

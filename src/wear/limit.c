@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What infinitely many cycles leave, in closed form: a contact that ends at the stick radius, and outside of
- * it surfaces that touch and do not press. Allocates its field. */
+/* The limit of wear in closed form: a contact that ends at the stick radius c, and outside of c surfaces that
+ * touch without pressure. Allocates its field; uses `field`, `law` and `number`. */
 #include "wear/limit.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ typedef struct search {
     fret_real held, other; /* F_N and delta_A/(mu eta), or delta_z and F_A/mu */
 } search;
 
-/* F_N less what a contact with the edge y carries when it is pressed E beyond. */
+/* F_N less the force of a contact of depth y that is pressed deeper by `other` without growing. */
 static fret_real short_of_load(fret_real y, fret_real *slope, void *context) {
     const search *s = context;
     const fret_point at = fret_law_at_depth(s->normal, y);
@@ -26,7 +26,7 @@ static fret_real short_of_load(fret_real y, fret_real *slope, void *context) {
     return s->held - at.F - at.K * s->other;
 }
 
-/* By how much less it is dragged than F_A. */
+/* (F_A - F_x)/mu of a contact that sticks up to the depth y and is dragged by mu eta (delta_z - y). */
 static fret_real short_of_drag(fret_real y, fret_real *slope, void *context) {
     const search *s = context;
     (void)slope;
@@ -37,7 +37,7 @@ static fret_status gross(const fret_wear_held *held, fret_real most) {
     return fret_fail(FRET_GROSS_SLIP, held->by_displacement ? "dA" : "FA", held->amplitude, (double)most);
 }
 
-/* The depth y at which what sticks ends, and delta_z. */
+/* Finds the depth y at the stick radius, and delta_z. */
 static fret_status find_stuck(const fret_wear_held *held, fret_wear_end *e) {
     const fret_normal *n = e->normal;
     const fret_real eta = fret_normal_foundation(n)->eta, mu = held->mu,
@@ -49,7 +49,7 @@ static fret_status find_stuck(const fret_wear_held *held, fret_wear_end *e) {
             return gross(held, mu * eta * e->depth);
     } else if (held->by_displacement) {
         const fret_real most = fret_law_depth(n, s.held), K = fret_law_at_depth(n, most * 1e-18L).K;
-        if (!(drag < most)) /* nor later: the tip wears like the rest */
+        if (!(drag < most)) /* no stick later either: the tip wears like the rest */
             return gross(held, mu * eta * most);
         if (!(short_of_load(most * 1e-18L, NULL, &s) > 0))
             return gross(held, mu * eta * s.held / K);
@@ -71,7 +71,7 @@ static fret_status find_stuck(const fret_wear_held *held, fret_wear_end *e) {
 
 /* ---- the profile ------------------------------------------------------------------------------- */
 
-/* f - f_0 at r > c: the gap to a contact that ends at c, pressed deeper as a flat punch would be. */
+/* f - f_0 at r > c: the gap outside a contact that ends at c, pressed deeper like a flat punch. */
 static fret_status worn(const fret_wear_end *e, fret_real r, fret_real *h) {
     const fret_field *f = e->field;
     fret_real left, gap;

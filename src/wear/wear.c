@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What fretting leaves of a gap: runs, the worn gap, and what is asked of it. Allocates. */
+/* Wear by fretting: runs, the worn gap, and getters. Allocates and frees; uses `law` and `number`. */
 #include "fret/wear.h"
 
 #include <math.h>
@@ -15,10 +15,10 @@
 
 struct fret_wear {
     const fret_normal *normal; /* borrowed */
-    fret_normal *law;          /* of the worn gap; NULL: nothing has worn */
+    fret_normal *law;          /* law of the worn gap; NULL: nothing has worn */
     struct fret_worn worn;     /* the gap */
-    fret_real from, to, outer; /* what has worn, and where the nodes end */
-    fret_wear_end end;         /* of the limit: it has a field */
+    fret_real from, to, outer; /* radii of the worn ring, and of the last node */
+    fret_wear_end end;         /* of the limit only: then it has a field */
     double cycles;
     fret_real work, volume;
 };
@@ -70,18 +70,18 @@ fret_real fret_wear_work(const fret_wear *w) {
 
 /* ---- the worn gap ------------------------------------------------------------------------------ */
 
-static const fret_real TOLD = 1e-4L; /* g, of the depth */
+static const fret_real G_ERROR = 1e-4L; /* error of g, relative to the depth */
 
-/* The rows of a worn gap: of the ring, and beyond it. Where nothing presses any more g is level, and falls by
- * what nodes do not tell: it is lifted to what it has been. Nor do they tell whether it is above or below the
- * depth: it touches, lifted by no more than it falls short. least: it is as much at least. */
+/* The rows of a worn gap, in the ring and beyond. Where pressure has vanished g is level, and errors of the
+ * nodes may make it fall: it never falls below its last value. Whether such a place is above or below the
+ * depth is within the errors too: it counts as touching. least: a lower bound of g. */
 static fret_status give_rows(const fret_normal *n, fret_annulus *a, const double *depth, fret_real least,
                              struct fret_worn *out) {
     double pressed;
     const double *profile = fret_annulus_profile(a, depth, &pressed);
     const fret_real inner = a->x[0], at_inner = fret_normal_profile(n, inner),
                     rise = fret_normal_profile(n, a->x[a->count - 1]),
-                    touching = (1 - TOLD / 10) * pressed - 2e-9L * rise;
+                    touching = (1 - G_ERROR / 10) * pressed - 2e-9L * rise;
     double *g = calloc(2 * a->rows, sizeof *g);
     if (!g)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
@@ -93,7 +93,7 @@ static fret_status give_rows(const fret_normal *n, fret_annulus *a, const double
                               .tip = depth[0]};
     for (size_t i = 1; i < a->rows; i++) {
         const fret_real up = profile[i] - (fret_real)depth[0],
-                        told = up > touching && up < (1 + TOLD) * pressed ? touching : up;
+                        told = up > touching && up < (1 + G_ERROR) * pressed ? touching : up;
         g[i] = fmax(g[i - 1], (double)fmaxl(fmaxl(told, least), out->lift * (fret_real)a->t[i]));
         h[i] = (i < a->count ? depth[i] : 0) - depth[0];
     }
@@ -104,7 +104,7 @@ static fret_status give_rows(const fret_normal *n, fret_annulus *a, const double
     return st;
 }
 
-/* Depths at the nodes of a ring. */
+/* Makes the result from the depths h at the nodes of a ring. */
 static fret_status make_worn(const fret_normal *n, fret_annulus *a, const double *h, fret_real least,
                              fret_wear **out) {
     fret_wear *w = calloc(1, sizeof *w);
@@ -144,11 +144,11 @@ static fret_status check_held(const fret_normal *n, const fret_wear_held *held) 
     return st;
 }
 
-/* A ring has some width, where nothing wears too. */
+/* Least relative width of a ring, even where nothing wears. */
 static const fret_real LEAST = 1e-6L;
 
-/* How far the first ring reaches: from where the unworn contact or the limit sticks, to where the limit ends,
- * or a quarter beyond what slips at first. */
+/* The first ring: inside, from the stick radius of the unworn contact or of the limit; outside, to the rim of
+ * the limit or a quarter of the slip annulus (in r^2) beyond a; each the smaller. */
 static fret_status first_ring(const fret_normal *n, const fret_wear_held *held, fret_real *inner,
                               fret_real *outer) {
     fret_pressed contact = {.normal = n, .mu = held->mu};
@@ -174,7 +174,7 @@ static fret_status first_ring(const fret_normal *n, const fret_wear_held *held, 
     return fret_ok();
 }
 
-/* Their errors are of second order; a run and its first cycle take as many, whatever k is. */
+/* The number of nodes for a tolerance: errors are of second order. */
 static size_t nodes_of(double tolerance) {
     return (size_t)fmin(fmax(180 * sqrt(1e-3 / tolerance), 40), 1000);
 }
@@ -242,7 +242,7 @@ fret_status fret_wear_after(fret_wear_run *run, double cycles, fret_wear_told to
 
 fret_status fret_wear_limit(const fret_normal *n, const fret_wear_held *held, fret_wear **out) {
     enum { NODES = 240 };
-    static const fret_real LEAP = 1e-9L; /* of c, where g leaps */
+    static const fret_real LEAP = 1e-9L; /* relative: g jumps within this distance of c */
     fret_wear_end e = {.normal = NULL};
     fret_annulus a = {.t = NULL};
     double h[NODES] = {0};
