@@ -76,7 +76,7 @@ fret_status fret_field_peak(const fret_field *f, fret_real *r, fret_real *p) {
     return k.st;
 }
 
-/* ---- presses ------------------------------------------------------------------------------------ */
+/* ---- presses ----------------------------------------------------------------------------------- */
 
 typedef fret_status pressure_of(const fret_normal *, const fret_press *, fret_real *p);
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows from a scene, made ready on demand: the cheapest model answers that is exact. */
+/* The results of a scene, computed on demand by the cheapest exact model. Uses the library. */
 #include <math.h>
 
 #include "scene/scene.h"
 
-static const fret_status fine = {FRET_OK, NULL, 0, 0};
+static const fret_status status_ok = {FRET_OK, NULL, 0, 0};
 
 /* ---- the normal contact now -------------------------------------------------------------------- */
 
@@ -84,18 +84,18 @@ bool scene_widest(scene *s, double *radius, calc_error *error) {
     return !error->raised;
 }
 
-/* Another model than the memory diagram steps, as was asked for. */
+/* Was another model than the memory diagram chosen to step? */
 static bool is_springs(const scene *s) {
     return s->model == MODEL_SPRINGS && !s->now;
 }
 
-/* At all levels that the load wants: they look at the load beside them. */
+/* Runs the springs at all levels that the load needs. */
 static bool springs_state(scene *s, calc_error *error) {
     load_view load;
     runner run[LEVELS];
     double radius;
     unsigned made = 0;
-    fret_status st = fine;
+    fret_status st = status_ok;
     if (!scene_load_of(s, &load, error) || !scene_widest(s, &radius, error))
         return false;
     const unsigned levels = s->answers.reach.swings ? LEVELS : 1;
@@ -115,7 +115,7 @@ static bool springs_state(scene *s, calc_error *error) {
 bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     answers *a = &s->answers;
     const bool springs = is_springs(s);
-    const unsigned used = s->used; /* what only checks the load program does not answer */
+    const unsigned used = s->used; /* the run that checks the program does not count as an answer */
     if (!a->state_ready) {
         const runner *run = NULL;
         if (!load_run(s, &run, error))
@@ -180,7 +180,7 @@ static const load_reach *closed_reach(scene *s) {
     const load_reach *reach;
     const bool allowed = (s->model == MODEL_AUTO || s->model == MODEL_CLOSED) && !s->now && s->end.steps > 0;
     const bool closed = allowed && scene_reach(s, &reach, error_quiet());
-    return closed && !reach->normal_varies && !reach->rig ? reach : NULL; /* at the rig a root is sought */
+    return closed && !reach->normal_varies && !reach->rig ? reach : NULL; /* a rig needs a root */
 }
 
 bool scene_closed_state(scene *s) {
@@ -205,7 +205,7 @@ bool scene_first_loading(scene *s, fret_loading *out, calc_error *error) {
     const bool ok = scene_loading(s, reach->by == BY_FORCE, reach->end, out, error);
     if (!ok && error->kind == ERROR_STATUS && error->status.code == FRET_GROSS_SLIP &&
         reach->last_cycle + 1 == s->end.steps)
-        error->status.quantity = "FA"; /* as a cycle that is run says it */
+        error->status.quantity = "FA"; /* as the error of a cycle that is run */
     return ok;
 }
 
@@ -284,13 +284,13 @@ bool trace_begin(scene_trace *t, scene *s, watch w, bool limit, calc_error *erro
     if (!scene_load_of(s, &t->load, error))
         return false;
     const bool swings = s->answers.reach.swings, may_be_sine = swings && limit && load_takes_sine(&t->load);
-    /* a load that cannot be is refused before anything of it is seen, and none is taken in two ways */
+    /* an impossible load is refused before its first look; sine or chords are for the whole load */
     if (!(s->sound && !may_be_sine) && (!load_run(s, &unused, error) || !scene_load_of(s, &t->load, error)))
         return false;
     s->used |= USED(MODEL_MEMORY);
     const bool sine = may_be_sine && s->answers.run[0].engine.sine, chords = swings && !sine;
     const unsigned levels = chords && limit ? LEVELS : 1;
-    fret_status st = fine;
+    fret_status st = status_ok;
     while (t->levels < levels && !st.code) {
         runner *r = &t->run[t->levels];
         *r = (runner){.load = &t->load, .watch = w, .level = chords && !limit ? LEVELS - 1 : t->levels};

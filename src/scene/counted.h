@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What several owners share: gap tables, definitions, load programs. Each begins with a `counted`; NULL is
- * none. */
+/* Reference counts of shared objects: gap tables, definitions, load programs. Such an object begins with a
+ * `counted`; all functions accept NULL. Touches nothing else. */
 #ifndef SCENE_COUNTED_H
 #define SCENE_COUNTED_H
 
@@ -9,7 +9,7 @@
 typedef struct counted counted;
 struct counted {
     size_t users;
-    void (*end)(counted *self); /* frees it */
+    void (*end)(counted *self); /* frees the object */
 };
 
 static inline void *counted_hold(void *of) {

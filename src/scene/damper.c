@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A contact as a friction damper: what its loop of an amplitude is to the first harmonic, at constant F_N. */
+/* A contact as a friction damper: stiffnesses of its loop at constant F_N. Uses the library, `number`. */
 #include "scene/functions.h"
 
 #include <math.h>
@@ -7,14 +7,14 @@
 #include "number/integral.h"
 #include "number/real.h"
 
-/* One end of a closed loop. */
+/* The turning point of a closed loop. */
 typedef struct peak {
     fret_pressed contact;
-    double dxA;             /* amplitude, as far as a double goes */
-    fret_real Fx, dx, loss; /* there; of the cycle */
+    double dxA;             /* amplitude dx, rounded to double */
+    fret_real Fx, dx, loss; /* F_x and dx there; loss of the cycle */
 } peak;
 
-/* By amplitude of force, or of displacement: then also through gross slip. */
+/* The loop of a force amplitude, or of a displacement amplitude, which may reach gross slip. */
 static bool peak_of(scene *s, value amplitude, peak *out, calc_error *error) {
     const bool by_force = dim_equal(amplitude.d, DIM_FORCE);
     const double v = (double)amplitude.v;
@@ -29,7 +29,7 @@ static bool peak_of(scene *s, value amplitude, peak *out, calc_error *error) {
     return true;
 }
 
-/* Without slip the contact is a spring. */
+/* The stiffness of the contact without slip. */
 static fret_real stuck(const fret_pressed *contact) {
     return fret_normal_stiffness(contact->normal, contact->press.a) /
            fret_normal_foundation(contact->normal)->eta;
@@ -41,7 +41,7 @@ static fret_real stuck(const fret_pressed *contact) {
  * int_0^(pi/2) F_1 cos(2 phi) d phi. */
 typedef struct branch {
     const peak *of;
-    fret_real end; /* phi of 1; that of 0 is 0 */
+    fret_real end; /* phi at t = 1; phi = 0 at t = 0 */
     fret_status failed;
 } branch;
 
@@ -49,13 +49,13 @@ static fret_real branch_at(fret_real t, fret_real rest, void *context) {
     branch *b = context;
     const fret_real sine = t < rest ? sinl(b->end * t) : cosl((FRET_PI / 2 - b->end) + b->end * rest);
     fret_loading first = {0, 0, 0, 0};
-    if (!b->failed.code) /* as far as dxA it does, if it did there, unless it is interrupted */
+    if (!b->failed.code) /* after success at dxA only an interruption fails */
         b->failed = fret_loading_by_displacement(&b->of->contact, (double)(b->of->dxA * sine * sine), &first);
     return first.Fx * (1 - 2 * sine * sine);
 }
 
-/* First loading is singular in its slope where it slides: an end of the interval, for the rule to bear. The
- * law of a gap without a formula may turn sharply within. */
+/* K' by quadrature over phi up to gross slip, where the slope of first loading is singular, plus the flat
+ * part in closed form. Within, the law of a table may turn sharply. */
 static bool harmonic_stiffness(const peak *at, long double *out, calc_error *error) {
     peak p = *at;
     branch b = {.of = &p, .end = FRET_PI / 2};

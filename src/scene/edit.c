@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Changes of a scene that hold whole or not at all: of its inputs, and of its load. It asks what follows from
- * the scene; nothing of that asks it. */
+/* Changes of a scene that succeed completely or leave it as it was: of its inputs, and of its load. Uses
+ * answers; no answer uses this file. */
 #include "scene/scene.h"
 
 static bool complete(const scene *s) {
@@ -9,7 +9,7 @@ static bool complete(const scene *s) {
            (in->geometry || !in->bindings) && (in->v[IN_K] == 0 || in->set[IN_C0]);
 }
 
-/* Does all that the inputs and the program claim hold? */
+/* Are all inputs and the program valid together? */
 static bool all_holds(scene *s, calc_error *error) {
     const fret_normal *normal;
     const fret_contact *contact;

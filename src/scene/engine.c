@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of models and how they step. */
+/* The table of models, and how they step. Uses the library and `number`. */
 #include "scene/engine.h"
 
 #include <float.h>
@@ -38,7 +38,7 @@ void engine_end(engine *e) {
     e->springs = NULL;
 }
 
-/* A ramp by force that changes F_N is no straight line for the springs: 64 parts, an error of 1e-8. */
+/* For springs a ramp by force that changes F_N is not straight: 64 parts have an error of 1e-8. */
 static fret_status step_in_parts(engine *e, const fret_step *step, unsigned parts) {
     const bool ramp = step->normal_by != FRET_KEEP_NORMAL && step->tangential_by == FRET_TO_FX;
     if (e->springs)
@@ -100,7 +100,7 @@ fret_status engine_copy(engine *to, const engine *from) {
 
 /* ---- at the rig -------------------------------------------------------------------------------- */
 
-/* A displacement at the rig that is sought, tried on copies of what goes there. */
+/* Context of the search for a displacement at the rig, tried on copies of the engine. */
 typedef struct rig_search {
     const engine *from;
     engine tried;
@@ -109,7 +109,7 @@ typedef struct rig_search {
     fret_status st;
 } rig_search;
 
-/* delta_x + F_x/K - d behind a step to dx. That goes to a double: the rest is linear. */
+/* delta_x + F_x/K - d after a step to dx. The step goes to dx rounded to double; the rest is linear. */
 static fret_real off_at_rig(fret_real dx, fret_real *slope, void *context) {
     rig_search *s = context;
     fret_state now = {.Fx = 0};
@@ -119,15 +119,15 @@ static fret_real off_at_rig(fret_real dx, fret_real *slope, void *context) {
     if (!s->st.code)
         s->st = engine_step(&s->tried, &s->step);
     if (s->st.code)
-        return 0; /* the search ends */
+        return 0; /* ends the search */
     engine_state(&s->tried, &now);
-    if (s->step.normal_by == FRET_KEEP_NORMAL) /* else kt is not what F_x grows by */
+    if (s->step.normal_by == FRET_KEEP_NORMAL) /* with a normal change kt is not dF_x/ddx */
         *slope = 1 + now.kt / s->K;
     return dx - s->d + (now.Fx + now.kt * (dx - (double)dx)) / s->K;
 }
 
-/* F_x grows with the delta_x that a straight step ends at. From d itself it falls on the way to the root,
- * which so lies within F_x/K of d; and at constant F_N on the side of d. */
+/* F_x grows with the end delta_x of a straight step: the root lies within F_x/K of d and, at constant F_N, on
+ * the side of the present delta_x to which the rig moves. */
 fret_status engine_at_rig(const engine *e, double K_rig, fret_step *step) {
     rig_search s = {.from = e, .step = *step, .K = K_rig, .d = step->tangential};
     const bool keeps = step->normal_by == FRET_KEEP_NORMAL;
@@ -137,7 +137,7 @@ fret_status engine_at_rig(const engine *e, double K_rig, fret_step *step) {
     const fret_real way = s.d - now.dx - now.Fx / s.K,
                     digits = fabsl(now.dx) * (1 + now.kt / s.K) + fabsl(now.Fx) / s.K;
     if (keeps && fabsl(way) <= 2 * (fret_real)DBL_EPSILON * digits) {
-        step->tangential_by = FRET_KEEP_DX; /* rounding must not make it a reversal */
+        step->tangential_by = FRET_KEEP_DX; /* rounding must not cause a reversal */
         return s.st;
     }
     const fret_real off = off_at_rig(s.d, &slope, &s),

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Functions of a place: the material, the shape, local fields and the one-dimensional model, in the state
- * now. */
+/* Functions of a place in the present state: material, shape, fields, 1D model. Uses `number` too. */
 #include <float.h>
 #include <math.h>
 
 #include "number/real.h"
 #include "scene/functions.h"
 
-/* ---- material and shape: each without the other ------------------------------------------------- */
+/* ---- material and shape: each without the other ------------------------------------------------ */
 
 bool call_E(scene *s, value z, long double *out, calc_error *error) {
     long double E0 = 0, c0 = 1, k = 0;
@@ -23,7 +22,7 @@ bool call_E(scene *s, value z, long double *out, calc_error *error) {
     return true;
 }
 
-/* Of Nw cycles; of none 0. */
+/* The depth worn by Nw cycles at r; 0 without wear. */
 static bool worn_depth(scene *s, long double r, long double *out, calc_error *error) {
     const fret_wear *wear;
     *out = 0;
@@ -54,8 +53,7 @@ bool call_g(scene *s, value x, long double *out, calc_error *error) {
     if (!isnan(*out))
         return true;
     const double k = (double)fret_normal_foundation(normal)->k;
-    return calc_status(error,
-                       fret_gap_g(fret_normal_gap(normal), k, x.v, out, NULL)); /* beyond what it carries */
+    return calc_status(error, fret_gap_g(fret_normal_gap(normal), k, x.v, out, NULL)); /* outside the law */
 }
 
 /* ---- local fields ------------------------------------------------------------------------------ */
@@ -96,7 +94,7 @@ bool call_dhwear(scene *s, value r, long double *out, calc_error *error) {
     return true;
 }
 
-/* The state of a scene with friction. */
+/* The contact after the load, in a scene with friction. */
 static bool tangential_state(scene *s, const fret_contact **out, calc_error *error) {
     double mu;
     s->used |= USED(MODEL_MEMORY);
@@ -105,8 +103,8 @@ static bool tangential_state(scene *s, const fret_contact **out, calc_error *err
 
 /* ---- the one-dimensional model ----------------------------------------------------------------- */
 
-/* The foundation is the same on both sides of the centre. */
-static value side(value x) {
+/* |x|: the foundation is symmetric. */
+static value absolute(value x) {
     return (value){fabsl(x.v), x.d};
 }
 
@@ -119,7 +117,7 @@ bool call_w1D(scene *s, value x, long double *out, calc_error *error) {
     *out = 0;
     if (fabsl(x.v) >= a)
         return true;
-    const bool ok = call_g(s, side(x), &g, error);
+    const bool ok = call_g(s, absolute(x), &g, error);
     *out = dz - g;
     return ok;
 }
@@ -128,7 +126,7 @@ bool call_u1D(scene *s, value x, long double *out, calc_error *error) {
     const fret_contact *now;
     if (!tangential_state(s, &now, error))
         return false;
-    *out = fret_contact_displacement(now, fabsl(x.v)); /* the foundation is the same on both sides */
+    *out = fret_contact_displacement(now, fabsl(x.v)); /* symmetric */
     return true;
 }
 
@@ -142,12 +140,12 @@ bool call_s1D(scene *s, value x, long double *out, calc_error *error) {
         return calc_fail(error, 0, 0, "s1D(x) is defined within the contact, where |x| < a: try s1D(0.99*a)");
     fret_contact_forces(at, &now);
     *out = now.dx - fret_contact_displacement(at, fabsl(x.v));
-    if (fabsl(*out) <= 8 * LDBL_EPSILON * fabsl(now.dx)) /* it sticks: sums in another order */
+    if (fabsl(*out) <= 8 * LDBL_EPSILON * fabsl(now.dx)) /* it sticks: the sums round differently */
         *out = 0;
     return true;
 }
 
-/* c_0 (x/c0)^k */
+/* cN0 (x/c0)^k, or cT0 (x/c0)^k */
 bool modulus_at(scene *s, long double x, bool tangential, long double *out, calc_error *error) {
     fret_foundation f;
     if (!foundation_of(s, !tangential, &f, error))
@@ -220,8 +218,8 @@ static bool mises_at(scene *s, long double x, long double z, long double *out) {
     return true;
 }
 
-/* The largest mises in the plane of F_x, of one body: infinite where the pressure is, else the best of a grid
- * of places, uphill from there. */
+/* The largest von Mises stress in the plane of F_x in one body: infinite where the pressure is, else the best
+ * point of a grid, improved by a pattern search. */
 bool scene_hardest(scene *s, long double a, int side, long double at[2], long double *most) {
     enum { ACROSS = 12, DEEP = 12 };
     static const long double width = 1.2L;

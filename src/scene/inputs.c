@@ -230,9 +230,9 @@ void inputs_unset(inputs *in, input_set set) {
         }
 }
 
-/* What does not go with an input that is given: A and h (r/r0)^n are two ways to say the same, as moduli of a
- * body are, and one of the second makes it a body of its own. */
-static void leave_others(inputs *in, input which) {
+/* Unsets the inputs that `which` replaces: A and h (r/r0)^n are alternatives, as are the moduli of a body; an
+ * input of the second body makes it a separate body. */
+static void unset_replaced(inputs *in, input which) {
     const input_set bit = INPUT_BIT(which), second = INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2);
     if (bit & second && in->second != SECOND_GIVEN) {
         inputs_unset(in, second & ~bit);
@@ -253,14 +253,14 @@ void inputs_bind(inputs *in, input which, counted *to) {
     if (which == IN_RADIUS)
         in->radii[0] = in->radii[1] = 0;
     if (to)
-        leave_others(in, which);
+        unset_replaced(in, which);
 }
 
 void inputs_put(inputs *in, input which, double v) {
     inputs_bind(in, which, NULL);
     in->v[which] = v;
     in->set[which] = true;
-    leave_others(in, which);
+    unset_replaced(in, which);
 }
 
 void inputs_geometry(inputs *in, const geometry *g, const fret_gap *terms, shared_table *table) {
@@ -294,8 +294,8 @@ static bool get_ratio(const inputs *in, bool second, long double *nu, calc_error
     return inputs_get(in, second ? IN_NU_2 : IN_NU, nu, error);
 }
 
-/* E0 of a body: given as it is, or by G0; of a first one by what Estar leaves of 1/Estar = sum (1-nu^2)/E0
- * for it, and of a second one as that of the first. */
+/* E0 of a body, from E0, G0 or, for the first body, 1/Estar = sum (1-nu^2)/E0. A second body without a
+ * modulus has that of the first. */
 static bool get_modulus(const inputs *in, bool second, long double *E0, calc_error *error) {
     const input E = second ? IN_E0_2 : IN_E0, G = second ? IN_G0_2 : IN_G0;
     long double nu = 0, nu_2 = 0, E_2 = INFINITY;
@@ -327,7 +327,7 @@ static bool get_modulus(const inputs *in, bool second, long double *E0, calc_err
            calc_fail(error, 0, 0, "Estar must be below E0_2/(1-nu_2^2), that of the second body alone");
 }
 
-/* 1/Estar of both. */
+/* Estar of both bodies. */
 static bool get_Estar(const inputs *in, long double *out, calc_error *error) {
     long double E0 = 0, nu = 0, sum = 0;
     if (in->v[IN_K] != 0)
@@ -344,14 +344,14 @@ static bool get_Estar(const inputs *in, long double *out, calc_error *error) {
 
 static fret_power power_of(const inputs *in) {
     const double n = in->geometry->n;
-    /* R and slope enter as h and r0 without a rounding: r^2/(2R) = (R/2) (r/R)^2 */
+    /* R and slope enter as h and r0 without rounding: r^2/(2R) = (R/2) (r/R)^2 */
     return n == 1          ? (fret_power){1, in->v[IN_SLOPE], 1}
            : n == 2        ? (fret_power){2, in->v[IN_RADIUS] / 2, in->v[IN_RADIUS]}
            : in->set[IN_A] ? (fret_power){in->v[IN_N], in->v[IN_A], 1}
                            : (fret_power){in->v[IN_N], in->v[IN_H], in->v[IN_R0]};
 }
 
-/* Of the geometry in use. */
+/* The gap of the geometry in use. */
 static fret_gap gap_of(const inputs *in) {
     const geometry *g = in->geometry;
     if (g->kind == FRET_GAP_SUM)
@@ -439,7 +439,7 @@ static bool get_double(const inputs *in, input which, double *out, calc_error *e
 
 bool inputs_material(const inputs *in, double k, fret_material *m, calc_error *error) {
     *m = (fret_material){.k = k, .c0 = 1};
-    if (in->set[IN_ESTAR] && !inputs_know_nu(in) && in->v[IN_K] == 0) { /* two bodies of nu = 0 press alike */
+    if (in->set[IN_ESTAR] && !inputs_know_nu(in) && in->v[IN_K] == 0) { /* as two bodies of nu = 0 */
         m->body[0] = m->body[1] = (fret_body){2 * in->v[IN_ESTAR], 0, false};
         return true;
     }

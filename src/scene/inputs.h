@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inputs of a scene as a plain value: material, geometry, friction, and the amplitudes of the load that can
- * be changed afterwards. Knows ranges, no names; touches nothing else of a scene. */
+/* The inputs of a scene as a plain value: material, geometry, friction, and the amplitudes of the load that
+ * can be changed afterwards. Knows ranges, no names; touches nothing else of a scene. */
 #ifndef SCENE_INPUTS_H
 #define SCENE_INPUTS_H
 
@@ -20,17 +20,17 @@ typedef enum input {
     IN_G0_2,
     IN_ESTAR,
     IN_MU,
-    IN_FN, /* these five: of the press, one of them is set */
+    IN_FN, /* these five: what the press imposes; one of them is set */
     IN_DZ,
     IN_CONTACT,
     IN_P0,
     IN_PMEAN,
-    IN_FA,  /* these five: of the last cycle */
+    IN_FA,  /* FA to PHASE: of the last cycle */
     IN_DXA, /* one of FA, dxA and drigA is set */
     IN_DRIGA,
     IN_FNA,
     IN_PHASE,
-    IN_NW,    /* cycles of wear, of the last cycle too */
+    IN_NW,    /* number of times that the last cycle wears the gap */
     IN_K_RIG, /* these three: of the rig */
     IN_D0,
     IN_F0,
@@ -48,7 +48,7 @@ typedef enum input {
     INPUTS
 } input;
 
-/* The inputs as a set, for tables that say what depends on what. */
+/* A set of inputs, as bits; for tables of dependences. */
 typedef unsigned long long input_set;
 #define INPUT_BIT(in) ((input_set)1 << (in))
 #define INPUT_MODULUS (INPUT_BIT(IN_E0) | INPUT_BIT(IN_G0) | INPUT_BIT(IN_ESTAR)) /* one of them is set */
@@ -62,20 +62,21 @@ typedef unsigned long long input_set;
 #define INPUT_AMPLITUDE (INPUT_BIT(IN_FA) | INPUT_BIT(IN_DXA) | INPUT_BIT(IN_DRIGA))
 #define INPUT_CYCLE (INPUT_AMPLITUDE | INPUT_BIT(IN_FNA) | INPUT_BIT(IN_PHASE) | INPUT_BIT(IN_NW))
 #define INPUT_RIG (INPUT_BIT(IN_K_RIG) | INPUT_BIT(IN_D0) | INPUT_BIT(IN_F0))
-#define INPUT_STRESS (INPUT_BIT(IN_YIELD) | INPUT_BIT(IN_YIELD_2) | INPUT_BIT(IN_SB)) /* no contact's */
+#define INPUT_STRESS                                                                                         \
+    (INPUT_BIT(IN_YIELD) | INPUT_BIT(IN_YIELD_2) | INPUT_BIT(IN_SB)) /* which no contact depends on */
 
 typedef struct inputs inputs;
 
-/* One row a geometry: its name, the kind of gap it makes and the parameters it takes. */
+/* A row of the table of geometries: its name, the kind of gap it makes and the parameters it takes. */
 typedef struct geometry {
     const char *name;
     fret_gap_kind kind;
-    double n; /* exponent of a power whose name fixes it, else 0 */
+    double n; /* exponent that the name implies, else 0 */
     input_set required, optional;
-    const char *takes; /* behind its name, as rows of commands do */
+    const char *takes; /* grammar of its arguments, as in rows of commands */
     const char *meaning;
     const char *keywords; /* other words to find it by */
-    const char *example;  /* of `help`: a transcript, indented by four */
+    const char *example;  /* example for `help`: a transcript, indented by four */
 } geometry;
 
 const geometry *geometry_row(size_t i); /* NULL after the last */
@@ -85,81 +86,79 @@ typedef enum second_body { SECOND_SAME, SECOND_RIGID, SECOND_GIVEN } second_body
 
 enum { CHOSEN = 256 };
 
-/* How the rows of a file become a gap. */
+/* How the rows of a file are made into a gap. */
 typedef struct smoothing {
     enum { SMOOTH_NOT, SMOOTH_FREELY, SMOOTH_PIECES, SMOOTH_WITHIN } by;
     size_t pieces;
-    double within;        /* rms [m] */
+    double within;        /* rms deviation [m] */
     bool height;          /* the rows are heights: f = -z */
-    char columns[CHOSEN]; /* as they were chosen, ` using ...`; empty: by name */
+    char columns[CHOSEN]; /* the text ` using ...`; empty: columns found by name */
 } smoothing;
 
-/* A gap table: scenes share it, and an old one can come back. */
+/* A gap table, reference-counted: scenes and undo share it. */
 typedef struct shared_table {
     counted base;
     struct fret_table *table;
     smoothing smoothing;
-    char name[]; /* of its file */
+    char name[]; /* name of its file */
 } shared_table;
 
 struct inputs {
     double v[INPUTS];
     bool set[INPUTS];
-    counted *bound[INPUTS]; /* NAME := EXPR, a definition (names.h): v follows it */
-    input_set bindings;     /* which are bound */
+    counted *bound[INPUTS]; /* the live definition (names.h) that v follows, or NULL */
+    input_set bindings;     /* the inputs that are bound */
     second_body second;
     const geometry *geometry;
-    double radii[2];     /* R1 and R2 [m], of which R has been made; 0: R was given */
-    fret_gap sum;        /* terms of `geometry sum` */
-    shared_table *table; /* of `geometry file` */
+    double radii[2];     /* R1 and R2 [m] that give R; 0: R was given */
+    fret_gap sum;        /* the terms of `geometry sum` */
+    shared_table *table; /* the table of `geometry file` */
 };
 
-/* A second copy; both are to be dropped. */
+/* Copies inputs, and releases them; every copy must be dropped. */
 void inputs_copy(inputs *to, const inputs *from);
 void inputs_drop(inputs *in);
 
-/* Are these inputs the same, the bodies and the shape, and no definitions among them? */
+/* Are the inputs `which` equal, with the bodies and the shape, and none of them bound? */
 bool inputs_same(const inputs *a, const inputs *b, input_set which);
 
-/* Between what an input lies, whatever the rest; may be infinite. Of these ends only nu = 1/2, and 0 of mu,
- * FNA and Nw belong. */
+/* The range of an input, maybe infinite. Of its ends only nu = 1/2 and 0 of mu, FNA and Nw belong to it. */
 void input_range(input in, double *lo, double *hi);
-/* Is the value in the range of the input, whatever the rest? */
+/* Is the value in the range of the input? */
 fret_status input_status(input in, double v);
 bool input_check(input in, double v, calc_error *error);
 
-/* Is one of them set? */
+/* Is any input of the set given or bound? */
 bool inputs_any(const inputs *in, input_set set);
-/* Is Poisson's ratio given? Where Estar stands alone pressing needs none. */
+/* Is Poisson's ratio given? With Estar alone a press does not need it. */
 bool inputs_know_nu(const inputs *in);
 
-/* Puts a value in and unsets what it replaces: A and h, r0; another modulus; a second body that was the same.
- * Unbinds. */
+/* Sets a value, unbinds, and unsets what the value replaces: A or h, r0; a modulus; a second body. */
 void inputs_put(inputs *in, input which, double v);
 void inputs_unset(inputs *in, input_set set);
-/* Ends a binding, the value stays; takes over `to` (NULL: none). */
+/* Replaces a binding by `to` (owned from then on; NULL: none); the value stays. */
 void inputs_bind(inputs *in, input which, counted *to);
-/* Geometry and its parameters, table and terms as given. Takes over the table. */
+/* Sets the geometry, its terms and its table (owned from then on), and unsets its parameters. */
 void inputs_geometry(inputs *in, const geometry *g, const fret_gap *sum, shared_table *table);
 
-/* Is it one power of r? */
+/* Is the gap a single power of r? */
 static inline bool geometry_is_power(const geometry *g) {
     return g->kind == FRET_GAP_POWER;
 }
-/* Does it take this parameter, and does the one in use, as things are? */
+/* Does a geometry take this parameter, and does the one in use take it now? */
 static inline bool geometry_takes(const geometry *g, input which) {
     return (g->required | g->optional) & INPUT_BIT(which);
 }
 bool inputs_take(const inputs *in, input which);
 
-/* The value, defaults included; ERROR_MISSING where there is none. */
+/* The value, defaults and derived values included; ERROR_MISSING where there is none. */
 bool inputs_get(const inputs *in, input which, long double *out, calc_error *error);
 
-/* Material with exponent k (that of the inputs, or 0 for the homogeneous twin) and c0; gap. */
+/* The material with exponent k (that of the inputs, or 0 for the homogeneous twin), and the gap. */
 bool inputs_material(const inputs *in, double k, fret_material *out, calc_error *error);
 bool inputs_gap(const inputs *in, fret_gap *out, calc_error *error);
 
-/* Takes over the table; NULL: out of memory, the table is freed. */
+/* Makes a shared table, which owns `table`; NULL: out of memory, and `table` is freed. */
 shared_table *shared_table_make(struct fret_table *table, const char *name, smoothing how);
 
 #endif

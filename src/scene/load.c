@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The load program of a scene: it grows by steps that can be, and is run as far as answers want it. */
+/* The load program of a scene: appends possible steps, and runs it as far as answers need. Uses `text`. */
 #include "scene/scene.h"
 
 #include <math.h>
 
-static const fret_status fine = {FRET_OK, NULL, 0, 0};
+static const fret_status status_ok = {FRET_OK, NULL, 0, 0};
 
-/* What only presses wants none: any will do. */
+/* A program without tangential steps needs no friction: mu = 1 then. */
 static bool friction_for_program(scene *s, const load_reach *reach, double *mu, calc_error *error) {
     const inputs *in = &s->in;
     const bool given = in->bindings & INPUT_BIT(IN_MU) || (in->set[IN_MU] && in->v[IN_MU] > 0);
@@ -51,7 +51,7 @@ bool scene_load_of(scene *s, load_view *out, calc_error *error) {
     return true;
 }
 
-/* From the first swinging cycle on: by force, or to a displacement at constant F_N. */
+/* From the first cycle with FNA on, a step must go by force, or to a displacement at constant F_N. */
 static bool goes_with_sine(const load_step *step) {
     return step->tangential == BY_FORCE || (step->tangential && !load_moves_normal(step));
 }
@@ -68,12 +68,12 @@ bool load_takes_sine(const load_view *load) {
     return fret_normal_swings(load->normal);
 }
 
-/* As many runs as the load wants, or none: those that are new start where the first one is. */
+/* Makes as many runs as the load needs; new ones copy the state of the first. On error there is none. */
 static fret_status raise_levels(answers *a, const load_view *load) {
     const bool sine = a->reach.swings && !a->chords && load_takes_sine(load);
     const unsigned wanted = a->reach.swings && !sine ? LEVELS : 1;
-    fret_status st = fine;
-    /* more than are wanted: in chords, as a load that was refused would have had them */
+    fret_status st = status_ok;
+    /* too many levels, or chords, may remain from a load that was refused */
     if (a->levels && ((a->run[0].engine.sine ? !sine : a->levels > wanted) ||
                       fret_contact_normal(a->run[0].engine.contact) != load->normal))
         runs_end(a->run, &a->levels);
@@ -89,7 +89,7 @@ static fret_status raise_levels(answers *a, const load_view *load) {
         r->level = a->levels;
         r->engine = (engine){.contact = NULL};
         st = engine_copy(&r->engine, &a->run[0].engine);
-        a->levels++; /* to be dropped, too, if there is only half of it */
+        a->levels++; /* counted even if incomplete, so that runs_end frees it */
     }
     if (st.code)
         runs_end(a->run, &a->levels);
@@ -97,21 +97,21 @@ static fret_status raise_levels(answers *a, const load_view *load) {
 }
 
 static fret_status run_levels(answers *a, const load_view *load) {
-    fret_status st = fine;
+    fret_status st = status_ok;
     for (unsigned i = 0; i < a->levels && !st.code; i++) {
         a->run[i].load = load;
         st = run_to(&a->run[i], load->end);
     }
     if (!a->run[0].chorded)
         return st;
-    a->chords = true; /* the contact opens: what is not the sine itself wants its limit */
+    a->chords = true; /* the contact opens: chords at all levels instead */
     runs_end(a->run, &a->levels);
     st = raise_levels(a, load);
     return st.code ? st : run_levels(a, load);
 }
 
-/* Brings the memory up to the end of the program, or to the step at which it fails. A single step that is
- * refused leaves the contact as it was; what is half-run otherwise is not to be used. */
+/* Runs the memory diagram to the end of the program, or to the step that fails (*steps). A single step that
+ * is refused leaves the contact as it was; all other partial runs are dropped. */
 static bool run_up(scene *s, size_t *steps, calc_error *error) {
     answers *a = &s->answers;
     load_view load;
@@ -146,13 +146,13 @@ static bool catch_up(scene *s, calc_error *error) {
     return run_up(s, &steps, error);
 }
 
-/* What is always possible waits until a result is asked: to slide to a displacement at constant F_N. */
+/* A slide to a displacement at constant F_N is always possible: it runs when a result is asked for. */
 static bool can_wait(const scene *s, const load_step *step) {
     return s->answers.levels && load_is_slide(step);
 }
 
-/* From further away nothing of a contact would have digits on the way back. A press has no way back, and may
- * be of any size. */
+/* Limit [m] of the depth of a step: the way back from farther has no digits left for the contact. A press,
+ * which comes from nowhere, may have any depth. */
 static const double DEEPEST = 1e8;
 
 static bool append_step(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
@@ -196,7 +196,7 @@ bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_
         return false;
     const load_reach reached = s->answers.reach;
     const load_mark end = s->end;
-    inputs before; /* a cycle changes them */
+    inputs before; /* a cycle changes the inputs */
     if (extra)
         inputs_copy(&before, &s->in);
     const bool ok = append_step(s, step, extra, error) && catch_up(s, error);
@@ -266,7 +266,7 @@ bool scene_straight(scene *s, const fret_contact **contact, calc_error *error) {
         return true;
     fret_contact **chords = &s->answers.chorded;
     const fret_normal *normal = fret_contact_normal(*contact);
-    fret_status st = fine;
+    fret_status st = status_ok;
     if (*chords && fret_contact_normal(*chords) != normal) {
         fret_contact_free(*chords);
         *chords = NULL;

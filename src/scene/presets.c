@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of materials: moduli and yield stresses at room temperature, as handbooks round them. */
+/* The table of materials: moduli and yield stresses at room temperature, as in handbooks. Uses `text`. */
 #include "scene/presets.h"
 
 #include <stdio.h>

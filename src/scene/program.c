@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Storage of load programs. Touches nothing but the program and, where it says so, the inputs. */
+/* Storage of load programs. Touches only the program and, where a comment says so, the inputs. */
 #include "scene/program.h"
 
 #include <stdlib.h>
@@ -52,7 +52,7 @@ size_t program_last_cycle(const program *p, load_mark mark) {
     return i ? i - 1 : NO_CYCLE;
 }
 
-/* One row a way to press. */
+/* The ways to press, one row each. */
 static const struct {
     input in;
     fret_status (*press)(const fret_normal *, double, fret_press *);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of quantities and how its rows are read. */
+/* The table of quantities, and how its rows are evaluated. Uses the library and `text`. */
 #include "scene/quantity.h"
 
 #include <string.h>
@@ -316,11 +316,11 @@ static long double member(const void *of, size_t at) {
     return v;
 }
 
-/* The state as far as the member wants it. */
+/* A member of the state; the cheap forces where they suffice. */
 static bool get_state(const quantity *q, scene *s, long double *out, calc_error *error) {
     const fret_state *state;
     if (q->at_state == offsetof(fret_state, kt) && !inputs_know_nu(&s->in))
-        return calc_missing(error, IN_NU); /* c_T wants it, where nothing has asked for it */
+        return calc_missing(error, IN_NU); /* kt needs c_T, and without friction nothing has checked nu */
     const bool forces = q->at_state == offsetof(fret_state, Fx) || q->at_state == offsetof(fret_state, dx) ||
                         q->at_state == offsetof(fret_state, W);
     if (!(forces ? scene_forces : scene_state)(s, &state, error))
@@ -329,7 +329,7 @@ static bool get_state(const quantity *q, scene *s, long double *out, calc_error 
     return true;
 }
 
-/* First loading has a closed form, which keeps every digit also close to gross slip. */
+/* On first loading by the closed form, which keeps every digit also close to gross slip. */
 static bool get_loading(const quantity *q, scene *s, long double *out, calc_error *error) {
     fret_loading first;
     if (scene_closed_state(s)) {
@@ -413,7 +413,7 @@ dim quantity_dim(const quantity *q, const scene *s) {
     return q->d;
 }
 
-/* Which formulas hold in the scene. */
+/* The conditions (WHEN) that are true in the scene. */
 static unsigned holds(const quantity *q, scene *s, bool call) {
     const load_reach *reach;
     const unsigned when = scene_is_power(s) ? WHEN_POWER : WHEN_ALWAYS;
@@ -431,7 +431,7 @@ static unsigned holds(const quantity *q, scene *s, bool call) {
 const formula *quantity_formula(const quantity *q, scene *s, bool call) {
     const unsigned when = holds(q, s, call);
     const formula *f = q->formulas;
-    while (f->when & ~when) /* the last of them holds always */
+    while (f->when & ~when) /* the last formula has no condition */
         f++;
     return f;
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Results that take more than a look at a state. */
+/* Getters of the table of quantities that compute more than a member of a state. Uses the library. */
 #include "scene/functions.h"
 
 #include "number/real.h"
 
-/* As it was given, where nothing has moved it. */
+/* Is the input imposed by the press and unchanged since? */
 static bool is_imposed(scene *s, input in) {
     const load_reach *reach;
     return s->in.set[in] && !s->now && scene_reach(s, &reach, error_quiet()) && !reach->normal_varies;

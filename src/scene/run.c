@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Running a load program: legs, periods, swinging normal forces. */
+/* Runs load programs: legs, periods, harmonic normal forces. Uses the library and `number`. */
 #include "scene/run.h"
 
 #include <float.h>
@@ -14,7 +14,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-static const fret_status fine = {FRET_OK, NULL, 0, 0};
+static const fret_status status_ok = {FRET_OK, NULL, 0, 0};
 static const fret_status interrupted = {FRET_INTERRUPTED, NULL, 0, 0};
 
 static fret_status unless_stopped(const runner *r, fret_status st) {
@@ -23,13 +23,13 @@ static fret_status unless_stopped(const runner *r, fret_status st) {
     return !st.code && *r->load->stop ? interrupted : st;
 }
 
-/* ---- looking on -------------------------------------------------------------------------------- */
+/* ---- looks ------------------------------------------------------------------------------------- */
 
 static double next_point(const watch *w, const leg *l, double after) {
     const unsigned points = l->points ? l->points : w->points;
     if (!l->chord)
         return (floor(after * points + 1e-9) + 1) / points;
-    /* chords are many: points of a period, evenly in time */
+    /* chords: points of a period, even in time */
     const double length = l->end - l->begin, here = l->begin + after * length - l->origin;
     const double x = ((floor(here * points + 1e-9) + 1) / points + l->origin - l->begin) / length;
     return x > 1 + 1e-9 ? 2 : x > 1 - 1e-9 ? 1 : x;
@@ -49,7 +49,7 @@ static double next_part(const watch *w, const leg *l, double after) {
     return l->chord ? 1 : (floor(after * w->points + 1e-9) + 1) / w->points;
 }
 
-/* The part of the leg, 0..1, at which to look after the part `after`; beyond 1: not again. */
+/* The part of the leg, 0..1, of the next look after the part `after`; > 1: none. */
 static double next_look(const watch *w, const leg *l, double after) {
     return w->kind == WATCH_POINTS  ? next_point(w, l, after)
            : w->kind == WATCH_WAY   ? next_part(w, l, after)
@@ -80,16 +80,16 @@ static void look(runner *r, double time, bool turning) {
 
 /* ---- legs -------------------------------------------------------------------------------------- */
 
-/* Where the load is at the part x of a leg, as a part of the way. */
-static double way(const leg *l, double x) {
-    if (l->even || l->law == LEG_STRAIGHT || (l->law == LEG_HALF && x == 0.5)) /* through 0 exactly */
+/* The part of the load's travel at the part x of the leg's time. */
+static double progress(const leg *l, double x) {
+    if (l->even || l->law == LEG_STRAIGHT || (l->law == LEG_HALF && x == 0.5)) /* 0.5: through 0 exactly */
         return x;
     return (double)(l->law == LEG_RISE ? sinl(pi / 2 * x) : (1 - cosl(pi * x)) / 2);
 }
 
-/* Points on the way lie where the step goes: to a displacement straight in (delta_z, delta_x), to a force in
- * (F_N, F_x), whatever the normal target is given by. */
-static fret_step as_it_goes(const runner *r, const fret_step *to) {
+/* A step in the coordinates in which it is straight: (delta_z, delta_x) if it goes to a displacement, else
+ * (F_N, F_x), whichever way the normal target is given. */
+static fret_step straight_step(const runner *r, const fret_step *to) {
     fret_step step = *to;
     fret_press press;
     if (to->tangential_by == FRET_TO_DX && to->normal_by == FRET_TO_FORCE && to->normal > 0 &&
@@ -108,11 +108,11 @@ static fret_real at_rig(const runner *r, const fret_state *now) {
     return now->dx + now->Fx / r->load->K_rig;
 }
 
-/* In double, as targets are: what was asked for is where it begins, and half of the way back is 0. */
-static void set_out(runner *r) {
+/* Records where a leg starts, rounded to double as targets are, so that half of the way back is exactly 0. */
+static void start_leg(runner *r) {
     fret_state from;
     engine_forces(&r->engine, &from);
-    r->way = as_it_goes(r, &r->leg.to);
+    r->way = straight_step(r, &r->leg.to);
     r->n = (double)(r->way.normal_by == FRET_TO_FORCE ? from.FN : from.dz);
     r->t = (double)(r->leg.rig ? at_rig(r, &from) : r->way.tangential_by == FRET_TO_FX ? from.Fx : from.dx);
 }
@@ -122,13 +122,13 @@ static fret_status swing_part(runner *r) {
     const run_place *k = &r->place;
     const fret_sine load = {c->tangential_value, c->normal_value, r->item.extra.phase, k->FN};
     const fret_status st = engine_swing(&r->engine, &load, k->from / (2 * pi), k->end / (2 * pi));
-    r->chorded = st.code == FRET_OUTSIDE; /* this run ends: it must be run in chords from its beginning */
+    r->chorded = st.code == FRET_OUTSIDE; /* the run ends; it must start anew, in chords */
     return r->chorded ? interrupted : st;
 }
 
 static fret_status step_of(runner *r, const fret_step *to) {
     fret_step step = *to;
-    const fret_status st = r->leg.rig ? engine_at_rig(&r->engine, r->load->K_rig, &step) : fine;
+    const fret_status st = r->leg.rig ? engine_at_rig(&r->engine, r->load->K_rig, &step) : status_ok;
     return st.code        ? st
            : r->leg.sine  ? swing_part(r)
            : r->leg.chord ? engine_chord(&r->engine, &step)
@@ -138,8 +138,8 @@ static fret_status step_of(runner *r, const fret_step *to) {
 static fret_status take_part(runner *r, double x) {
     const leg *l = &r->leg;
     if (r->part == 0)
-        set_out(r);
-    const long double part = (long double)way(l, x);
+        start_leg(r);
+    const long double part = (long double)progress(l, x);
     fret_step step = r->way;
     step.normal = (double)(r->n + (step.normal - r->n) * part);
     step.tangential = (double)(r->t + (step.tangential - r->t) * part);
@@ -147,7 +147,7 @@ static fret_status take_part(runner *r, double x) {
     return step_of(r, &step);
 }
 
-/* Whoever looks at the end of a period sees it closed. */
+/* Closes the period before the look at its end. */
 static void close_period(runner *r) {
     r->cycle_loss = engine_spent(&r->engine);
     engine_close(&r->engine);
@@ -156,7 +156,7 @@ static void close_period(runner *r) {
     r->place.period++;
 }
 
-/* On the leg; true: to the next look. */
+/* Moves along the leg, to its end or the next look (true). */
 static bool move(runner *r) {
     const leg *l = &r->leg;
     const double x = next_look(&r->watch, l, r->part);
@@ -177,7 +177,7 @@ static bool move(runner *r) {
     return x <= 1;
 }
 
-/* A ramp to the rig goes straight in (delta_z, delta_x), wherever it is looked at: its end is found first. */
+/* A ramp to a displacement at the rig is straight in (delta_z, delta_x): its end is found first. */
 static bool set_leg(runner *r, leg l) {
     if (l.rig && !l.chord && l.to.normal_by != FRET_KEEP_NORMAL) {
         r->status = engine_at_rig(&r->engine, r->load->K_rig, &l.to);
@@ -194,7 +194,7 @@ static fret_tangential_target tangential_by(const load_step *c) {
     return c->tangential == BY_FORCE ? FRET_TO_FX : FRET_TO_DX;
 }
 
-/* One of the two branches at constant F_N. */
+/* Starts one of the two branches of a period at constant F_N. */
 static bool next_branch(runner *r) {
     const load_step *c = &r->item.step;
     const int sign = r->place.part++ ? 1 : -1;
@@ -208,20 +208,19 @@ static bool next_branch(runner *r) {
                             .closes = sign > 0});
 }
 
-/* An angle in 0..2 pi. */
+/* The angle in 0..2 pi. */
 static double wrapped(double angle) {
     double turns = angle / (2 * pi);
     return 2 * pi * (turns - floor(turns));
 }
 
-/* cos at a rounded angle: 0 where it is below what the rounding moves it by, as the load passes through its
- * mean. */
+/* cos; 0 where it is below the effect of the angle's rounding, as the load passes its mean. */
 static double harmonic(long double angle) {
     const double v = (double)cosl(angle);
     return fabs(v) < 4 * DBL_EPSILON ? 0 : v;
 }
 
-/* What a swinging period turns about. */
+/* Context of slip_rate: a harmonic period about the mean FN; sign of the bound. */
 typedef struct swing {
     const load_view *load;
     const load_item *cycle;
@@ -229,8 +228,8 @@ typedef struct swing {
     int sign;
 } swing;
 
-/* d/d(angle) of the tangential load + sign x its bound at gross slip; by displacement the bound is mu eta
- * delta_z, which moves with d(F_N)/k_n, and at the rig mu F_N/K_rig more. */
+/* d/d(angle) of the tangential load + sign x its bound at gross slip: mu F_N or, for displacements, mu eta
+ * delta_z, which changes by d(F_N)/k_n, plus mu F_N/K_rig at the rig. */
 static fret_real slip_rate(fret_real angle, fret_real *slope, void *about) {
     const swing *w = about;
     const double A = w->cycle->step.tangential_value, FNA = w->cycle->step.normal_value;
@@ -251,7 +250,7 @@ static fret_real slip_rate(fret_real angle, fret_real *slope, void *about) {
 
 enum { SCAN = 64 };
 
-/* Where slip_rate changes its sign: few places, found by a scan. */
+/* Appends the angles where slip_rate changes its sign, found by a scan. */
 static size_t find_turns(swing *w, double node[RUN_NODES], size_t count) {
     fret_real before = slip_rate(0, NULL, w);
     for (int i = 1; i <= SCAN && count < RUN_NODES - 2; i++) {
@@ -264,8 +263,8 @@ static size_t find_turns(swing *w, double node[RUN_NODES], size_t count) {
     return count;
 }
 
-/* Where F_N, the tangential load, and it + and - its bound turn, in order, 0 and 2 pi among them: between
- * these places the error of chords is clean. */
+/* The angles, in order and with 0 and 2 pi, where F_N, the tangential load, and this load plus or minus its
+ * bound turn: between these nodes the error of chords has a clean order. */
 static size_t find_nodes(swing *w, double node[RUN_NODES]) {
     const double phase = w->cycle->extra.phase;
     size_t count = 0;
@@ -284,8 +283,8 @@ static size_t find_nodes(swing *w, double node[RUN_NODES]) {
     return kept;
 }
 
-/* From the end of the last part to the next node or look: a chord ends there, on the sine. */
-static void next_part_of(runner *r, leg l) {
+/* Sets the next interval of angles, from the end of the last one to the next node or look. */
+static void next_interval(runner *r, leg l) {
     run_place *k = &r->place;
     k->from = k->end;
     if (k->from >= k->at[k->node + 1])
@@ -301,8 +300,8 @@ static void next_part_of(runner *r, leg l) {
         k->end = at;
 }
 
-/* Chords of the harmonic path, from the top of F_x, cut evenly between the nodes and between looks; or the
- * sine itself, as far as the next look. */
+/* Starts the next chord of the harmonic load, counted from the peak of F_x; chords divide each interval
+ * evenly. In sine mode the interval is one piece. */
 static bool next_chord(runner *r) {
     run_place *k = &r->place;
     const load_item *c = &r->item;
@@ -313,7 +312,7 @@ static bool next_chord(runner *r) {
              .points = c->step.points ? c->step.points : RUN_CHORDS,
              .origin = k->begin};
     if (k->part == k->parts) {
-        next_part_of(r, l);
+        next_interval(r, l);
         k->part = 0;
         k->parts =
             l.sine ? 1 : (unsigned)(1 + (double)RUN_CHORDS * (k->end - k->from) / (2 * pi)) << r->level;
@@ -327,8 +326,8 @@ static bool next_chord(runner *r) {
     return set_leg(r, l);
 }
 
-/* Do two periods end alike, so that W stays right to 1e-15 where the second stands for `left` more? */
-static bool laps_repeat(const sight *a, const sight *b, unsigned left) {
+/* Do two periods end equally, so that W is exact to 1e-15 if the second stands for `left` more? */
+static bool periods_repeat(const sight *a, const sight *b, unsigned left) {
     const long double little = 1e-15L, reach = fabsl(b->state.dx) + fabsl(b->state.dz);
     return a->state.slices == b->state.slices && fabsl(a->state.FN - b->state.FN) <= little * b->state.FN &&
            fabsl(a->state.Fx - b->state.Fx) <= little * fabsl(b->state.Fx) &&
@@ -336,7 +335,7 @@ static bool laps_repeat(const sight *a, const sight *b, unsigned left) {
            left * fabsl(a->loss - b->loss) <= little * (b->state.W + left * b->loss);
 }
 
-/* One period has repeated the one before twice: the others, if there are any, repeat it too. */
+/* After two equal repeats of a period counts the remaining ones without running them. */
 static void skip_repeats(runner *r) {
     run_place *k = &r->place;
     const unsigned left = r->item.extra.times - k->period;
@@ -345,7 +344,7 @@ static void skip_repeats(runner *r) {
         return;
     sight now = {.loss = r->cycle_loss};
     engine_forces(&r->engine, &now.state);
-    k->alike = k->period > 1 && laps_repeat(&k->last, &now, left) ? k->alike + 1 : 0;
+    k->alike = k->period > 1 && periods_repeat(&k->last, &now, left) ? k->alike + 1 : 0;
     k->last = now;
     if (k->alike < 2)
         return;
@@ -355,7 +354,7 @@ static void skip_repeats(runner *r) {
     k->period += left;
 }
 
-/* From where the load is now to the top of F_x. */
+/* Starts the leg from the present load to the peak of F_x. */
 static bool first_leg(runner *r) {
     const load_item *c = &r->item;
     fret_state now;
@@ -434,7 +433,7 @@ static bool leg_of_step(runner *r) {
              .end = r->time + 1,
              .rig = c->tangential == BY_RIG};
     if (!c->normal && (c->relative & RELATIVE_TANGENTIAL) && c->tangential_value == 0) {
-        r->time++; /* nothing to do, and rounding must not make it a reversal */
+        r->time++; /* nothing to do; rounding must not cause a reversal */
         return false;
     }
     if (c->normal)
@@ -455,7 +454,7 @@ static bool leg_of_step(runner *r) {
     return set_leg(r, l);
 }
 
-/* False: the item is done, or the status tells why it is not. */
+/* Starts the next leg; false: the item is done, or an error is in r->status. */
 static bool next_leg(runner *r) {
     const load_kind kind = (load_kind)r->item.step.kind;
     const bool begun = r->within;
@@ -471,7 +470,7 @@ static void begin_item(runner *r, load_item item) {
 }
 
 bool run_item_next(runner *r) {
-    r->status = fine;
+    r->status = status_ok;
     while (!r->status.code && (r->moving || next_leg(r))) {
         const bool seen = move(r);
         r->status = unless_stopped(r, r->status);
@@ -482,7 +481,7 @@ bool run_item_next(runner *r) {
         return false;
     if (r->status.code == FRET_GROSS_SLIP)
         r->status.quantity = r->item.step.normal_value == 0 ? "FA" : RUN_FX_OF_CYCLE;
-    if (r->status.code == FRET_NEGATIVE) { /* a leg may go further than the swing */
+    if (r->status.code == FRET_NEGATIVE) { /* a leg may go beyond the harmonic load */
         r->status.quantity = RUN_FN_OF_CYCLE;
         r->status.value = (double)(r->place.FN - r->item.step.normal_value);
     }
@@ -500,8 +499,8 @@ void run_more(runner *r) {
     r->item.extra.times++;
 }
 
-/* At constant F_N only turning points count: a displacement on the way to the next one need not be taken. */
-static bool on_the_way(const load_view *load, size_t i) {
+/* At constant F_N only turning points matter: is step i a displacement between its neighbours? */
+static bool between_neighbours(const load_view *load, size_t i) {
     const load_step *step = &load->program->steps[i];
     if (i + 1 >= load->end.steps || !load_is_slide(step) || !load_is_slide(step + 1) ||
         !load_is_slide(step - 1) || step[1].tangential != step->tangential ||
@@ -512,19 +511,19 @@ static bool on_the_way(const load_view *load, size_t i) {
     return here == next || (last < here && here < next) || (last > here && here > next);
 }
 
-/* Springs round otherwise. */
-static bool passes(const runner *r) {
+/* May the step be skipped? Not for springs, whose rounding it changes. */
+static bool can_skip(const runner *r) {
     return !r->within && r->watch.kind == WATCH_NOTHING && !r->engine.springs &&
-           on_the_way(r->load, r->at.steps);
+           between_neighbours(r->load, r->at.steps);
 }
 
 bool run_next(runner *r, load_mark end) {
     const load_view *load = r->load;
-    r->status = fine;
+    r->status = status_ok;
     while (r->at.steps < end.steps) {
-        if (passes(r)) {
+        if (can_skip(r)) {
             r->time++;
-            r->status = unless_stopped(r, fine);
+            r->status = unless_stopped(r, status_ok);
         } else {
             if (!r->within)
                 begin_item(r, program_item(load->program, r->at, load->last_cycle, load->in));
@@ -557,27 +556,29 @@ double program_time(const program *p, load_mark end) {
     return time;
 }
 
-static long double once(long double coarse, long double fine_one) {
-    return fine_one + (fine_one - coarse) / 3;
+static long double richardson(long double coarse, long double fine) {
+    return fine + (fine - coarse) / 3;
 }
 
+/* The change relative to the value. */
 static long double part_of(long double moved, const long double at[LEVELS]) {
-    const long double scale = fmaxl(fabsl(once(at[1], at[2])), fabsl(at[2]));
+    const long double scale = fmaxl(fabsl(richardson(at[1], at[2])), fabsl(at[2]));
     return scale > 0 ? moved / scale : 0;
 }
 
 long double run_limit(const long double at[LEVELS], long double *moved) {
-    const long double first = once(at[0], at[1]), last = once(at[1], at[2]), step = (last - first) / 15;
+    const long double first = richardson(at[0], at[1]), last = richardson(at[1], at[2]),
+                      step = (last - first) / 15;
     *moved = part_of(2 * fabsl(step), at);
     return last + step;
 }
 
 long double run_unsure(const long double at[LEVELS]) {
-    const long double change = once(at[1], at[2]) - once(at[0], at[1]);
+    const long double change = richardson(at[1], at[2]) - richardson(at[0], at[1]);
     return part_of(fmaxl(2 * fabsl(change), fabsl(at[2] - at[1]) / 256), at);
 }
 
-/* A member of the states of all levels, and its limit. */
+/* Writes the limit of one member of the states at all levels. */
 static void to_limit(const sight at[LEVELS], size_t member, fret_state *out) {
     long double v[LEVELS], unused;
     for (unsigned i = 0; i < LEVELS; i++)

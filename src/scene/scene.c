@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The life of a scene, its inputs, and the one way back. What follows from a scene is in answers.c, what
- * changes it whole or not at all in edit.c. */
+/* The life of a scene, its inputs, and saved states. Answers are in answers.c, checked changes in edit.c.
+ * Uses the library and `text`. */
 #include "scene/scene.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ void friction_work_end(friction_work *w) {
     *w = (friction_work){.levels = 0};
 }
 
-/* The fields of a state that is no longer. */
+/* Frees the fields of a state that has changed. */
 static void forget_fields(answers *a) {
     fret_field_free(a->pressed);
     fret_field_free(a->dragged);
@@ -31,7 +31,7 @@ static void answers_end(answers *a, bool keep) {
     fret_normal *normal = a->normal, *k0 = a->k0;
     forget_fields(a);
     *a = (answers){.normal = NULL};
-    counted_drop(borrowed); /* whose law runs and fields have borrowed */
+    counted_drop(borrowed); /* last, since runs and fields borrow its law */
     if (keep) {
         a->normal = normal;
         a->k0 = k0;
@@ -74,11 +74,11 @@ void scene_used_law(scene *s, const fret_normal *normal) {
         scene_also_used(s, (scene_use){USED(MODEL_PIECES), error});
 }
 
-/* The others are of the bodies and of the shape. */
+/* Inputs that do not change the law; all others belong to the bodies and the shape. */
 static const input_set keeps_contact =
     INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE | INPUT_RIG | INPUT_STRESS | INPUT_BIT(IN_ALPHA_W);
 
-/* Bodies and shape that follow definitions may follow these. */
+/* Definitions of bodies and shape may depend on any input, so that these laws are never kept. */
 void scene_forget(scene *s, bool keep) {
     answers_end(&s->answers, keep && !(s->in.bindings & ~keeps_contact));
     s->settled = 0;
@@ -134,7 +134,7 @@ void scene_reset(scene *s, bool all) {
     inputs_unset(&s->in, INPUT_CYCLE | INPUT_PRESS);
 }
 
-/* ---- the way back ------------------------------------------------------------------------------ */
+/* ---- saved states ------------------------------------------------------------------------------ */
 
 void scene_save(scene *s, scene_mark *m, bool move) {
     inputs_copy(&m->in, &s->in);
@@ -168,9 +168,9 @@ void scene_back(scene *s, scene_mark *m) {
 
 /* ---- inputs ------------------------------------------------------------------------------------ */
 
-/* Amplitudes are evaluated where their cycle begins, everything else at the press: the scene as it is then,
- * with the amplitudes to come, and cycles before as they were. */
-static void go_back(scene *then, bool amplitude) {
+/* Moves a scene back to where a definition is evaluated: for an amplitude the beginning of its cycle, for all
+ * others the press, with the amplitudes to come and earlier cycles as they were. */
+static void rewind_for_definition(scene *then, bool amplitude) {
     const load_mark end = then->end;
     const bool cycle = !then->before && end.cycles > 0;
     const size_t steps = cycle ? program_last_cycle(then->program, end) : end.steps;
@@ -196,7 +196,7 @@ static bool settle(scene *s, input in, calc_error *error) {
     scene_clone(&then, s);
     then.settling |= bit;
     if (in != IN_NW)
-        go_back(&then, amplitude);
+        rewind_for_definition(&then, amplitude);
     bool ok = s->evaluate(s->context, &then, in, s->in.bound[in], &v, error);
     scene_free(&then);
     if (amplitude && s->before && s->early && !error->circle) {
@@ -212,7 +212,7 @@ static bool settle(scene *s, input in, calc_error *error) {
     return true;
 }
 
-/* All of a set that are bound get their values. */
+/* Evaluates all bound inputs of a set. */
 static bool resolve(scene *s, input_set set, calc_error *error) {
     input_set waiting = s->in.bindings & set & ~s->settled;
     for (input in = 0; waiting >> in; in++)
@@ -221,8 +221,8 @@ static bool resolve(scene *s, input_set set, calc_error *error) {
     return true;
 }
 
-/* What stands for others where these are not given; n tells the dimension of A. */
-static input_set rests_on(const inputs *given, input in) {
+/* The inputs that the value of `in` may come from; the dimension of A needs n. */
+static input_set depends_on(const inputs *given, input in) {
     const input_set bit = INPUT_BIT(in);
     return in == IN_A                                      ? INPUT_GEOMETRY
            : in == IN_NU_2                                 ? bit | INPUT_BIT(IN_NU)
@@ -231,7 +231,7 @@ static input_set rests_on(const inputs *given, input in) {
 }
 
 bool scene_get(scene *s, input in, long double *out, calc_error *error) {
-    return resolve(s, rests_on(&s->in, in), error) && inputs_get(&s->in, in, out, error);
+    return resolve(s, depends_on(&s->in, in), error) && inputs_get(&s->in, in, out, error);
 }
 
 void scene_put(scene *s, input in, double v) {
@@ -316,7 +316,7 @@ static void reach_step(load_reach *r, const load_step *step, unsigned times) {
     r->end = v;
     r->normal_varies = r->normal_varies || load_moves_normal(step);
     r->rig = r->rig || step->tangential == BY_RIG;
-    if (step->kind == LOAD_CYCLE) { /* a second period is closed whatever came before */
+    if (step->kind == LOAD_CYCLE) { /* a second period always closes */
         r->closed = r->first || times > 1;
         r->swings = r->swings || step->normal_value != 0;
     }

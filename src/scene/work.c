@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Friction's work by place: the load program is run once more, on a contact that is watched. */
+/* Friction's work by radius: runs the load program again and records its slip. Uses the library. */
 #include <stdint.h>
 
 #include "scene/scene.h"
 
-/* To the end of the program, or to an instant on its way: by the same looks, since a load that is parted
- * otherwise in time is another one. */
+/* Runs to the end of the program or to an instant. With the same looks as the instant's run, since other
+ * divisions of a load in time change it. */
 static fret_status run_watched(runner *r, const instant *now) {
     if (!now)
         return run_to(r, r->load->end);
@@ -26,7 +26,7 @@ static fret_status keep_works(friction_work *w, const runner *r) {
                                                   e->closed[1], &w->period[i]);
 }
 
-/* One more level. */
+/* Runs one level and keeps its works. */
 static fret_status make_level(friction_work *w, const load_view *load, const instant *now, unsigned level,
                               bool sine) {
     runner r = {.load = load, .level = level};
@@ -47,7 +47,7 @@ static fret_status make_level(friction_work *w, const load_view *load, const ins
     return st;
 }
 
-/* As the load itself has been run: by the sine, or at all levels; at an instant at that of its run alone. */
+/* Makes the works as the load itself was run: as a sine or at all levels; at an instant at its level only. */
 static bool make_work(scene *s, calc_error *error) {
     friction_work *w = &s->answers.work;
     load_view load;

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The gap as Nw cycles of wear leave it: runs of wear, shared by scenes that wear alike. */
+/* The gap after Nw cycles of wear: runs of wear, shared by scenes that wear equally. Uses the library. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "scene/scene.h"
 
-/* One law, what is held, and the run of how it wears. */
+/* A wear path: an unworn law, what is held, and the run of its wear. */
 struct wear_path {
     counted base;
     fret_normal *normal; /* unworn */
-    shared_table *table; /* of its gap, or NULL */
+    shared_table *table; /* table of its gap, or NULL */
     fret_wear_held held;
     fret_wear_run *run;
-    worn_gap *last; /* that was asked for */
+    worn_gap *last; /* the last result */
 };
 
 static void worn_end(counted *self) {
@@ -33,7 +33,7 @@ static void path_end(counted *self) {
 
 /* ---- what is held ------------------------------------------------------------------------------ */
 
-/* F_N, or the depth, as the press imposes it up to the cycle. */
+/* F_N or the depth, as imposed by the press and constant up to the cycle. */
 static bool held_press(scene *s, fret_wear_held *out, calc_error *error) {
     const load_step *step = s->program->steps;
     const size_t cycle = program_last_cycle(s->program, s->end);
@@ -82,7 +82,7 @@ static bool same_held(const fret_wear_held *a, const fret_wear_held *b) {
            a->amplitude == b->amplitude && a->mu == b->mu && a->alpha == b->alpha;
 }
 
-/* The path of the scene, which clones share; a new one where it wears otherwise. */
+/* Makes the wear path of the scene, shared with clones; a new one if the law or what is held differs. */
 static bool find_path(scene *s, const fret_wear_held *held, calc_error *error) {
     wear_path *p = s->wears;
     if (p && same_held(&p->held, held) && fret_normal_same(p->normal, s->answers.normal))
@@ -152,7 +152,7 @@ bool scene_worn(scene *s, const fret_wear **out, calc_error *error) {
         *out = (*mine)->wear;
         return true;
     }
-    if (*mine) /* runs and fields may stand on it */
+    if (*mine) /* runs and fields may borrow its law */
         scene_forget(s, true);
     if (!scene_unworn(s, error) || !find_path(s, &held, error) ||
         (!(s->wears->last && s->wears->last->Nw == (double)Nw) && !make_worn(s, (double)Nw, error)))
