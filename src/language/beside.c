@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes beside the one whose load is looked at. Each is run along with it, looked at as that one is, so that
- * it takes the same way to the last digit. */
+/* Scenes beside the one whose load is looked at, run along with it and with the same looks, so that all take
+ * the same steps to the last digit. Uses `scene`. */
 #include "language/beside.h"
 
 #include <stdlib.h>
@@ -10,10 +10,10 @@ typedef struct side {
     scene scene; /* changed */
     knob_value by[CHANGES];
     size_t count;
-    calc_error error;        /* raised: its load cannot be */
-    scene_trace along, once; /* looked at as the run is; at one time alone */
+    calc_error error;        /* raised: its load is impossible */
+    scene_trace along, once; /* runs with the looks of the run; with one look */
     instant now;
-    beside beside; /* further changes */
+    beside beside; /* scenes with further changes */
 } side;
 
 /* ---- life -------------------------------------------------------------------------------------- */
@@ -45,7 +45,7 @@ static bool same_changes(const side *s, const knob_value by[], size_t count) {
     return same;
 }
 
-/* The oldest makes room. */
+/* Finds or makes the scene of these changes; the oldest one is replaced. */
 static side *side_find(beside *b, const scene *changed, const knob_value by[], size_t count) {
     for (size_t i = 0; i < SIDES && b->side[i]; i++)
         if (same_changes(b->side[i], by, count))
@@ -65,7 +65,7 @@ static side *side_find(beside *b, const scene *changed, const knob_value by[], s
 
 /* ---- running along ----------------------------------------------------------------------------- */
 
-/* Looks less than this part of their distance apart are at the same instant. */
+/* Looks closer than this part of their spacing are at the same instant. */
 static const double APART = 1e-8;
 
 static bool begin(side *s, scene_trace *t, watch w, calc_error *error) {
@@ -73,7 +73,7 @@ static bool begin(side *s, scene_trace *t, watch w, calc_error *error) {
     return trace_begin(t, &s->scene, w, true, error);
 }
 
-/* Further along, to this time; NULL: there is no look at it, or the error. */
+/* Runs on to the look at this time; NULL: there is none, or an error. */
 static const scene_trace *run_along(side *s, double time, calc_error *error) {
     const double little = APART * s->beside.looks.every;
     bool there = true;
@@ -84,12 +84,12 @@ static const scene_trace *run_along(side *s, double time, calc_error *error) {
     return there && trace_now(&s->along)->time <= time + little ? &s->along : NULL;
 }
 
-/* At this time alone, which is no turning point here. */
+/* Runs to this time alone, which is no look of this scene's own run. */
 static const scene_trace *run_once(side *s, double time, calc_error *error) {
     trace_end(&s->once);
     const bool there = begin(s, &s->once, watch_times(time, s->beside.looks.every, 0, false), error) &&
                        trace_next(&s->once, error);
-    if (!there && !error->raised) /* unreached: one load, run in any scene, passes the same times */
+    if (!there && !error->raised) /* not reached: a load passes the same times in every scene */
         calc_fail(error, 0, 0, "there is no such instant in the changed scene");
     return there ? &s->once : NULL;
 }

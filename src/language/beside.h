@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The same load in scenes with other inputs, beside a run that is being looked at: their states at its
- * instants, one after the other. */
+/* States of scenes with other inputs at the instants of a run that is being looked at. */
 #ifndef LANGUAGE_BESIDE_H
 #define LANGUAGE_BESIDE_H
 
@@ -8,13 +7,12 @@
 
 enum { SIDES = 16 };
 typedef struct beside {
-    watch looks;              /* of that run: watch_times */
-    struct side *side[SIDES]; /* those made last */
+    watch looks;              /* the looks of that run (watch_times) */
+    struct side *side[SIDES]; /* cache of the last ones made */
     size_t made;
 } beside;
 
-/* What expressions are to see: the scene with these changes, given without them having been run, at this
- * time of its load. */
+/* Sets *out to the scene with these changes at this time of its load. changed: that scene, not run yet. */
 bool beside_scene(beside *b, const scene *changed, const knob_value by[], size_t count, double time,
                   scene **out, calc_error *error);
 void beside_end(beside *b);

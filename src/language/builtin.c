@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elementary functions of expressions. */
+/* The table of elementary functions. Uses `number`. */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The session: its life, and assignments. */
+/* The session: its life, and assignments. Uses `scene` and `text`. */
 #include "language/calc.h"
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
-/* What a definition is made of may have become another quantity since. */
+/* Does the value still have the input's dimension? Names in its definition may have changed theirs. */
 static bool keeps_dim(scene *s, input in, const value *v, calc_error *error) {
     const quantity *q = quantity_of_input(in);
     long double n;
@@ -19,7 +19,7 @@ static bool keeps_dim(scene *s, input in, const value *v, calc_error *error) {
     return !error->strange;
 }
 
-/* A scene asks for the value of what an input is bound to. */
+/* The callback scene_definition: evaluates the definition that an input is bound to. */
 static bool evaluate(void *context, scene *s, input in, counted *d, value *out, calc_error *error) {
     calc *c = context;
     scene *outer = c->now;
@@ -55,14 +55,14 @@ enum { ASSIGNMENTS = 16 };
 
 /* One of `NAME = EXPR, ...`. */
 typedef struct assignment {
-    const quantity *q; /* an input, or NULL: a name of the user's */
-    bool known;        /* one that has been given before: `own` */
+    const quantity *q; /* an input; NULL: a user's name */
+    bool known;        /* that name exists, with index `own` */
     size_t own;
     size_t at, len; /* of the name */
     size_t value_at, value_len;
     bool increment, live;
     value v;
-    definition *d; /* live, or a function */
+    definition *d; /* a live definition or a function */
 } assignment;
 
 /* Is it NAME(X, ...) = or NAME(X, ...) :=? */
@@ -85,7 +85,7 @@ bool assign_at(const lexer *lx) {
     return lex_assigns(lx) || (lx->kind == T_NAME && lex_peek(lx) == T_OPEN && is_function(lx));
 }
 
-/* What has been typed, as the command that does it. */
+/* The error for an assignment to a result, with the command that imposes it. */
 static bool is_result(lexer *lx, const quantity *q) {
     const char *text = lx->text + lx->at, *comma = memchr(text, ',', lx->end - lx->at);
     size_t len = comma ? (size_t)(comma - text) : lx->end - lx->at;
@@ -102,7 +102,7 @@ static bool is_result(lexer *lx, const quantity *q) {
 static bool name_allowed(calc *c, lexer *lx, assignment *a) {
     const char *text = lx->text + lx->at;
     a->known = names_find(&c->names, text, lx->len, &a->own);
-    if (a->known) /* it has been allowed before */
+    if (a->known) /* checked when it was new */
         return true;
     const char *taken = name_taken(text, lx->len);
     a->q = quantity_find(text, lx->len);
@@ -114,7 +114,7 @@ static bool name_allowed(calc *c, lexer *lx, assignment *a) {
     if (!a->q && taken)
         return lex_fail(lx, "'%.*s' is %s: it cannot be a variable", LEX_WORD(lx), taken);
     if (a->q && !calc_takes(c, quantity_input(a->q), lx->error)) {
-        /* where it stands is told better by its value */
+        /* the error is placed at the value later */
         return false;
     }
     return true;
@@ -138,11 +138,11 @@ static bool read_parameters(lexer *lx, char (*parameter)[LEX_NAME], unsigned *co
                 return lex_fail(lx, "%s is given twice", parameter[i]);
         lex_next(lx);
     } while (lx->kind == T_COMMA);
-    lex_next(lx); /* a parenthesis: assign_at has looked */
+    lex_next(lx); /* the closing parenthesis: assign_at has checked */
     return true;
 }
 
-/* That of an input; NULL: there is none. */
+/* The assignment to an input, or NULL. */
 static const assignment *of_input(const assignment *all, size_t count, input in) {
     for (; count > 0; all++, count--)
         if (all->q && quantity_input(all->q) == in)
@@ -150,7 +150,7 @@ static const assignment *of_input(const assignment *all, size_t count, input in)
     return NULL;
 }
 
-/* The dimension that an input must have: that of A depends on n, which may be given beside it. */
+/* The dimension that an input must have; that of A depends on n, which may be assigned beside it. */
 static dim wanted_dim(const calc *c, const quantity *q, const assignment *all, size_t count) {
     dim d = quantity_dim(q, &c->scene);
     const assignment *n = quantity_input(q) == IN_A ? of_input(all, count, IN_N) : NULL;
@@ -161,7 +161,7 @@ static dim wanted_dim(const calc *c, const quantity *q, const assignment *all, s
 static bool read_value(calc *c, lexer *lx, assignment *all, size_t count) {
     assignment *a = &all[count];
     a->value_at = lx->at;
-    /* without a shape that of A is not known; that there is none is told by who asked */
+    /* without a geometry the dimension of A is unknown, and name_allowed reports that */
     const bool any = !a->q || (quantity_input(a->q) == IN_A && !c->scene.in.geometry);
     const dim want = any ? DIM_NONE : wanted_dim(c, a->q, all, count);
     if (!expr_parse_at(c, lx, &c->scratch) || expr_stray_unit(lx, c->keyword) ||
@@ -180,7 +180,7 @@ static bool read_assignment(calc *c, lexer *lx, assignment *all, size_t count) {
     if (!name_allowed(c, lx, a)) {
         if (lx->error->len)
             return false;
-        useless = *lx->error; /* a wrong value is the deeper error */
+        useless = *lx->error; /* an error in the value is reported first */
         error_clear(lx->error);
     }
     lex_next(lx);
@@ -214,7 +214,7 @@ static bool read_assignments(calc *c, lexer *lx, assignment *all, size_t *count)
             return lex_fail(lx, lx->kind == T_NUMBER
                                     ? "expected NAME = EXPR after the comma; a decimal comma is a point here"
                                     : "expected NAME = EXPR after the comma");
-        for (size_t i = 0; i < *count; i++) /* they are set together: none is the last */
+        for (size_t i = 0; i < *count; i++) /* they are set together, so that there is no last one */
             if (all[i].len == lx->len && !memcmp(lx->text + all[i].at, lx->text + lx->at, lx->len))
                 return lex_fail(lx, "%.*s is given twice", LEX_WORD(lx));
         if (!read_assignment(c, lx, all, (*count)++))
@@ -230,10 +230,10 @@ static bool read_assignments(calc *c, lexer *lx, assignment *all, size_t *count)
 typedef struct assigned {
     const assignment *all;
     size_t count;
-    const assignment *but; /* not this one */
+    const assignment *but; /* skip this one */
 } assigned;
 
-/* n alone would make another gap of A, and A belongs to no h and r0. */
+/* Refuses n without A, which would change the meaning of A, and A together with h or r0. */
 static bool power_holds(const calc *c, lexer *lx, const assignment *all, size_t count) {
     const assignment *n = of_input(all, count, IN_N), *A = of_input(all, count, IN_A),
                      *h = of_input(all, count, IN_H);
@@ -258,8 +258,8 @@ static void put_assigned(inputs *in, void *context) {
     }
 }
 
-/* Where nothing is pressed yet F_N presses, and what else is given goes before. A definition of F_N has its
- * value by then, and outlives the press. */
+/* Without a load an assignment of F_N presses; the other assignments are made first. A definition of F_N is
+ * evaluated for the press, and bound after it. */
 static bool press_with(scene *s, assigned job, const assignment *FN, calc_error *error) {
     load_step press = {.kind = LOAD_PRESS, .normal = BY_FORCE};
     long double force = FN->v.v;
@@ -275,14 +275,14 @@ static bool press_with(scene *s, assigned job, const assignment *FN, calc_error 
     return ok;
 }
 
-/* Would the cycle slip because its amplitude stays while others change? */
+/* Is the error gross slip because FA stays while other inputs change? */
 static bool amplitude_is_left(const calc_error *error, const assignment *all, size_t count) {
     return !of_input(all, count, IN_FA) && error->kind == ERROR_STATUS &&
            error->status.code == FRET_GROSS_SLIP && !strcmp(error->status.quantity, "FA");
 }
 
-/* Tried as it stands, where nothing bound has its value yet: a circle through what inputs are bound to shows
- * only so. It may wait for what it needs, but not for itself; nor can its dimensions be mended later. */
+/* Evaluates a definition in a scratch scene in which no bound input has a value yet, so that circles show. It
+ * may lack inputs, but a circle or a wrong dimension is refused. */
 static bool definition_holds(calc *c, lexer *lx, const assignment *a) {
     calc_error error = ERROR_NONE;
     long double number;
@@ -314,7 +314,7 @@ static bool bindings_hold(calc *c, lexer *lx, const assignment *all, size_t coun
     return true;
 }
 
-/* A name that looks like an input was perhaps meant to be one. */
+/* Notes a new name that resembles an input. */
 static void note_new_name(calc *c, const char *text, size_t len) {
     static const char *const other_names[][2] = {
         {"angle", "slope"}, {"Fn", "FN"}, {"F", "FN"},  {"P", "FN"},    {"radius", "R"}, {"v", "nu"},
@@ -331,7 +331,7 @@ static void note_new_name(calc *c, const char *text, size_t len) {
         if (!strcmp(plain, other_names[i][0]))
             near = other_names[i][1];
     if (near && *near == 'R' && !inputs_take(&c->scene.in, IN_RADIUS))
-        near = NULL; /* R1, to give a sphere with */
+        near = NULL; /* R1 may be meant for a sphere to come */
     for (input in = 0; in < INPUTS && !near; in++) {
         const char *name = quantity_of_input(in)->name;
         if (same_but_case(plain, name) || (n > 2 && one_letter_apart(plain, name)))
@@ -362,11 +362,11 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
     return !a->d || definition_holds(c, lx, a);
 }
 
-/* of_scene: inputs are among them. */
+/* of_scene: some are of inputs. */
 static bool put_all(calc *c, lexer *lx, assignment *all, size_t count, bool of_scene) {
     if (!power_holds(c, lx, all, count))
         return false;
-    for (size_t i = 0; i < count; i++) { /* += of an input */
+    for (size_t i = 0; i < count; i++) { /* += of inputs */
         long double old;
         if (!all[i].increment || !all[i].q)
             continue;
@@ -381,7 +381,7 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count, bool of_s
             return false;
     assigned job = {all, count, NULL};
     scene *s = &c->scene;
-    if (!of_scene && !s->in.bindings) /* else what is bound may have moved with the names */
+    if (!of_scene && !s->in.bindings) /* bound inputs may depend on the names */
         return true;
     const assignment *FN = s->end.steps ? NULL : of_input(all, count, IN_FN);
     if (FN)
@@ -393,7 +393,7 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count, bool of_s
     return false;
 }
 
-/* All or nothing, and a way back. */
+/* Makes all assignments or none, as one undo entry. */
 static bool put_undoable(calc *c, lexer *lx, assignment *all, size_t count) {
     const size_t entries = c->undo.count;
     bool of_scene = false;
@@ -407,7 +407,7 @@ static bool put_undoable(calc *c, lexer *lx, assignment *all, size_t count) {
         undo_scene(c, before);
     else if (of_scene)
         undo_unmark(c, before);
-    while (!ok && c->undo.count > entries) /* names that were set before something was refused */
+    while (!ok && c->undo.count > entries) /* restore names set before the failure */
         undo_pop(c, true);
     return ok;
 }

@@ -1,53 +1,53 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A session of the calculator: the user's scene, the user's names, and the way back. */
+/* A session of the calculator: the user's scene, the user's names, and undo. */
 #ifndef LANGUAGE_CALC_H
 #define LANGUAGE_CALC_H
 
 #include "language/expr.h"
 #include "language/names.h"
 
-/* One change that undo takes back: of the scene, or of a name. */
+/* One change that undo reverts: of the scene, or of a name. */
 typedef struct undo_entry {
-    unsigned long group; /* changes of one statement go together */
-    scene_mark *before;  /* of the scene; NULL: of a name */
-    size_t steps;        /* after it: those that come then are taken off one by one */
+    unsigned long group; /* changes of one statement have one group */
+    scene_mark *before;  /* the scene before; NULL: a change of a name */
+    size_t steps;        /* length of the load program after it: later steps have no entries */
     size_t name;
-    own_name old; /* text is not its own */
+    own_name old; /* the name before; its text is borrowed */
 } undo_entry;
 
 typedef struct undo {
     undo_entry *entry;
     size_t count, room;
-    size_t promised; /* entries that statements under way will need */
+    size_t promised; /* entries reserved by open undo_mark calls */
     unsigned long group;
-    unsigned long outermost; /* the group of the statement that holds the others */
-    int nesting;             /* of statements that hold others */
-    size_t base_steps;       /* of the oldest state that can come back */
+    unsigned long outermost; /* group of the outermost open statement */
+    int nesting;             /* depth of open statements */
+    size_t base_steps;       /* length of the load program in the oldest state */
 } undo;
 
 enum { CHAIN = 100, CALC_NOTE = 200 };
 
 typedef struct calc {
     scene scene;
-    scene *now; /* what expressions see: the user's scene, or a trial's */
+    scene *now; /* the scene of expressions: the user's, or a trial's */
     own_names names;
     undo undo;
     value ans; /* the last value printed */
     bool has_ans;
-    int cores;                      /* that studies may keep busy; 0: all there are */
-    char note[CALC_NOTE];           /* something to be told that is no error; empty: nothing */
-    expr scratch;                   /* storage of expr_value */
-    const definition *chain[CHAIN]; /* being evaluated */
+    int cores;                      /* cores that studies may use; 0: all */
+    char note[CALC_NOTE];           /* a note that is no error; empty: none */
+    expr scratch;                   /* buffer of expr_value */
+    const definition *chain[CHAIN]; /* definitions being evaluated */
     size_t chain_length;
-    unsigned over_depth;              /* ranges that are gone over, one within the other */
-    double over_error;                /* the largest of integrals since somebody cleared it, relative */
-    bool (*keyword)(const lexer *lx); /* a word that may follow a number; NULL: any may */
+    unsigned over_depth;              /* depth of nested ranges */
+    double over_error;                /* largest relative error of integrals; the caller clears it */
+    bool (*keyword)(const lexer *lx); /* is it a word that may follow a number? NULL: all may */
 } calc;
 
 void calc_init(calc *c, const volatile sig_atomic_t *stop);
 void calc_free(calc *c);
 
-/* What is changed by name: an input or one of the user's names. */
+/* A knob: an input or a user's name that is varied. */
 typedef struct knob {
     bool is_input;
     input in;
@@ -56,14 +56,14 @@ typedef struct knob {
     char text[LEX_NAME];
 } knob;
 
-/* What `at` makes of it, and how many of them it takes. */
+/* A knob with its value; the most that one `at` takes. */
 enum { CHANGES = 8 };
 typedef struct knob_value {
     knob p;
     long double v;
 } knob_value;
 
-/* A scene shown twice, with two values of a name. */
+/* A comparison of one scene with two values of a name. */
 enum { COMPARED = 2 };
 typedef struct side_by_side {
     bool on;
@@ -71,53 +71,51 @@ typedef struct side_by_side {
     long double with[COMPARED];
 } side_by_side;
 
-/* `NAME = EXPR, ...`, `NAME := EXPR` and `NAME(X, ...) := EXPR`. Is the cursor on an assignment? */
+/* `NAME = EXPR, ...`, `NAME := EXPR` and `NAME(X, ...) := EXPR`: is the cursor on one? calc_assign runs it.
+ */
 bool assign_at(const lexer *lx);
 bool calc_assign(calc *c, lexer *lx);
-/* Binds an input to the expression at the cursor, as `NAME := EXPR` does; for the arguments of commands. */
+/* Parses the expression at the cursor as a definition of an input; the caller owns *out. */
 bool calc_bind(calc *c, lexer *lx, input in, counted **out);
-/* Is the input of use in the scene? Else an error that says so. */
+/* Does the scene use the input now? Else sets an error. */
 bool calc_takes(const calc *c, input in, calc_error *error);
 
-/* The value must have this dimension; a bare 0 always has. */
+/* Checks the dimension of a value; a bare 0 has any. */
 bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d);
 
-/* Around every statement that may change the scene: begin, then end, then keep if it did. Statements within
- * a statement join it when it ends. */
+/* undo_begin and undo_end enclose each statement that may change the scene; nested ones join it. */
 void undo_begin(calc *c);
 void undo_end(calc *c);
-/* Before a change of the scene: keeps it as it is. NULL: out of memory, and nothing may be changed that could
- * not be taken back.  Ends with undo_scene, which makes it an entry, or undo_unmark, which takes back what
- * was done since. */
+/* Saves the scene before a change. NULL: out of memory, and nothing may be changed. End with undo_scene,
+ * which makes it an entry, or undo_unmark, which restores the scene. */
 scene_mark *undo_mark(calc *c);
 void undo_scene(calc *c, scene_mark *m);
 void undo_unmark(calc *c, scene_mark *m);
-/* Before a change of a name. False: out of memory. */
+/* Saves a name before a change, as an entry. False: out of memory. */
 bool undo_name(calc *c, size_t name);
-/* Forgets the last entry; back: its name gets its old value. */
+/* Removes the last entry; back: and reverts its change. */
 void undo_pop(calc *c, bool back);
-/* Takes back all that has been done since the group was c->undo.group, within one statement. */
+/* Reverts all changes since c->undo.group was `group`, within one statement. */
 void undo_since(calc *c, unsigned long group);
-/* Takes back the last change; false: there is none. */
+/* Reverts the last change; false: there is none. */
 bool calc_undo(calc *c);
 
-/* That is `ans` now. */
+/* Sets `ans`. */
 void calc_answered(calc *c, value v);
 
-/* Words that mean something elsewhere in the field, and what leads on from them here, as "p(r) tells it". Row
- * i of them, for help; of a word, NULL where there is none. */
+/* Words from elsewhere in the field, each with a hint to what serves here: row i, or the hint of a word. */
 const char *lead_name(size_t i); /* NULL after the last */
 const char *lead_text(size_t i);
 const char *lead_from(const char *word);
 
-/* "3 um", in the unit that fits. */
+/* Writes "3 um", in a unit that fits. */
 void calc_amount(dim d, long double v, int digits, char *text, size_t size);
-/* The same with no more digits than a message bears. */
+/* The same with 6 digits, for messages. */
 enum { CALC_VALUE_TEXT = 160 };
 void calc_value_text(dim d, double v, char text[CALC_VALUE_TEXT]);
-/* Puts an error into words, once. */
+/* Writes the text of an error, once. */
 void calc_word(const calc *c, calc_error *error);
-/* Adds to the words. */
+/* Appends to the text of an error. */
 LIKE_PRINTF(3, 4)
 void calc_append(const calc *c, calc_error *error, const char *format, ...);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The values of expressions. */
+/* Evaluates expressions. Uses `scene`, `text` and `number`. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,17 +11,17 @@ typedef struct machine {
     calc *c;
     const expr *e;
     calc_error *error;
-    const value *arguments; /* of the user's function */
-    bool dry;               /* dimensions alone: values that cannot be had count as 1 */
-    const dim *want;        /* of the whole; NULL: any */
-    bool over;              /* 1/2 mm is 1/(2 mm) */
+    const value *arguments; /* arguments of the user's function */
+    bool dry;               /* dimensions only: missing values count as 1 */
+    const dim *want;        /* wanted dimension of the whole; NULL: any */
+    bool unit_in_divisor;   /* 1/2 mm is 1/(2 mm) */
 } machine;
 
 static bool run_nodes(machine *m, value *out);
 
 /* ---- errors ------------------------------------------------------------------------------------ */
 
-/* In a dry run only dimensions can be wrong. */
+/* A dry run reports wrong dimensions only. */
 #define bad_value(m, n, ...) ((m)->dry || calc_fail((m)->error, (n)->at, (n)->len, __VA_ARGS__))
 
 static bool dims_differ(machine *m, const expr_node *n, const char *verb, const expr_node *a, dim da,
@@ -75,7 +75,8 @@ static bool binary(machine *m, const expr_node *n, value *out) {
     case '?':
         if (!dim_equal(a.d, DIM_NONE) || a.d.rad != 0)
             return dim_wrong(m, l, a.d, "a unit follows numbers alone");
-        *out = n->op == '?' && m->over ? (value){a.v / b.v, dim_power(b.d, -1)} : (value){a.v * b.v, b.d};
+        *out = n->op == '?' && m->unit_in_divisor ? (value){a.v / b.v, dim_power(b.d, -1)}
+                                                  : (value){a.v * b.v, b.d};
         break;
     case '/':
         out->v = a.v / b.v;
@@ -135,9 +136,9 @@ static bool call_builtin(machine *m, const expr_node *n, value *out) {
 
 /* ---- names and changed scenes ------------------------------------------------------------------ */
 
-/* The chain of live definitions, from the one that comes again. */
+/* The error of a circle: the chain of definitions from the one that recurs. */
 static bool circle(calc *c, const char *label, calc_error *error) {
-    char chain[CALC_ERROR_TEXT - 96] = ""; /* the name that closes it is never cut off */
+    char chain[CALC_ERROR_TEXT - 96] = ""; /* leaves room for the closing name */
     size_t from = c->chain_length - 1, n = 0;
     while (from > 0 && strcmp(c->chain[from]->label, label))
         from--;
@@ -166,12 +167,12 @@ static bool evaluate_definition(calc *c, const definition *d, const value *argum
     if (!enter(c, d, error))
         return false;
     bool ok = run_nodes(&m, out);
-    if (!ok && mine.circle && mine.kind == ERROR_MISSING) { /* of inputs: the scene has met itself */
+    if (!ok && mine.circle && mine.kind == ERROR_MISSING) { /* a circle through inputs */
         mine.raised = false;
         circle(c, quantity_of_input((input)mine.input)->name, &mine);
     }
     c->chain_length--;
-    if (!ok) { /* places in the definition mean nothing in the statement */
+    if (!ok) { /* places in the definition are none in the statement */
         *error = mine;
         error->at = error->len = 0;
     }
@@ -215,7 +216,7 @@ static bool dim_fits(machine *m, const expr *e, const knob *p, value v, dim want
     return false;
 }
 
-/* The value that a name is to have, as things stand outside; want: the dimension of an input, or none. */
+/* The new value of a name, evaluated outside the change; want: the dimension of an input, or none. */
 static bool value_outside(const machine *m, const expr *e, const knob *p, dim *want, value *v) {
     machine outside = *m;
     *want = p->is_input ? quantity_dim(quantity_of_input(p->in), m->c->now) : DIM_NONE;
@@ -224,7 +225,7 @@ static bool value_outside(const machine *m, const expr *e, const knob *p, dim *w
     return run_nodes(&outside, v);
 }
 
-/* All values are those outside, then all are set. NULL: an error. */
+/* Opens a trial with the changes of `at`. All values are evaluated before any is set. NULL: an error. */
 static trial *open_changed(machine *m, const expr_at *at) {
     knob_value by[CHANGES];
     size_t count = 0, wrong;
@@ -268,7 +269,7 @@ static bool changed_value(machine *m, const expr_node *n, value *out) {
 
 /* ---- over a range ------------------------------------------------------------------------------ */
 
-/* The expression of a range, as the machine around it sees it. */
+/* Context of a range: its expression, in the machine around it. */
 typedef struct over_body {
     machine m;
     over o;
@@ -280,14 +281,14 @@ static bool body_value(void *context, value *out) {
     return run_nodes(&b->m, out);
 }
 
-/* Both of one dimension, that of the name where it is an input. */
+/* Evaluates both ends, of one dimension: that of the input, if the name is one. */
 static bool range_ends(machine *m, const expr_at *at, knob *name, over *o) {
     value end[2];
     dim want;
     for (int i = 0; i < 2; i++)
         if (!value_outside(m, &at->change[i].value, name, &want, &end[i]))
             return false;
-    const int tells = end[0].v == 0 && dim_equal(end[0].d, DIM_NONE); /* of a bare 0 the other one */
+    const int tells = end[0].v == 0 && dim_equal(end[0].d, DIM_NONE); /* a bare 0 takes the other's */
     name->d = name->is_input ? want : end[tells].d;
     o->lo = end[0].v;
     o->hi = end[1].v;
@@ -304,7 +305,7 @@ static bool over_times(over *o, along_what what) {
     return ok;
 }
 
-/* The dimension of the expression, which over no range at all no value tells. */
+/* The dimension of the expression by a dry run, since an empty range has no value. */
 static bool over_dim(over_body *b, calc_error *error) {
     over *o = &b->o;
     size_t wrong;
@@ -339,7 +340,7 @@ static bool over_run(machine *m, const expr_node *n, over_body *b, value *out) {
 }
 
 static bool over_value(machine *m, const expr_node *n, value *out) {
-    enum { DEEPEST = 8 }; /* each takes some stack, and hundreds of values of the one within */
+    enum { DEEPEST = 8 }; /* each uses stack, and evaluates the inner one hundreds of times */
     const expr_at *at = n->changed;
     knob name = at->change[0].p;
     over_body b = {
@@ -361,7 +362,7 @@ static bool over_value(machine *m, const expr_node *n, value *out) {
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
 
-/* What the scene is asked for may be an approximation, by its row. */
+/* Records that a quantity that depends on friction was asked for. */
 static void mark_asked(const calc *c, const quantity *q) {
     if (q->reads & INPUT_BIT(IN_MU) && !quantity_is_input(q))
         c->now->used |= ASKED_TANGENTIAL;
@@ -414,7 +415,7 @@ static bool eval(machine *m, const expr_node *n, value *out) {
             mark_asked(m->c, n->q);
         if (!m->dry && !quantity_get(n->q, m->c->now, &out->v, m->error))
             return calc_place(m->error, n->at, n->len);
-        out->d = quantity_dim(n->q, m->c->now); /* which follows from a live n, too */
+        out->d = quantity_dim(n->q, m->c->now); /* again: that of A may follow a live n */
         break;
     case N_CALL:
         if (!call_quantity(m, n, out))
@@ -440,8 +441,7 @@ static bool eval(machine *m, const expr_node *n, value *out) {
     return isfinite((double)out->v) || bad_value(m, n, "the result is too large for double precision");
 }
 
-/* A mismatch of dimensions is the deeper error: it is reported even where a value is still missing. Not
- * where an exponent is unknown, on which dimensions depend. */
+/* Replaces an error of values by a mismatch of dimensions, unless an exponent decides them but is unknown. */
 static void prefer_mismatch(const machine *m) {
     calc_error mismatch;
     error_clear(&mismatch);
@@ -460,7 +460,7 @@ static void prefer_mismatch(const machine *m) {
     }
 }
 
-/* Children come before their parents: a loop, so that no input can exhaust the stack. */
+/* A loop, since children come before their parents: no input can exhaust the stack. */
 static bool run_read(machine *m, value *out) {
     for (size_t i = 0; i < m->e->count; i++)
         if (!eval(m, &m->e->nodes[i], &m->e->nodes[i].v)) {
@@ -485,7 +485,7 @@ static bool two_readings(machine *m, const expr_node *n) {
                      text + divisor);
 }
 
-/* Of numbers with a division and a unit the one reading that holds, by dimensions alone. */
+/* Chooses between the two readings of a number divided by a number with a unit by their dimensions. */
 static bool choose_reading(machine *m) {
     const expr_node *n = m->e->nodes, *end = n + m->e->count;
     bool holds[2] = {false, false};
@@ -496,11 +496,11 @@ static bool choose_reading(machine *m) {
         value v;
         probe.error = error_quiet();
         probe.dry = true;
-        probe.over = i;
+        probe.unit_in_divisor = i;
         holds[i] =
             run_read(&probe, &v) && (!m->want || (dim_equal(v.d, *m->want) && v.d.rad == m->want->rad));
     }
-    m->over = holds[1];
+    m->unit_in_divisor = holds[1];
     return !(holds[0] && holds[1]) || two_readings(m, n);
 }
 
@@ -533,7 +533,7 @@ bool expr_changed(calc *c, const expr *e, trial **t, const expr **body, calc_err
 bool expr_dim(calc *c, const expr *e, dim *d) {
     value v;
     machine m = {c, e, error_quiet(), NULL, true, NULL, false};
-    if (!run_nodes(&m, &v) || isnan(v.d.N + v.d.m + v.d.s)) /* a power by what has no value */
+    if (!run_nodes(&m, &v) || isnan(v.d.N + v.d.m + v.d.s)) /* a power with an exponent without a value */
         return false;
     *d = v.d;
     return true;

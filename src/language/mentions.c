@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an expression is made of, and what its definitions lead to. Evaluates nothing. */
+/* Searches expressions and the definitions that they lead to. Evaluates nothing. */
 #include <stdio.h>
 #include <string.h>
 
@@ -16,8 +16,8 @@ size_t way_step(char *way, size_t size, const char *name, const char *text) {
     return size;
 }
 
-/* way: where there is one, "b -> c -> " of the definitions that lead to the name. Each definition is looked
- * into once, however often it is mentioned, and none that is deeper than can be evaluated. */
+/* way: NULL, or receives the chain of definitions to the name, as "b -> c -> ". Each definition is searched
+ * once, and none deeper than CHAIN. */
 static bool mentions(const calc *c, const expr *e, const quantity *q, const char *name, char *way,
                      size_t size, int deep) {
     for (size_t i = 0; i < e->count; i++) {
@@ -48,7 +48,8 @@ static bool mentions(const calc *c, const expr *e, const quantity *q, const char
     return false;
 }
 
-static bool look(const calc *c, const expr *e, const quantity *q, const char *name, char *way, size_t size) {
+static bool search(const calc *c, const expr *e, const quantity *q, const char *name, char *way,
+                   size_t size) {
     for (size_t i = 0; i < c->names.count; i++)
         c->names.row[i].seen = false;
     return mentions(c, e, q, name, way, size, 0);
@@ -56,11 +57,11 @@ static bool look(const calc *c, const expr *e, const quantity *q, const char *na
 
 bool expr_way(const calc *c, const expr *e, const char *name, char *way, size_t size) {
     way[0] = 0;
-    return look(c, e, NULL, name, way, size);
+    return search(c, e, NULL, name, way, size);
 }
 
 bool expr_mentions(const calc *c, const expr *e, const quantity *q, const char *name) {
-    return look(c, e, q, name, NULL, 0);
+    return search(c, e, q, name, NULL, 0);
 }
 
 const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at) {

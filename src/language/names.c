@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of the user's names. */
+/* The table of the user's names. Uses `number`. */
 #include "language/names.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@ void names_free(own_names *n) {
     *n = (own_names){.row = NULL};
 }
 
-/* Few they are: a list is looked through. */
+/* Linear search: names are few. */
 static bool find_row(const own_names *n, const char *text, size_t len, size_t *index) {
     for (size_t i = 0; i < n->count; i++)
         if (!strncmp(n->row[i].text, text, len) && !n->row[i].text[len]) {

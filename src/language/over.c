@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values of an expression over a range: their integral, the largest, the smallest. */
+/* Integrals, largest and smallest values of an expression over a range. Uses `scene` and `number`. */
 #include "language/over.h"
 
 #include <float.h>
@@ -11,7 +11,7 @@
 
 /* ---- one value --------------------------------------------------------------------------------- */
 
-static bool look(over *o, long double *v) {
+static bool evaluate(over *o, long double *v) {
     calc *c = o->t->c;
     value now;
     if (calc_stopped(c->scene.stop, o->error))
@@ -28,7 +28,7 @@ static bool look(over *o, long double *v) {
            calc_fail(o->error, 0, 0, "the expression has no dimension of its own: it changes on the way");
 }
 
-/* An error at a place tells it. */
+/* Appends the place x to an error. */
 static void over_where(const over *o, long double x) {
     char at[CALC_VALUE_TEXT];
     calc_value_text(o->name ? o->name->d : DIM_NONE, (double)x, at);
@@ -36,27 +36,27 @@ static void over_where(const over *o, long double x) {
         calc_append(o->t->c, o->error, " (at %s = %s)", o->name ? o->name->text : "time", at);
 }
 
-static bool look_at(over *o, long double x, long double *v) {
+static bool evaluate_at(over *o, long double x, long double *v) {
     const knob_value by = {*o->name, x};
     size_t wrong;
-    o->t->c->now = &o->t->scene; /* not the one beside it that has been seen last */
-    return trial_change(o->t, &by, 1, &wrong, o->error) && look(o, v);
+    o->t->c->now = &o->t->scene; /* not the changed scene of an earlier evaluation */
+    return trial_change(o->t, &by, 1, &wrong, o->error) && evaluate(o, v);
 }
 
 /* ---- the integral ------------------------------------------------------------------------------ */
 
-/* A part of it, between places where it may be singular: next to one, `end`, it goes as a power of the
- * distance, of which x keeps too few digits. A value at x is then one at the distance that x has. */
+/* A part of the range between places where the integrand may be singular. Next to one, `end`, it is a power
+ * of the distance, of which x keeps too few digits: a value at x is scaled to the exact distance. */
 typedef struct part {
     over *o;
     long double lo, hi;
     bool magnitude;
-    long double end, power; /* power 0: not next to one */
-    bool lost;              /* a value at an end */
+    long double end, power; /* power 0: not next to `end` */
+    bool lost;              /* a value at an end is missing */
     size_t seen;
 } part;
 
-/* Where x cannot be told from an end there need be no value. The rule is of no use then, and soon left. */
+/* Where x rounds to an end the value may be missing: the rule cannot converge then, and is left soon. */
 static fret_real integrand(fret_real t, fret_real rest, void *context) {
     enum { ENOUGH = 2000 };
     part *p = context;
@@ -70,7 +70,7 @@ static fret_real integrand(fret_real t, fret_real rest, void *context) {
         return 0;
     error_clear(&mine);
     o->error = &mine;
-    const bool had = look_at(o, x, &v),
+    const bool had = evaluate_at(o, x, &v),
                at_end = x == p->lo || x == p->hi || t < LDBL_EPSILON || rest < LDBL_EPSILON;
     p->lost = p->lost || !had;
     if (!had && (mine.stop || mine.strange || !at_end)) {
@@ -83,28 +83,28 @@ static fret_real integrand(fret_real t, fret_real rest, void *context) {
     return p->magnitude ? fabsl(v) : v;
 }
 
-/* A lost value leaves the error unknown. */
+/* Integrates a part; its error is infinite if a value is missing. */
 static fret_estimate sum_of(part *p, long double tolerance) {
     const fret_estimate whole = fret_integral(integrand, p, tolerance);
     const long double error = p->lost ? INFINITY : whole.error * fabsl(p->hi - p->lo);
     return (fret_estimate){whole.value * (p->hi - p->lo), error};
 }
 
-static fret_estimate between(over *o, long double lo, long double hi, long double tolerance, bool magnitude) {
+static fret_estimate integrate(over *o, long double lo, long double hi, long double tolerance,
+                               bool magnitude) {
     return sum_of(&(part){.o = o, .lo = lo, .hi = hi, .magnitude = magnitude}, tolerance);
 }
 
-/* From `far` to a singular end: between halves of the distance, powers of two that x can be told at, whose
- * sums go on as their limit does (Wynn's epsilon, exact for sums of powers of the distance). Where the last
- * of them do not shrink there is no limit; what they tell of the rest holds a limit that belongs to another
- * law, farther from the end, off. */
-static fret_estimate to_end(over *o, long double far, long double end) {
+/* The integral from `far` to a singular end, as the limit of sums over halved distances (Wynn's epsilon
+ * algorithm, exact for sums of powers of the distance). If the last pieces do not shrink there is no limit; a
+ * limit that the last pieces contradict belongs to another law farther from the end, and is rejected. */
+static fret_estimate integrate_to_end(over *o, long double far, long double end) {
     enum { HALVES = 64 };
     int exponent;
     (void)frexpl(end - far, &exponent);
     long double row[HALVES + 1], away = copysignl(ldexpl(0.5L, exponent), far - end), last = NAN, before = 0,
                                  shrinks = 0, off = INFINITY;
-    const fret_estimate first = between(o, far, end + away, 1e-15L, false);
+    const fret_estimate first = integrate(o, far, end + away, 1e-15L, false);
     long double sum = first.value, rounding = first.error;
     fret_estimate best = {0, INFINITY};
     for (int n = 0; n <= HALVES && !o->error->raised; n++, away /= 2) {
@@ -127,7 +127,7 @@ static fret_estimate to_end(over *o, long double far, long double end) {
         }
         const long double earlier = off, now = row[n % 2];
         off = fabsl(now - last);
-        if (off + earlier + rounding < best.error) /* agrees with two before it; is a number */
+        if (off + earlier + rounding < best.error) /* agrees with the last two; false for NaN */
             best = (fret_estimate){now, off + earlier + rounding};
         last = now;
     }
@@ -139,33 +139,32 @@ static fret_estimate to_end(over *o, long double far, long double end) {
                : (fret_estimate){sum + rest, fabsl(rest) + rounding};
 }
 
-/* *size: of its magnitude. What has worn is straight between rows by the hundred: it is not worth its last
- * digits. */
-static fret_estimate of_part(over *o, bool worn, long double lo, long double hi, long double *size) {
+/* The integral between two edges; *size: of its magnitude. A worn gap is piecewise cubic with hundreds of
+ * pieces, and is not worth the last digits. */
+static fret_estimate integrate_part(over *o, bool worn, long double lo, long double hi, long double *size) {
     const long double good = worn ? 1e-4L : 1e-14L;
-    fret_estimate all = between(o, lo, hi, worn ? 1e-5L : 1e-16L, false);
+    fret_estimate all = integrate(o, lo, hi, worn ? 1e-5L : 1e-16L, false);
     *size = fabsl(all.value);
     if (isfinite(all.error) && all.error > good * *size)
-        *size = between(o, lo, hi, 1e-3L, true).value;
+        *size = integrate(o, lo, hi, 1e-3L, true).value;
     if (all.error <= good * *size || o->error->raised)
         return all;
     const long double mid = lo + (hi - lo) / 2;
-    const fret_estimate left = to_end(o, mid, lo), right = to_end(o, mid, hi);
+    const fret_estimate left = integrate_to_end(o, mid, lo), right = integrate_to_end(o, mid, hi);
     const fret_estimate both = {right.value - left.value, left.error + right.error};
     const long double rough = fabsl(all.value);
     const bool agree = fabsl(both.value - all.value) <= 4 * (both.error + all.error);
     if ((both.error < all.error && agree) || !isfinite(all.error))
         all = both;
-    if (!isfinite(all.error)) /* all of it is unsure: little, where it is a sliver of the whole */
+    if (!isfinite(all.error)) /* nothing is certain: harmless if the part is a small share of the whole */
         all.error = fmaxl(rough, fabsl(left.value) + fabsl(right.value));
     *size = fmaxl(*size, fmaxl(fabsl(all.value), isfinite(both.error) ? 0 : all.error));
     return all;
 }
 
-/* Where parts end: of a place, where the scene has an edge, and pressure may be singular there, or where
- * friction's work has a kink, if that is what is asked for; a contact that reaches but little beyond a flat
- * end has another law nearer to it than that. The first lets no rule lie evenly about a pole, whose sides
- * would take each other away. */
+/* Where parts end: at a place off the middle, so that no rule is symmetric about a pole, whose sides would
+ * cancel; over a radius at b and a, where pressure may be singular; just inside b if the contact reaches
+ * little beyond a flat end; and at kinks of friction's work, if it was asked for. */
 enum { EDGES = 200 };
 static size_t edges(over *o, bool *worn, long double at[EDGES]) {
     static const char *const names[] = {"b", "a"};
@@ -174,7 +173,7 @@ static size_t edges(over *o, bool *worn, long double at[EDGES]) {
     calc_error *error = o->error;
     at[count++] = o->lo + 0.381966L * (o->hi - o->lo);
     o->error = error_quiet();
-    look_at(o, at[0], v);
+    evaluate_at(o, at[0], v);
     o->error = error;
     *worn = scene_is_worn(&o->t->scene);
     for (size_t i = 0; i < 2 && dim_equal(o->name->d, DIM_LENGTH) && !o->name->is_input; i++) {
@@ -209,7 +208,7 @@ bool over_integral(over *o, long double *out, long double *error) {
         for (size_t i = 0; i < count; i++)
             if (way * (edge[i] - lo) > alike * fabsl(o->hi - o->lo) && way * edge[i] < way * hi)
                 hi = edge[i];
-        const fret_estimate here = of_part(o, worn, lo, hi, &own);
+        const fret_estimate here = integrate_part(o, worn, lo, hi, &own);
         sum += here.value;
         off += here.error;
         size += fabsl(own);
@@ -225,9 +224,9 @@ bool over_integral(over *o, long double *out, long double *error) {
 
 /* ---- the largest and the smallest -------------------------------------------------------------- */
 
-/* A value above those beside it, at the places next to it. */
+/* A value above its neighbours', and their places. */
 typedef struct peak {
-    long double v, spread, left, right; /* spread: how far above the lower one */
+    long double v, spread, left, right; /* spread: height above the lower neighbour */
 } peak;
 
 enum { PEAKS = 128, FEW = 4 };
@@ -235,12 +234,12 @@ typedef struct search {
     over *o;
     int sign;
     size_t seen, peaks;
-    long double x[3], v[3]; /* the latest */
+    long double x[3], v[3]; /* the last three samples */
     peak peak[PEAKS];       /* highest first */
 } search;
 
-/* Is one of the latest three a peak? An end has both of the others on one side. */
-static void close_peak(search *s, int at, int near, int other) {
+/* Records sample `at` of the last three if it is a peak; at an end both others lie on one side. */
+static void record_peak(search *s, int at, int near, int other) {
     const long double v = s->v[at];
     size_t i = s->peaks;
     if (v < s->v[near] || (at == 1 && v < s->v[other]))
@@ -255,7 +254,7 @@ static void close_peak(search *s, int at, int near, int other) {
     s->peak[i] = (peak){v, v - fminl(s->v[near], s->v[other]), s->x[at > 1], s->x[at < 1 ? 1 : 2]};
 }
 
-static void take(search *s, long double x, long double v) {
+static void add_sample(search *s, long double x, long double v) {
     for (int i = 0; i < 2; i++) {
         s->x[i] = s->seen ? s->x[i + 1] : x;
         s->v[i] = s->seen ? s->v[i + 1] : s->sign * v;
@@ -263,9 +262,9 @@ static void take(search *s, long double x, long double v) {
     s->x[2] = x;
     s->v[2] = s->sign * v;
     if (++s->seen == 3)
-        close_peak(s, 0, 1, 2);
+        record_peak(s, 0, 1, 2);
     if (s->seen >= 3)
-        close_peak(s, 1, 0, 2);
+        record_peak(s, 1, 0, 2);
 }
 
 static bool scan_along(search *s, long double lo, long double hi, size_t points) {
@@ -275,11 +274,11 @@ static bool scan_along(search *s, long double lo, long double hi, size_t points)
     if (!trial_along_between(&a, o->t, (double)lo, (double)hi, points, true, o->error))
         return false;
     while (trial_along_next(&a, o->error)) {
-        if (!look(o, &v)) {
+        if (!evaluate(o, &v)) {
             over_where(o, (long double)scene_time(&o->t->scene));
             break;
         }
-        take(s, (long double)scene_time(&o->t->scene), v);
+        add_sample(s, (long double)scene_time(&o->t->scene), v);
     }
     trial_along_end(&a);
     return !o->error->raised;
@@ -292,21 +291,21 @@ static bool scan(search *s, long double lo, long double hi, size_t points) {
         return false;
     for (size_t i = 0; s->o->name && i <= points; i++) {
         const long double t = (long double)i / (long double)points, x = lo * (1 - t) + hi * t;
-        if (!look_at(s->o, x, &v)) {
+        if (!evaluate_at(s->o, x, &v)) {
             over_where(s->o, x);
             return false;
         }
-        take(s, x, v);
+        add_sample(s, x, v);
     }
     if (s->seen == 2)
-        close_peak(s, 1, 0, 2);
+        record_peak(s, 1, 0, 2);
     if (s->seen)
-        close_peak(s, 2, 1, 0);
+        record_peak(s, 2, 1, 0);
     return true;
 }
 
-/* Between its neighbours, until all that is left is alike to rounding. */
-static bool climb(search *s, peak p, long double *most) {
+/* Scans between the neighbours of a peak until values agree to rounding. */
+static bool refine_peak(search *s, peak p, long double *most) {
     enum { PLACES = 16 };
     *most = fmaxl(*most, p.v);
     while (p.spread > 4 * LDBL_EPSILON * fabsl(p.v) &&
@@ -314,11 +313,11 @@ static bool climb(search *s, peak p, long double *most) {
         const long double width = p.right - p.left;
         if (!scan(s, p.left, p.right, PLACES))
             return false;
-        if (!s->peaks) /* no time between them */
+        if (!s->peaks) /* no instant between them */
             return true;
         p = s->peak[0];
         *most = fmaxl(*most, p.v);
-        if (p.right - p.left > width / 2) /* steps of time end */
+        if (p.right - p.left > width / 2) /* time has no finer steps */
             return true;
     }
     return true;
@@ -334,11 +333,11 @@ bool over_extreme(over *o, bool largest, long double *out) {
     if (!s.peaks)
         return calc_fail(o->error, 0, 0, "there is no instant to look at");
     peak found[PEAKS];
-    const size_t count = o->name || s.peaks < FEW ? s.peaks : FEW; /* loads repeat themselves */
+    const size_t count = o->name || s.peaks < FEW ? s.peaks : FEW; /* periods of a load have equal peaks */
     long double most = s.peak[0].v;
     memcpy(found, s.peak, sizeof found);
     for (size_t i = 0; i < count; i++)
-        if (found[i].v + found[i].spread > most && !climb(&s, found[i], &most))
+        if (found[i].v + found[i].spread > most && !refine_peak(&s, found[i], &most))
             return false;
     *out = s.sign * most;
     return true;

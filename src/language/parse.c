@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Expressions as trees. */
+/* Parses expressions into trees. Uses `scene`, `text` and `number`. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,12 +12,12 @@
 #include "text/unit.h"
 
 enum {
-    DEPTH_LIMIT = 200,    /* of nesting: the parser recurses */
+    DEPTH_LIMIT = 200,    /* of nesting, since the parser recurses */
     NODE_LIMIT = 1 << 21, /* 96 bytes each */
-    LOOK = 4096           /* nodes after which the stop flag is looked at */
+    LOOK = 4096           /* nodes between checks of the stop flag */
 };
 
-/* The name of a range that is gone over. */
+/* The names of the ranges around an expression, as a list. */
 typedef struct bound {
     const char *name;
     const struct bound *outer;
@@ -27,11 +27,11 @@ typedef struct parser {
     calc *c;
     lexer *lx;
     expr *e;
-    const definition *within; /* its parameters are names */
+    const definition *within; /* the function whose body is parsed, or NULL */
     int depth;
-    const struct bound *bound; /* names of the ranges around it */
-    size_t plain;              /* there is no `at` before */
-    bool bare;                 /* a unit behind the number at the cursor belongs to more than that */
+    const struct bound *bound; /* names of the ranges around */
+    size_t plain;              /* no `at` begins before this place */
+    bool defer_unit;           /* a unit after the number at the cursor is left to the caller */
 } parser;
 
 /* ---- nodes ------------------------------------------------------------------------------------- */
@@ -89,15 +89,14 @@ static bool unknown_name(parser *p) {
     const char *near = suggest(word, quantity_name);
     if (!near)
         near = suggest(word, builtin_name);
-    const size_t same = character_before(word, strlen(word)); /* all letters but the last */
+    const size_t same = character_before(word, strlen(word)); /* length without the last letter */
     for (size_t i = 0; !near && i < p->c->names.count; i++)
         if (p->c->names.row[i].known && same > 1 && !strncmp(p->c->names.row[i].text, word, same))
             near = p->c->names.row[i].text;
     return lex_fail(lx, near ? "unknown name '%s': did you mean %s?" : "unknown name '%s'", word, near);
 }
 
-/* The word, or the other one, behind an operand within this parenthesis. any: it is there, or within one
- * inside. */
+/* Finds one of two words after an operand within this parenthesis. any: it is there, or in an inner one. */
 static bool find_word(const lexer *lx, const char *word, const char *other, lexer *out, bool *any) {
     int depth = 0;
     *any = false;
@@ -116,7 +115,7 @@ static bool find_word(const lexer *lx, const char *word, const char *other, lexe
     return out->kind != T_END && depth == 0;
 }
 
-/* An expression of its own within this one. */
+/* Parses a separate expression within this one. */
 static bool parse_inner(const parser *p, expr *e, const bound *names) {
     parser inner = {.c = p->c, .lx = p->lx, .e = e, .within = p->within, .depth = p->depth, .bound = names};
     return parse_whole(&inner);
@@ -147,9 +146,9 @@ static bool parse_change(parser *p, expr_at *at) {
         return lex_fail(lx, "expected NAME = EXPR after `at`");
     if (!quantity_find(lx->text + lx->at, lx->len) &&
         !names_find(&p->c->names, lx->text + lx->at, lx->len, &name))
-        return unknown_name(p); /* nothing before it could have meant it */
+        return unknown_name(p); /* no earlier error fits better */
     at->change[at->count].at = lx->at;
-    if (!knob_name(p->c, lx, q)) /* it may wait for the load it needs */
+    if (!knob_name(p->c, lx, q)) /* whether the scene takes it is checked later */
         return false;
     for (size_t i = 0; i < at->count; i++)
         if (!strcmp(at->change[i].p.text, q->text))
@@ -159,7 +158,7 @@ static bool parse_change(parser *p, expr_at *at) {
     return parse_inner(p, &at->change[at->count++].value, p->bound);
 }
 
-/* The cursor is on `at`; what it applies to begins there. */
+/* Parses the changes from `at` on; begin: place of the expression that they apply to. */
 static bool parse_at(parser *p, expr_at *at, size_t begin, size_t *out) {
     lexer *lx = p->lx, ahead;
     expr_node node = {.kind = N_AT, .at = begin, .changed = at};
@@ -174,7 +173,7 @@ static bool parse_at(parser *p, expr_at *at, size_t begin, size_t *out) {
     return add_node(p, &node, out);
 }
 
-/* `at ...` at the cursor: all that has been parsed is what is meant in a changed scene. */
+/* Parses a trailing `at ...`: the expression so far becomes its body. */
 static bool read_at(parser *p) {
     expr *e = p->e;
     size_t root;
@@ -190,7 +189,7 @@ static bool read_at(parser *p) {
 
 /* ---- names ------------------------------------------------------------------------------------- */
 
-/* What follows an argument goes on with no other, or there are more of them. */
+/* The error of a wrong number of arguments. */
 static bool wrong_count(const parser *p, const char *name, int count, const char *more) {
     lexer *lx = p->lx;
     size_t from, len;
@@ -203,7 +202,7 @@ static bool wrong_count(const parser *p, const char *name, int count, const char
                     comma ? "; a decimal comma is a point here" : "");
 }
 
-/* From ( on; their roots, one after the other in e->arguments. */
+/* Parses arguments from ( on; appends their nodes to e->arguments. */
 static bool parse_arguments(parser *p, const char *name, unsigned count, expr_node *node) {
     lexer *lx = p->lx;
     size_t root[PARAMETERS];
@@ -275,7 +274,7 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
             continue;
         size_t first; /* min(a, b, c) is min(min(a, b), c) */
         expr_node two = node;
-        two.at = p->e->nodes[node.right].at; /* what an error shows of it */
+        two.at = p->e->nodes[node.right].at; /* the text that an error shows */
         if (!add_node(p, &two, &first))
             return false;
         node.left = first;
@@ -300,7 +299,7 @@ static bool parse_own(parser *p, size_t index, size_t *out) {
     return parse_arguments(p, d->label, d->parameters, &node) && add_node(p, &node, out);
 }
 
-/* An argument of the function that is defined. */
+/* Is the word a parameter of the function being defined? */
 static bool find_parameter(const parser *p, unsigned *j) {
     const unsigned count = p->within ? p->within->parameters : 0;
     *j = 0;
@@ -331,7 +330,7 @@ static bool parse_name(parser *p, size_t *out) {
 
 /* ---- numbers and units ------------------------------------------------------------------------- */
 
-/* Are the nodes from `first` on numbers without units? Most of those that are not end with one. */
+/* Are all nodes from `first` on made of numbers without units? Backwards: others mostly end with a unit. */
 static bool numbers_alone(const parser *p, size_t first) {
     const expr_node *n = p->e->nodes + p->e->count;
     while (n-- > p->e->nodes + first)
@@ -341,7 +340,7 @@ static bool numbers_alone(const parser *p, size_t first) {
     return true;
 }
 
-/* `5 N*s` where s is a name: the user's, or the second? */
+/* Refuses `5 N*s` where s is also a name. */
 static bool is_free_name(parser *p, size_t from) {
     lexer *lx = p->lx, own = *lx;
     size_t i;
@@ -366,7 +365,7 @@ static bool read_unit(parser *p, unit *u) {
     return unit_parse(p->lx, u) && (u->d.s == 0 || !is_free_name(p, from));
 }
 
-/* The unit at the cursor, and op of *out and that. */
+/* Reads the unit at the cursor, and makes the node `*out op unit`. */
 static bool add_unit(parser *p, char op, size_t at, size_t *out) {
     expr_node node = {.kind = N_BINARY, .op = op, .at = at, .left = *out, .index = p->lx->at},
               number = {.kind = N_NUMBER, .at = p->lx->at, .index = 1};
@@ -378,12 +377,12 @@ static bool add_unit(parser *p, char op, size_t at, size_t *out) {
     return add_node(p, &number, &node.right) && add_node(p, &node, out);
 }
 
-/* Behind a number that is no literal. */
+/* Adds a unit after a value computed from numbers. */
 static bool unit_behind(parser *p, size_t at, size_t *out) {
-    return p->bare || !unit_at(p->lx) || add_unit(p, 'U', at, out);
+    return p->defer_unit || !unit_at(p->lx) || add_unit(p, 'U', at, out);
 }
 
-/* `0.5 in`, and no unit behind it. */
+/* Is it `0.5 in` without a unit after `in`? */
 static bool means_inch(const parser *p) {
     lexer next = *p->lx;
     next.error = error_quiet();
@@ -392,7 +391,7 @@ static bool means_inch(const parser *p) {
            lex_peek(&next) == T_ASSIGN || (p->c->keyword && p->c->keyword(&next));
 }
 
-/* A value or a unit right behind a number, and no keyword or argument of a command. */
+/* Is the word after a number a value or a unit, and no keyword or argument of a command? */
 static bool at_factor(const parser *p) {
     const lexer *lx = p->lx;
     const char *word = lx->text + lx->at;
@@ -405,7 +404,7 @@ static bool at_factor(const parser *p) {
         return !builtin_row(i) || next == T_OPEN;
     if (quantity_find(word, lx->len) || unit_at(lx) || find_parameter(p, &j))
         return true;
-    /* a name of the user's may be a word of the command, too: `to /FILE`, `points` */
+    /* a user's name may also be a word of the command: `to /FILE`, `points` */
     return names_find(&p->c->names, word, lx->len, &i) &&
            (next == T_PLUS || next == T_TIMES || next == T_POWER || next == T_CLOSE ||
             (p->c->keyword && !p->c->keyword(lx)));
@@ -417,7 +416,7 @@ static bool parse_number(parser *p, size_t *out) {
     expr_node node = {.kind = N_NUMBER, .at = at, .v = {lx->number, DIM_NONE}};
     unit u;
     lex_next(lx);
-    if (!p->bare && unit_at(lx)) {
+    if (!p->defer_unit && unit_at(lx)) {
         node.index = 1;
         if (!read_unit(p, &u))
             return false;
@@ -435,7 +434,7 @@ static bool parse_number(parser *p, size_t *out) {
         return calc_fail(lx->error, lx->at, lx->len,
                          "`in` asks for a unit: an inch is called inch (%.*s inch)", LEX_SHOWN(len),
                          lx->text + at);
-    if (lx->kind == T_OPEN || (lx->kind == T_NAME && !(p->bare && unit_at(lx)) && at_factor(p)))
+    if (lx->kind == T_OPEN || (lx->kind == T_NAME && !(p->defer_unit && unit_at(lx)) && at_factor(p)))
         return lex_fail(lx, "unexpected '%.*s': a product needs *, a list commas", LEX_WORD(lx));
     return add_node(p, &node, out);
 }
@@ -446,13 +445,13 @@ bool expr_stray_unit(lexer *lx, bool (*keyword)(const lexer *lx)) {
         keyword(lx) || lex_assigns(lx) || quantity_find(lx->text + lx->at, lx->len) ||
         unit_lookup(lx->text + lx->at, lx->len, &known))
         return false;
-    unit_parse(lx, &known); /* an error: it is none */
+    unit_parse(lx, &known); /* sets the error */
     return true;
 }
 
 /* ---- (integral EXPR for NAME = LO .. HI) ------------------------------------------------------- */
 
-/* The name that goes over the range, and, as long as the expression is parsed, is known. */
+/* Reads the name of a range, which is known while its expression is parsed. */
 static bool read_bound(parser *p, lexer *lx, knob *out) {
     unsigned j;
     parser of = {.lx = lx, .within = p->within};
@@ -469,7 +468,7 @@ static bool parse_body_of(parser *p, expr *e, const bound *names) {
     return parse_whole(&inner) && read_at(&inner);
 }
 
-/* EXPR for NAME: the cursor is on EXPR, the range begins at `range`. */
+/* Parses EXPR for NAME: the cursor is on EXPR, `range` on `for`. */
 static bool parse_varied(parser *p, lexer *range, expr_at *at) {
     lexer *lx = p->lx;
     knob *name = &at->change[0].p;
@@ -505,7 +504,7 @@ static bool parse_load(lexer *lx, expr_at *at) {
            lex_fail(lx, "expected along cycle or along program");
 }
 
-/* The cursor is on the word, of that row. */
+/* Parses a range; the cursor is on its word, a row of the builtins. */
 static bool parse_over(parser *p, size_t word, size_t *out) {
     lexer *lx = p->lx, range;
     expr_node node = {.kind = N_OVER, .at = lx->at, .index = word};
@@ -564,7 +563,7 @@ static bool parse_parenthesis(parser *p, size_t *out) {
     return true;
 }
 
-/* Behind a value that is no number. */
+/* Refuses a unit after a value that is no number. */
 static bool no_unit(lexer *lx) {
     if (lx->error->raised)
         return false;
@@ -595,7 +594,7 @@ static bool parse_unary(parser *p, size_t *out);
 
 static bool parse_power(parser *p, size_t *out) {
     const size_t at = p->lx->at, first = p->e->count;
-    const bool bare = p->bare;
+    const bool defer_unit = p->defer_unit;
     unit u;
     if (!parse_primary(p, out))
         return false;
@@ -604,9 +603,9 @@ static bool parse_power(parser *p, size_t *out) {
     expr_node node = {.kind = N_BINARY, .op = '^', .at = at, .left = *out};
     lex_next(p->lx);
     const size_t exponent = p->lx->at;
-    p->bare = true;
+    p->defer_unit = true;
     bool ok = parse_unary(p, &node.right);
-    p->bare = bare;
+    p->defer_unit = defer_unit;
     lexer ahead = *p->lx;
     ahead.error = error_quiet();
     if (ok && unit_at(&ahead) && unit_parse(&ahead, &u) && dim_equal(u.d, DIM_NONE)) /* 2^50 % */
@@ -633,24 +632,24 @@ static bool parse_unary(parser *p, size_t *out) {
     return ok;
 }
 
-/* Behind a division of numbers a unit may belong to the divisor, or to all of it. */
+/* A unit after a quotient of numbers may belong to the divisor or to the quotient. */
 static bool parse_product(parser *p, size_t *out) {
     size_t at = p->lx->at, seen = p->e->count;
-    bool numbers = true; /* the nodes before `seen` */
+    bool numbers = true; /* are the nodes before `seen` numbers? */
     if (!parse_unary(p, out))
         return false;
     while (p->lx->kind == T_TIMES || p->lx->kind == T_DIVIDE) {
         expr_node node = {
             .kind = N_BINARY, .op = (char)p->lx->kind, .at = at, .left = *out, .index = p->lx->at};
         if (node.op == '/') {
-            p->bare = numbers = numbers && numbers_alone(p, seen);
+            p->defer_unit = numbers = numbers && numbers_alone(p, seen);
             seen = p->e->count;
         }
         lex_next(p->lx);
         bool ok = parse_unary(p, &node.right) && add_node(p, &node, out);
-        if (ok && p->bare && unit_at(p->lx))
+        if (ok && p->defer_unit && unit_at(p->lx))
             ok = add_unit(p, '?', at, out);
-        p->bare = false;
+        p->defer_unit = false;
         if (!ok)
             return false;
     }
@@ -659,8 +658,8 @@ static bool parse_product(parser *p, size_t *out) {
 
 static bool parse_sum(parser *p, size_t *out) {
     size_t at = p->lx->at;
-    const bool bare = p->bare;
-    p->bare = false;
+    const bool defer_unit = p->defer_unit;
+    p->defer_unit = false;
     if (!parse_product(p, out))
         return false;
     while (p->lx->kind == T_PLUS || p->lx->kind == T_MINUS) {
@@ -669,7 +668,7 @@ static bool parse_sum(parser *p, size_t *out) {
         if (!parse_product(p, &node.right) || !add_node(p, &node, out))
             return false;
     }
-    p->bare = bare;
+    p->defer_unit = defer_unit;
     return true;
 }
 
@@ -685,7 +684,7 @@ static bool parse_whole(parser *p) {
     e->at = p->lx->at;
     if (!parse_sum(p, &root))
         return false;
-    /* the root is last: a parenthesised expression adds no node of its own, and need not */
+    /* the root is last, also of a parenthesised expression, which adds no node */
     e->len = p->lx->last - e->at;
     return p->lx->list || lex_one_value(p->lx);
 }
@@ -712,13 +711,13 @@ static void definition_end(counted *self) {
     free(d);
 }
 
-/* The body of a definition at the cursor. */
+/* Parses the body of a definition at the cursor. */
 static bool parse_body(calc *c, lexer *lx, definition *d) {
     parser p = {.c = c, .lx = lx, .within = d};
     return parse_body_of(&p, &d->body, NULL);
 }
 
-/* Parsed twice: where it stands, for its errors and its end, and then as its own. */
+/* Parses twice: in the statement, for errors and length, then from the definition's own copy. */
 definition *definition_parse(calc *c, lexer *lx, const char *label, size_t len, char (*parameter)[LEX_NAME],
                              unsigned parameters) {
     definition *d = calloc(1, sizeof *d);

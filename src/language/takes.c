@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What may be given: inputs that are of use in the scene, values of the dimension that is wanted. Changes
- * nothing. */
+/* Checks of assignments: does the scene use the input; has the value its dimension? Changes nothing. */
 #include <ctype.h>
 #include <string.h>
 
@@ -48,7 +47,7 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
                      quantity_of_input(cycle_input(by))->name, q->name);
 }
 
-/* Is a unit of angles written there? What atan() answers counts as a number too, in radians. */
+/* Does the text name a unit of angle? atan() returns radians that also count as a number. */
 static bool says_angle(const char *text, size_t len) {
     for (size_t i = 0, n; i < len; i += n + !n) {
         for (n = 0; i + n < len && isalpha((unsigned char)text[i + n]); n++)
@@ -64,7 +63,7 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
     if (v.d.N == d.N && v.d.m == d.m && v.d.s == d.s && d.rad == 0 && v.d.rad == 0) /* the common case */
         return true;
     const bool plain = dim_equal(v.d, DIM_NONE) && v.d.rad == 0;
-    const bool angle = d.rad != 0, both = angle == (v.d.rad != 0); /* a length may have come of an angle */
+    const bool angle = d.rad != 0, both = angle == (v.d.rad != 0); /* a length may contain an angle */
     const bool apart = angle || (dim_equal(d, DIM_NONE) && len && says_angle(lx->text + at, len));
     if ((dim_equal(v.d, d) && (both || !apart)) || (v.v == 0 && plain))
         return true;
@@ -80,7 +79,7 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
     if (plain)
         return calc_fail(lx->error, at, len, "%s needs a unit: it is %s%s%s", name, want,
                          strstr(want, unit_text) ? "" : ", in ", strstr(want, unit_text) ? "" : unit_text);
-    if (len == 0) /* of a definition, which stands elsewhere */
+    if (len == 0) /* a definition, whose text is elsewhere */
         return calc_fail(lx->error, at, len, "%s is %s, not %s", name, want, got);
     const bool line = dim_equal(d, DIM_FORCE) && dim_equal(v.d, DIM_STIFFNESS);
     return calc_fail(lx->error, at, len, "%s is %s, not %s (%.*s)%s", name, want, got, LEX_SHOWN(len),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What those that parse, evaluate and look through expressions share. */
+/* The nodes of expression trees, for the parser, the evaluator and searches. Private to the room. */
 #ifndef LANGUAGE_TREE_H
 #define LANGUAGE_TREE_H
 
@@ -8,9 +8,9 @@
 typedef enum node_kind {
     N_NUMBER,
     N_QUANTITY,
-    N_CALL,  /* of a quantity: its arguments as those of N_APPLY */
-    N_NAME,  /* of the user */
-    N_APPLY, /* of the user's function */
+    N_CALL,  /* call of a quantity */
+    N_NAME,  /* a user's name */
+    N_APPLY, /* call of a user's function */
     N_PARAMETER,
     N_ANS,
     N_NEGATE,
@@ -22,11 +22,11 @@ typedef enum node_kind {
 
 struct expr_node {
     unsigned char kind; /* node_kind */
-    char op;            /* + - * / ^, U: a number and its unit, ?: one that may belong to the divisor alone */
+    char op;            /* + - * / ^; U: number and unit; ?: unit that may belong to the divisor only */
     unsigned len;
     size_t at;          /* its place in the statement */
-    size_t left, right; /* N_CALL, N_APPLY: first of the arguments, and how many */
-    size_t index; /* of a name, parameter or builtin; number: has it a unit? operator: where it stands */
+    size_t left, right; /* children; N_CALL, N_APPLY: first argument, and how many */
+    size_t index; /* index of a name, parameter or builtin; number: has it a unit? operator: its place */
     union {
         const quantity *q;
         expr_at *changed; /* N_AT, N_OVER */
@@ -34,25 +34,25 @@ struct expr_node {
     value v;
 };
 
-/* EXPR at NAME = EXPR, ...; EXPR for NAME = LO .. HI, as two changes of one name, or along a load, as none.
- */
+/* EXPR at NAME = EXPR, ...; EXPR for NAME = LO .. HI as two changes of NAME; EXPR along a load without. */
 struct expr_at {
-    expr_at *next; /* of the expression that it is a part of */
+    expr_at *next; /* list of expr.ats */
     expr body;
     bool along;
     along_what what;
     size_t count;
     struct {
-        size_t at; /* of its name */
+        size_t at; /* place of its name */
         knob p;
         expr value;
     } change[CHANGES];
 };
 
-/* A step more of a way of definitions, or, for want of room, the last with dots. Returns the room it took. */
+/* Appends "name -> " or "name := text -> " to a chain of definitions; if there is no room, dots, as the last
+ * step. Returns the number of characters used. */
 size_t way_step(char *way, size_t size, const char *name, const char *text);
 
-/* An elementary function: of one argument, or of two. */
+/* An elementary function of one argument (f) or two (f2). */
 typedef struct builtin {
     const char *name;
     long double (*f)(long double);
@@ -64,7 +64,7 @@ typedef struct builtin {
         DIM_HALVED,
         DIM_SHARED,
         DIM_RANGE
-    } d; /* the last: over a range */
+    } d; /* its dimension; DIM_RANGE: over a range */
     const char *summary;
 } builtin;
 

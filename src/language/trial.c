@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scratch scenes for expressions, with inputs, names, the load or the instant changed. */
+/* Scratch scenes for expressions, with inputs, names, the load or the instant changed. Uses `scene`. */
 #include "language/trial.h"
 
 #include <stdlib.h>
@@ -34,7 +34,7 @@ void trial_close(trial *t) {
     if (!t)
         return;
     calc *c = t->c;
-    scene_also_used(t->outer, scene_answered_by(c->now)); /* perhaps one beside it */
+    scene_also_used(t->outer, scene_answered_by(c->now)); /* may be a scene of beside.c */
     c->now = t->outer;
     scene_take_wear(t->outer, &t->scene);
     scene_free(&t->scene);
@@ -46,7 +46,7 @@ void trial_close(trial *t) {
     free(t);
 }
 
-/* The user's value comes back when the trial closes. */
+/* Saves the value of a name until the trial closes. */
 static bool hide(trial *t, size_t name, calc_error *error) {
     for (size_t i = 0; i < t->hidden_count; i++)
         if (t->hidden[i].index == name)
@@ -55,7 +55,7 @@ static bool hide(trial *t, size_t name, calc_error *error) {
         return calc_no_memory(error);
     own_name *row = &t->c->names.row[name];
     t->hidden[t->hidden_count++] = (struct hidden_name){name, *row};
-    row->definition = NULL; /* it belongs to the old one */
+    row->definition = NULL; /* owned by the saved row */
     return true;
 }
 
@@ -73,8 +73,7 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
         return false;
     scene *outer = t->c->now;
     t->c->now = s;
-    const bool takes =
-        calc_takes(t->c, p->in, error); /* not where a definition that says so was made, perhaps */
+    const bool takes = calc_takes(t->c, p->in, error); /* in this scene, not that of a definition */
     t->c->now = outer;
     if (!takes)
         return false;
@@ -86,7 +85,7 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
     return true;
 }
 
-/* Does what has been run depend on it? */
+/* Does the load depend on this knob? */
 static bool runs_on(const trial *t, const knob *p) {
     const inputs *in = &t->scene.in;
     bool found = p->is_input;

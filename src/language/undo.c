@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The way back of a session. A step needs no entry: taking it off the load program is enough, and programs of
- * 1e6 steps cost nothing. */
+/* Undo. A step needs no entry, since undo shortens the load program: 1e6 steps cost nothing. Uses `scene`. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +7,7 @@
 
 #include "language/calc.h"
 
-enum { UNDO_LEVELS = 1000 }; /* at least */
+enum { UNDO_LEVELS = 1000 }; /* at least kept */
 
 static void entry_end(undo_entry *e) {
     if (e->before)
@@ -33,15 +32,15 @@ void undo_end(calc *c) {
         u->entry[i - 1].group = u->outermost;
 }
 
-/* Room for one more entry beside those that have been promised. */
+/* Reserves one more entry besides those promised. */
 static bool reserve(undo *u) {
     return fret_array_room(&u->entry, &u->room, u->count + u->promised + 1, sizeof *u->entry);
 }
 
-/* The entry to fill, which has been reserved, with the oldest gone where there are too many. */
+/* Appends a reserved entry; drops the oldest ones at the limit. */
 static undo_entry *push(calc *c) {
     undo *u = &c->undo;
-    if (u->count == 2 * UNDO_LEVELS) { /* seldom: what stays is moved */
+    if (u->count == 2 * UNDO_LEVELS) { /* rare, so moving the rest is cheap */
         const size_t gone = UNDO_LEVELS;
         u->base_steps = u->entry[gone - 1].steps;
         for (size_t i = 0; i < gone; i++)
@@ -75,7 +74,7 @@ void undo_unmark(calc *c, scene_mark *m) {
     c->undo.promised--;
     if (s->program == m->program && s->end.steps == m->end.steps &&
         inputs_same(&s->in, &m->in, ~(input_set)0))
-        scene_drop(m); /* what follows from it is still known */
+        scene_drop(m); /* results are still valid */
     else
         scene_back(&c->scene, m);
     free(m);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scene of its own that follows another one, and a run of its load. */
+/* A scene that follows another one, and a run of its load. Uses `scene`. */
 #include "language/walk.h"
 
 void walk_end(walk *w) {
@@ -10,11 +10,12 @@ void walk_end(walk *w) {
     *w = (walk){.begun = false};
 }
 
-/* ---- what is the same -------------------------------------------------------------------------- */
+/* ---- comparison -------------------------------------------------------------------------------- */
 
-/* Amplitudes and what the press imposes are compared with the steps that have them. */
+/* Are the inputs equal, apart from amplitudes and the press, which are compared with the steps? */
 static bool same_bodies(const inputs *a, const inputs *b) {
-    const bool wears = inputs_any(a, INPUT_BIT(IN_NW)) || inputs_any(b, INPUT_BIT(IN_NW)); /* by all of it */
+    const bool wears =
+        inputs_any(a, INPUT_BIT(IN_NW)) || inputs_any(b, INPUT_BIT(IN_NW)); /* needs all inputs */
     return !a->bindings && !b->bindings &&
            inputs_same(a, b, wears ? ~(input_set)0 : ~(INPUT_CYCLE | INPUT_PRESS));
 }
@@ -27,7 +28,7 @@ bool walk_same_item(const load_item *a, const load_item *b) {
            (s->kind != LOAD_CYCLE || (a->extra.times == b->extra.times && a->extra.phase == b->extra.phase));
 }
 
-/* Items at the beginning of the scene's load that are those of the walk. */
+/* The number of steps at the beginning of the scene's load that equal those of the walk. */
 static size_t same_items(const walk *w, const scene *s, size_t last_cycle) {
     const load_mark end = w->scene.end;
     load_mark at = {0, 0};
@@ -44,8 +45,8 @@ static size_t same_items(const walk *w, const scene *s, size_t last_cycle) {
 
 /* ---- following --------------------------------------------------------------------------------- */
 
-/* The inputs of s, and its load as a program of its own, whatever becomes of that one. all: what follows from
- * these inputs is known; else their contact, where it is the same. */
+/* Copies the inputs and the load of s. all: keeps the results, which these inputs did not change; else only
+ * the contact, if it is the same. */
 static bool take_scene(walk *w, const scene *s, size_t last_cycle, bool all, calc_error *error) {
     program *own = program_copy(s->program, s->end);
     scene before = w->scene;
@@ -74,8 +75,8 @@ static bool make_run(walk *w, calc_error *error) {
     return calc_status(error, engine_make(&w->run.engine, w->load.normal, w->load.mu));
 }
 
-/* Is there a run of this contact? A swinging load may want another one than that before it. */
-static bool stands(const walk *w) {
+/* Is there a run on this contact? A harmonic load may need another contact than the load before it. */
+static bool has_run(const walk *w) {
     return w->run.engine.contact && fret_contact_normal(w->run.engine.contact) == w->load.normal;
 }
 
@@ -84,7 +85,7 @@ bool walk_follow(walk *w, calc *c, bool *anew, calc_error *error) {
     const load_reach *reach;
     if (!s->end.steps)
         return calc_missing(error, IN_FN);
-    if (!scene_reach(s, &reach, error)) /* definitions have their values */
+    if (!scene_reach(s, &reach, error)) /* this also evaluates definitions */
         return false;
     const bool goes_on = w->begun && same_bodies(&w->scene.in, &s->in) &&
                          same_items(w, s, reach->last_cycle) == w->scene.end.steps;
@@ -95,7 +96,7 @@ bool walk_follow(walk *w, calc *c, bool *anew, calc_error *error) {
     if (!scene_load_of(&w->scene, &w->load, error))
         return false;
     w->load.last_cycle = NO_CYCLE;
-    *anew = !stands(w);
+    *anew = !has_run(w);
     if (*anew && !make_run(w, error))
         return false;
     w->run.level = w->scene.answers.reach.swings ? LEVELS - 1 : 0;

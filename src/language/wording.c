@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors in words: the one place where names and units meet what went wrong. */
+/* Puts errors into words: the one place where names and units meet error codes. Uses `scene` and `text`. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 static const char leaves[] = "quit leaves, and so does Ctrl-D";
 
-/* What newcomers ask for by other names than it has here, or what is not to be had. */
+/* Words that newcomers try, for what has another name here or does not exist. */
 static const struct {
     const char *word, *answer;
 } leads[] = {
@@ -52,8 +52,7 @@ const char *lead_from(const char *word) {
     return NULL;
 }
 
-/* Arguments of functions and of commands are no quantities, but have a dimension too. A quantity may be one
- * "within the cycle". */
+/* The dimension of a quantity, perhaps "... within the cycle", or of an argument of a function. */
 static dim dimension_of(const calc *c, const char *name) {
     const quantity *q = quantity_find(name, strcspn(name, " "));
     if (q)
@@ -85,7 +84,7 @@ static void word_status(const calc *c, calc_error *error) {
         return;
     }
     const dim d = dimension_of(c, name);
-    for (int digits = 6; digits <= 17; digits++) { /* as many as tell them apart */
+    for (int digits = 6; digits <= 17; digits++) { /* as many digits as distinguish the two */
         calc_amount(d, st->value, digits, given, sizeof given);
         calc_amount(st->code == FRET_TABLE_SHORT ? DIM_LENGTH : d, st->limit, digits, limit, sizeof limit);
         if (strcmp(given, limit) || st->value == st->limit)
@@ -115,7 +114,7 @@ static void word_missing(const calc *c, calc_error *error) {
     const geometry *g = c->now->in.geometry;
     char *text = error->text;
     const size_t size = sizeof error->text;
-    if (in == IN_E0_2 || in == IN_NU_2 || in == IN_G0_2) /* else they are as the first one's */
+    if (in == IN_E0_2 || in == IN_NU_2 || in == IN_G0_2) /* else unset ones are body 1's */
         snprintf(text, size, "the second body is rigid");
     else if (in == IN_NU && c->now->in.set[IN_ESTAR])
         snprintf(text, size, "nu is not set: Estar alone is enough for the normal contact only (nu = 0.3)");

@@ -63,8 +63,8 @@ watch watch_times(double first, double every, size_t last, bool turns);
  * tests/reference/swinging.csv. */
 enum { RUN_CHORDS = 160, LEVELS = 3 };
 long double run_limit(const long double at[LEVELS], long double *moved);
-/* A bound on the relative error of the limit, also where a slip front ends within a chord: the larger of
- * twice the change of the first extrapolation between levels, and 1/256 of that of the value. */
+/* An upper estimate of the relative error of the limit, also where a slip front ends within a chord: the
+ * larger of twice the change of the first extrapolation between levels, and 1/256 of that of the value. */
 long double run_unsure(const long double at[LEVELS]);
 
 /* What a look shows: the state, and the loss of the last period. */
