@@ -45,6 +45,7 @@ typedef struct flat_field {
     fret_real centre[SERIES], edge[SERIES];
 } flat_field;
 
+/* Makes the series; the integral for a <= r. */
 void fret_kernel_flat_make(flat_field *f, fret_real m);
 fret_real fret_kernel_flat(const flat_field *f, fret_real a, fret_real r);
 /* The same by q = (a/r)^2 and away = 1-q. */

@@ -55,6 +55,7 @@ void engine_end(engine *e);
 fret_status engine_step(engine *e, const fret_step *step);
 /* A step along a chord of a curve: only its end points matter, so that springs need no intermediate steps. */
 fret_status engine_chord(engine *e, const fret_step *step);
+/* The state; forces: only F_N, dz, F_x, dx and W of it. */
 void engine_state(const engine *e, fret_state *out);
 void engine_forces(const engine *e, fret_state *out);
 /* Turns a step to delta_x + F_x/K_rig into one to the delta_x with that value, to rounding; if that is the

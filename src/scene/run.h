@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs a load program on a model, leg by leg, and stops at states on the way (looks). Touches no scene. */
+/* Runs a load program on a model, leg by leg. A look is a stop at which the caller may read the state.
+ * Touches no scene. */
 #ifndef SCENE_RUN_H
 #define SCENE_RUN_H
 

@@ -25,7 +25,7 @@ typedef struct load_reach {
     bool normal_varies; /* some step changes F_N */
     bool rig;           /* some step goes to a displacement at the rig */
     bool swings;        /* F_N changes within some cycle */
-    size_t last_cycle;  /* its index, or NO_CYCLE */
+    size_t last_cycle;  /* index of the last cycle, or NO_CYCLE */
 } load_reach;
 
 /* Friction's work by radius at all levels of the run: so far, and in the last closed period (NULL: none),
@@ -111,9 +111,11 @@ void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *e
 void scene_free(scene *s);
 /* Makes a scratch scene: shares inputs and program, owns its results. Free with scene_free. */
 void scene_clone(scene *to, const scene *from);
+/* The models that have answered since `used` was cleared. */
 scene_use scene_answered_by(const scene *s);
 /* Adds models to those that have answered. */
 void scene_also_used(scene *s, scene_use also);
+/* Adds polynomials, if this law consists of them. */
 void scene_used_law(scene *s, const fret_normal *normal);
 /* Invalidates press, state and fields. */
 void scene_moved(scene *s);
@@ -163,7 +165,7 @@ bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, cal
 void scene_reset(scene *s, bool all);
 /* The last cycle with its values; false: there is none. */
 bool scene_last_cycle(scene *s, load_item *out, calc_error *error);
-/* The reach of a program that is not empty. */
+/* What closed forms need to know of the program; an error if it is empty. */
 bool scene_reach(scene *s, const load_reach **out, calc_error *error);
 double scene_time(const scene *s); /* the program must not be empty */
 
@@ -173,6 +175,7 @@ double scene_time(const scene *s); /* the program must not be empty */
 bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *error);
 /* The shape, unchecked. */
 bool scene_gap(scene *s, fret_gap *out, calc_error *error);
+/* The law of the gap, worn if Nw > 0. */
 bool scene_normal(scene *s, const fret_normal **normal, calc_error *error);
 /* Makes answers.normal, the law of the unworn gap. */
 bool scene_unworn(scene *s, calc_error *error);
@@ -187,8 +190,7 @@ bool scene_wear_limit(scene *s, fret_wear **out, calc_error *error);
 /* Fields of the press and of the history in the present state. */
 bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error);
 bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error);
-/* The field for stress inside: of the press if no step was tangential, else the history without curved arcs.
- */
+/* The field for stress inside: of the press, or after tangential steps of the history without curved arcs. */
 bool scene_stress_field(scene *s, const fret_field **field, calc_error *error);
 /* Friction's work per area at r: so far, or in the last closed period. Runs the load again the first time. */
 bool scene_work(scene *s, bool period, long double r, long double *out, calc_error *error);
@@ -199,13 +201,17 @@ bool scene_work_chords(const scene *s);
 void friction_work_end(friction_work *w);
 /* The law of the same bodies with k = 0. */
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error);
+/* mu; an error if it is 0, or if nu is missing, which tangential results need. */
 bool scene_friction(scene *s, double *mu, calc_error *error);
+/* The present normal contact. */
 bool scene_press(scene *s, const fret_press **press, calc_error *error);
 /* F_N now; where F_N was given no contact is solved. */
 bool scene_FN(scene *s, long double *FN, calc_error *error);
+/* The present normal contact with its friction. */
 bool scene_contact(scene *s, fret_pressed *contact, calc_error *error);
+/* The present state, by the chosen model. */
 bool scene_state(scene *s, const fret_state **state, calc_error *error);
-/* Sets only F_N, dz, F_x, dx and W: far cheaper at an instant along a load. */
+/* The same, but only F_N, dz, F_x, dx and W are set: far cheaper at an instant along a load. */
 bool scene_forces(scene *s, const fret_state **state, calc_error *error);
 /* The contact after the load: with curved arcs after a harmonic load, or (straight) with chords instead. */
 bool scene_history(scene *s, const fret_contact **contact, calc_error *error);
@@ -230,7 +236,7 @@ void scene_set_model(scene *s, model_id model, unsigned springs);
 bool load_go_on(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error);
 /* The press at the beginning of the program. */
 bool load_press(scene *s, const fret_normal *normal, fret_press *out, calc_error *error);
-/* Can the harmonic load be run as a sine? Not on a table. */
+/* Can the harmonic load be run as a sine? Not on a table, nor if a later step changes F_N otherwise. */
 bool load_takes_sine(const load_view *load);
 /* The run that has reached the end of the program, or the instant. */
 bool load_run(scene *s, const runner **run, calc_error *error);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The limit of wear in closed form: a contact that ends at the stick radius c, and outside of c surfaces that
- * touch without pressure. Allocates its field; uses `field`, `law` and `number`. */
+/* The limit of wear in closed form (fret_wear_limit): a contact that ends at the stick radius c, and outside
+ * of c surfaces that touch without pressure. Allocates its field; uses `field`, `law` and `number`. */
 #include "wear/limit.h"
 
 #include <math.h>
