@@ -113,11 +113,7 @@ static bool name_allowed(calc *c, lexer *lx, assignment *a) {
         return is_result(lx, a->q);
     if (!a->q && taken)
         return lex_fail(lx, "'%.*s' is %s: it cannot be a variable", LEX_WORD(lx), taken);
-    if (a->q && !calc_takes(c, quantity_input(a->q), lx->error)) {
-        /* the error is placed at the value later */
-        return false;
-    }
-    return true;
+    return !a->q || calc_takes(c, quantity_input(a->q), lx->error); /* read_assignment places the error */
 }
 
 static bool read_parameters(lexer *lx, char (*parameter)[LEX_NAME], unsigned *count) {

@@ -57,21 +57,20 @@ static fret_real branch_at(fret_real t, fret_real rest, void *context) {
 /* K' by quadrature over phi up to gross slip, where the slope of first loading is singular, plus the flat
  * part in closed form. Within, the law of a table may turn sharply. */
 static bool harmonic_stiffness(const peak *at, long double *out, calc_error *error) {
-    peak p = *at;
-    branch b = {.of = &p, .end = FRET_PI / 2};
+    branch b = {.of = at, .end = FRET_PI / 2};
     fret_real flat = 0;
-    if (p.dxA <= 0) {
-        *out = stuck(&p.contact);
+    if (at->dxA <= 0) {
+        *out = stuck(&at->contact);
         return true;
     }
-    const fret_real slides = fret_gross_slip(&p.contact) / p.dxA; /* sin^2 phi there */
+    const fret_real slides = fret_gross_slip(&at->contact) / at->dxA; /* sin^2 phi there */
     if (slides < 1) {
         const fret_real rest = 1 - slides;
         b.end = atan2l(sqrtl(slides), sqrtl(rest));
-        flat = -p.contact.mu * p.contact.press.F * sqrtl(slides * rest);
+        flat = -at->contact.mu * at->contact.press.F * sqrtl(slides * rest);
     }
     const fret_real part = b.end * fret_integral(branch_at, &b, 1e-15L).value;
-    *out = -8 / (FRET_PI * p.dxA) * (part + flat);
+    *out = -8 / (FRET_PI * at->dxA) * (part + flat);
     return calc_status(error, b.failed);
 }
 
