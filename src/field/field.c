@@ -12,7 +12,7 @@
 
 /* A steep power g = G (x/a)^n matters only in the outer a/n of the contact, and its series in the radius
  * converge slowly: rings sum it instead. */
-static const double STEEP = 20; /* the least such n */
+static const double STEEP = 20; /* the least steep n */
 
 /* The powers of the profile within a contact of radius a, without the steep ones; returns their number. */
 static int head_terms(const fret_normal *n, fret_real a, fret_term term[FRET_MOST_TERMS]) {

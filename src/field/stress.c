@@ -10,16 +10,17 @@
 #include "number/integral.h"
 
 /* With zeta = z + i t, rho^2 = r^2 + zeta^2, V = 1/rho, L = ln(rho+zeta), chi = zeta L - rho, psi the
- * integral of chi over zeta, line loads q(t) with -q' = cN0 sigma g' (sigma = 1 of the pressure), by parts
+ * integral of chi over zeta, and line loads q(t) with -q' = cN0 sigma g' (sigma = 1 for the pressure),
+ * integration by parts of the formula in fret/field.h gives
  *   stress = cN0/pi Im int_0^a g'(t) [P + mu sigma Q] dt,
  *   P_xx = 2 nu V - (1-2nu) chi_xx - z L_xx      Q_xx = 2(1+nu) L_x + 2nu psi_xxx - z chi_xxx
  *   P_yy alike                                   Q_yy = 2nu L_x + 2nu psi_xyy - z chi_xyy
  *   P_zz = V - z V_zeta                          Q_zz = -z V_x
  *   P_xy = -(1-2nu) chi_xy - z L_xy              Q_xy = L_y + 2nu psi_xxy - z chi_xxy
  *   P_xz = -z V_x, P_yz = -z V_y                 Q_xz = V - z L_xx, Q_yz = -z L_xy.
- * In lambda = rho + zeta, where dt = rho d lambda/(i lambda), all of this is rational: the singularity at the
- * surface is none, and parts of the way may be straight lines of lambda, on which g' is taken as it is off
- * the real axis. */
+ * In lambda = rho + zeta, with dt = rho d lambda/(i lambda), the brackets are rational: they have no
+ * singularity at the surface, and pieces of the path may be straight lines in lambda, along which g' is
+ * continued off the real axis. */
 enum { XX, YY, ZZ, XY, XZ, YZ };
 
 typedef struct place_inside {

@@ -34,7 +34,7 @@ static bool turns(const way *w, fret_real lo, fret_real hi, fret_real *when) {
 
 /* ---- making ------------------------------------------------------------------------------------ */
 
-/* The largest depth of the edge over a phase. */
+/* The largest depth of the contact edge during a phase. */
 static fret_real deepest(const fret_work *w, const slip_phase *p) {
     const fret_real most = fmaxl(p->edge[0], p->edge[1]);
     fret_real when;

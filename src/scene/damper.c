@@ -37,8 +37,8 @@ static fret_real stuck(const fret_pressed *contact) {
 
 /* ---- K' ---------------------------------------------------------------------------------------- */
 
-/* With phi = theta/2 the branch down from the peak is F = FA-2 F_1(dxA sin^2 phi), and K' = -8/(pi dxA)
- * int_0^(pi/2) F_1 cos(2 phi) d phi. */
+/* With phi = theta/2 the branch down from the peak is F = FA-2 F_1(dxA sin^2 phi), F_1 first loading, and K'
+ * = -8/(pi dxA) int_0^(pi/2) F_1 cos(2 phi) d phi. */
 typedef struct branch {
     const peak *of;
     fret_real end; /* phi at t = 1; phi = 0 at t = 0 */

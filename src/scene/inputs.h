@@ -16,11 +16,11 @@ typedef enum input {
     IN_C0,
     IN_E0_2,
     IN_NU_2,
-    IN_G0, /* these three: in place of E0 or E0_2 */
+    IN_G0, /* G0 to Estar: in place of E0 or E0_2 */
     IN_G0_2,
     IN_ESTAR,
     IN_MU,
-    IN_FN, /* these five: what the press imposes; one of them is set */
+    IN_FN, /* FN to pmean: what the press imposes; one of them is set */
     IN_DZ,
     IN_CONTACT,
     IN_P0,
@@ -31,7 +31,7 @@ typedef enum input {
     IN_FNA,
     IN_PHASE,
     IN_NW,    /* number of times that the last cycle wears the gap */
-    IN_K_RIG, /* these three: of the rig */
+    IN_K_RIG, /* K_rig to F0: of the rig */
     IN_D0,
     IN_F0,
     IN_YIELD,

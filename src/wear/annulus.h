@@ -19,7 +19,7 @@ typedef struct fret_annulus {
     double *weight;                    /* dF_N/dw of each node */
     double inner;                      /* the same of all springs inside the inner end */
     double *g, *w, *slip, *p, *change; /* of the last rate; w: compression of the springs */
-    size_t touched;                    /* the last node that has been in contact */
+    size_t touched;                    /* the last node that has ever been in contact */
     /* what is held, counted as above; amplitude: F_A/mu or delta_A/(mu eta) */
     bool by_depth, by_displacement;
     double press, amplitude, mu, eta, alpha, of_slope; /* p = of_slope int g' (x^2-r^2)^(m-1) dx */

@@ -93,7 +93,7 @@ fret_status fret_wear_end_depth(const fret_wear_end *e, fret_real r, fret_real *
 static fret_real depth_at(fret_real r, fret_real *slope, void *context) {
     fret_real h = 0;
     (void)slope;
-    (void)worn(context, r, &h); /* within the gap */
+    (void)worn(context, r, &h); /* succeeds within the gap */
     return h;
 }
 

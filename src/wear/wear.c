@@ -16,7 +16,7 @@
 struct fret_wear {
     const fret_normal *normal; /* borrowed */
     fret_normal *law;          /* law of the worn gap; NULL: nothing has worn */
-    struct fret_worn worn;     /* the gap */
+    struct fret_worn worn;     /* the worn gap, of which `law` is */
     fret_real from, to, outer; /* radii of the worn ring, and of the last node */
     fret_wear_end end;         /* of the limit only: then it has a field */
     double cycles;
