@@ -98,7 +98,7 @@ static fret_real ring_without_edge(const query *q, const ring *p, fret_real at) 
     return p->scale[SLOPES] * sum;
 }
 
-/* The sum over one ring: contacts that end with a slice in it, and one that covers it. */
+/* The sum over one ring: of the contacts that end in it with a slice, and of the one that covers it. */
 static fret_real near_ring(const query *q, const ring *p) {
     const rings *all = q->all;
     const fret_real width = p->cell->width, at = square_distance(q->r, p->lo) / width,

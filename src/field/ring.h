@@ -69,7 +69,8 @@ void fret_rings_free(rings *all);
 /* The position of a slice's end within the rings. */
 slice_end fret_rings_rim(const rings *all, const slice *s);
 
-/* int g' (x^2-r^2)^(m-1) dx over x > r, by weight. cut: a smaller slice for the only one, or NULL. */
+/* int g' (x^2-r^2)^(m-1) dx over x > r, each slice by its weight. cut: NULL, or a smaller slice in place of
+ * the only one that `all` has. */
 fret_real fret_rings_slope(const rings *all, int load, fret_real r, const slice *cut);
 /* int x^k g (r^2-x^2)^-m dx over the slices before index `end`, each by its weight less that of slice
  * `end`; r lies in slice `end` or beyond the contact. */

@@ -43,7 +43,7 @@ static fret_real depth_rate(const arc_integral *b, fret_real w, const fret_point
     return fret_normal_closed(b->normal) ? turn * b->normal->q * at->y / at->F : turn / at->K;
 }
 
-/* The integrand at time w. but: divides the kernel by its singular factor w^((k-1)/2). */
+/* The integrand at time w. but: leaves out the kernel's singular factor w^((k-1)/2). */
 static fret_real rate_at(const arc_integral *b, fret_real w, bool but) {
     if (fret_stopped(b->normal))
         return 0;

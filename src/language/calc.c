@@ -221,7 +221,7 @@ static bool read_assignments(calc *c, lexer *lx, assignment *all, size_t *count)
     }
 }
 
-/* ---- what they do ------------------------------------------------------------------------------ */
+/* ---- making assignments ------------------------------------------------------------------------ */
 
 typedef struct assigned {
     const assignment *all;

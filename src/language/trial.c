@@ -112,7 +112,7 @@ bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, 
     return beside_scene(now->beside, &t->scene, by, count, scene_time(t->outer), &t->c->now, error);
 }
 
-/* ---- what is changed by name ------------------------------------------------------------------- */
+/* ---- knobs ------------------------------------------------------------------------------------- */
 
 bool knob_read(calc *c, lexer *lx, knob *out) {
     const size_t at = lx->at, len = lx->len;

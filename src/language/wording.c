@@ -114,7 +114,7 @@ static void word_missing(const calc *c, calc_error *error) {
     const geometry *g = c->now->in.geometry;
     char *text = error->text;
     const size_t size = sizeof error->text;
-    if (in == IN_E0_2 || in == IN_NU_2 || in == IN_G0_2) /* else unset ones are body 1's */
+    if (in == IN_E0_2 || in == IN_NU_2 || in == IN_G0_2) /* else as body 1 */
         snprintf(text, size, "the second body is rigid");
     else if (in == IN_NU && c->now->in.set[IN_ESTAR])
         snprintf(text, size, "nu is not set: Estar alone is enough for the normal contact only (nu = 0.3)");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reference counts of shared objects: gap tables, definitions, load programs. Such an object begins with a
- * `counted`; all functions accept NULL. Touches nothing else. */
+ * `counted`. Both functions accept NULL. */
 #ifndef SCENE_COUNTED_H
 #define SCENE_COUNTED_H
 

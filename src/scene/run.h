@@ -80,7 +80,7 @@ typedef struct run_place {
     bool within;          /* within a period, else between two */
     bool closed;          /* a period has ended and is not compared yet */
     unsigned period;      /* periods done */
-    unsigned alike;       /* how many of the last ones equal the one before */
+    unsigned alike;       /* number of the last periods that equal the one before */
     long double FN;       /* the mean normal force of the cycle */
     double begin;         /* time at the beginning of the period */
     double from, end;     /* angles of the present interval, which ends at a node or look */

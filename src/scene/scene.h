@@ -16,11 +16,11 @@ typedef struct value {
 /* What closed forms need to know of the load program after the press, for its first `seen` steps. */
 typedef struct load_reach {
     load_mark seen;
-    load_by by;         /* tangential target of the first one; BY_NONE: none */
-    bool alike;         /* all have this target, and none is relative */
-    double most;        /* largest magnitude of the target so far */
-    bool first;         /* the last one ends on the first loading curve: no larger load is remembered */
-    double end;         /* target of the last one */
+    load_by by;         /* tangential target of the first step that has one; BY_NONE: none */
+    bool alike;         /* all steps have this target, none a relative one */
+    double most;        /* largest magnitude of the targets */
+    bool first;         /* the last step ends on the first loading curve: no larger load is remembered */
+    double end;         /* target of the last step */
     bool closed;        /* the last period of the last cycle ended in the state in which it began */
     bool normal_varies; /* some step changes F_N */
     bool rig;           /* some step goes to a displacement at the rig */
@@ -169,7 +169,7 @@ bool scene_last_cycle(scene *s, load_item *out, calc_error *error);
 bool scene_reach(scene *s, const load_reach **out, calc_error *error);
 double scene_time(const scene *s); /* the program must not be empty */
 
-/* ---- what follows, made ready on demand ---- */
+/* ---- results, computed on demand ---- */
 
 /* homogeneous: with k = 0. */
 bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *error);
@@ -241,7 +241,7 @@ bool load_takes_sine(const load_view *load);
 /* The run that has reached the end of the program, or the instant. */
 bool load_run(scene *s, const runner **run, calc_error *error);
 
-/* ---- running it again ---- */
+/* ---- running the load again ---- */
 
 /* The load of the scene, as a runner takes it. */
 bool scene_load_of(scene *s, load_view *out, calc_error *error);
