@@ -71,8 +71,7 @@ typedef struct side_by_side {
     long double with[COMPARED];
 } side_by_side;
 
-/* `NAME = EXPR, ...`, `NAME := EXPR` and `NAME(X, ...) := EXPR`: is the cursor on one? calc_assign runs it.
- */
+/* Is the cursor on `NAME = EXPR, ...`, `NAME := EXPR` or `NAME(X, ...) := EXPR`? calc_assign runs it. */
 bool assign_at(const lexer *lx);
 bool calc_assign(calc *c, lexer *lx);
 /* Parses the expression at the cursor as a definition of an input; the caller owns *out. */
@@ -83,7 +82,7 @@ bool calc_takes(const calc *c, input in, calc_error *error);
 /* Checks the dimension of a value; a bare 0 has any. */
 bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d);
 
-/* undo_begin and undo_end enclose each statement that may change the scene; nested ones join it. */
+/* undo_begin and undo_end enclose statements that may change the scene; nested ones join the outer. */
 void undo_begin(calc *c);
 void undo_end(calc *c);
 /* Saves the scene before a change. NULL: out of memory, and nothing may be changed. End with undo_scene,

@@ -160,8 +160,7 @@ static void pressures(const fret_annulus *a, const double *change, size_t last, 
         p[i] = i < last ? a->of_slope * dot(row_p(a, i), change + i, last - i) : 0;
 }
 
-/* The compression of spring i at a depth. Springs up to `touched` may also pull; others press where reached.
- */
+/* The compression of spring i at a depth. Springs up to `touched` may pull; others press where reached. */
 static double pressed(const fret_annulus *a, size_t i, size_t touched, double depth) {
     return i <= touched || a->g[i] < depth ? depth - a->g[i] : 0;
 }

@@ -28,14 +28,13 @@ struct fret_wear_run {
  * FRET_GROSS_SLIP, FRET_NO_MEMORY, FRET_INTERRUPTED. */
 fret_status fret_blocks_begin(fret_wear_run *run, fret_real inner, fret_real steep, fret_real outer);
 
-/* Runs a block, or makes a wider ring. Errors, after which the run is as before: those of fret_wear_after. */
+/* Runs a block, or makes a wider ring. Errors, which leave the run as it was: those of fret_wear_after. */
 fret_status fret_blocks_go_on(fret_wear_run *run);
 
 /* The cycles run so far. */
 double fret_blocks_reached(const fret_wear_run *run);
 
-/* The ring at a number of cycles <= those run, its depths h, and in h[nodes] the work: cubic within a block.
- */
+/* The ring at a number of cycles <= those run, its depths h, and in h[nodes] the work: cubic in a block. */
 fret_annulus *fret_blocks_at(const fret_wear_run *run, double cycles, double *h);
 
 void fret_blocks_free(fret_blocks *blocks);
