@@ -91,8 +91,8 @@ static void put_dot(plot_pen *p, int x, int y) {
         plot_cells_dot(c, x, y, p->ink);
 }
 
-/* Clips the line to the raster with a margin of a dot, t = t0..t1, then walks along it by half a dot. Along an
- * axis a division by 0 gives infinities, which clip nothing within the raster and everything beside it. */
+/* Clips the line to the raster with a margin of a dot, t = t0..t1, then walks along it by half a dot. Along
+ * an axis a division by 0 gives infinities, which clip nothing within the raster and everything beside it. */
 void plot_pen_line(plot_pen *p, double x0, double y0, double x1, double y1) {
     const double from[2] = {x0, y0}, d[2] = {x1 - x0, y1 - y0},
                  most[2] = {p->on->cols * p->on->across, p->on->rows * p->on->up};

@@ -18,10 +18,10 @@ struct fret_wear_run {
     double tolerance;
     size_t nodes, count, room; /* nodes of each ring; number of rings, and their capacity */
     fret_blocks *blocks;
-    double step, fastest;         /* cycles of the next block; fastest decay rate per cycle */
-    long rates, tried;            /* evaluations of the rate so far; blocks tried in the last ring */
-    bool arrived;                 /* the remaining wear is negligible */
-    double *before, *stiff;       /* work vectors, one allocation: of a step, of the stiffness */
+    double step, fastest;   /* cycles of the next block; fastest decay rate per cycle */
+    long rates, tried;      /* evaluations of the rate so far; blocks tried in the last ring */
+    bool arrived;           /* the remaining wear is negligible */
+    double *before, *stiff; /* work vectors, one allocation: of a step, of the stiffness */
 };
 
 /* Adds a ring that starts at the state of the last one, or unworn; nodes are densest at `steep`. Errors:
