@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What every header of the library begins with: the type of its results, and linkage from C and C++. */
+/* Included by every header of the library: the type of results, and C linkage for C++. */
 #ifndef FRET_BASE_H
 #define FRET_BASE_H
 
-/* Results carry guard digits: where long double is wider than double, a result rounded to double
- * is within one unit in the last place. Arguments are exact as given. */
+/* Results carry guard digits: where long double is wider than double, a result rounded to double is within
+ * one unit in the last place. Arguments are taken as exact. */
 typedef long double fret_real;
 
-/* Around the declarations of a header: C names for C++ too. */
+/* Enclose the declarations of a header: C linkage when included from C++. */
 #ifdef __cplusplus
 #define FRET_BEGIN extern "C" {
 #define FRET_END }

@@ -54,7 +54,7 @@
 #include "fret/wear.h"
 #include "fret/work.h"
 
-/* Of the headers: what is named in them stays until the first number grows. */
+/* Version of the headers: declarations stay compatible until the major number grows. */
 #define FRET_VERSION_MAJOR 1
 #define FRET_VERSION_MINOR 0
 #define FRET_VERSION_PATCH 0

@@ -19,7 +19,7 @@ typedef enum fret_gap_kind {
     FRET_GAP_EXACT_SPHERE,    /* f = R - sqrt(R^2-r^2), r <= 0.95 R */
     FRET_GAP_TABLE,           /* sampled gap, monotone piecewise cubic */
     FRET_GAP_FLAT,            /* the flat end of a rigid punch: f = 0 for r < b, and nothing beyond */
-    FRET_GAP_WORN             /* what wear has left of another, as fret_wear_law has it: made there alone */
+    FRET_GAP_WORN             /* another gap after wear; only fret_wear_law makes one */
 } fret_gap_kind;
 
 enum { FRET_GAP_TERMS = 16 };
@@ -44,36 +44,35 @@ typedef struct fret_gap {
     const struct fret_worn *worn;   /* WORN only; borrowed */
 } fret_gap;
 
-/* kappa(n,k) = (n/2) B(n/2,(k+1)/2) (6)-(8): the profile of r^n is kappa x^n.
- * Range n > 0, -1 < k < 1, else NaN. Accuracy 1e-19 relative for n <= 1e6; no overflow at large n. */
+/* kappa(n,k) = (n/2) B(n/2,(k+1)/2) (6)-(8): the profile of r^n is kappa x^n. Range n > 0, -1 < k < 1, else
+ * NaN. Accuracy 1e-19 relative for n <= 1e6; no overflow at large n. */
 fret_real fret_kappa(double n, double k);
 
-/* Checks the parameters of a gap. Errors: FRET_NOT_FINITE, FRET_NOT_POSITIVE naming the parameter;
- * FRET_OUTSIDE (no such kind, terms beyond those of the kind, no table, nothing worn). The functions below
- * take one that has passed. */
+/* Checks the parameters of a gap, as the functions below require. Errors: FRET_NOT_FINITE, FRET_NOT_POSITIVE
+ * naming the parameter; FRET_OUTSIDE (unknown kind, too many terms, no table, no worn gap). */
 fret_status fret_gap_check(const fret_gap *gap);
 
 /* f(r) [m], r >= 0 [m]. Errors: FRET_NEGATIVE, FRET_OUTSIDE (beyond a sphere, a table or a flat punch),
  * FRET_NOT_FINITE. */
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f);
 
-/* g(x) [m] and, where slope is not NULL, g'(x), for |x| [m], -1 < k < 1. Errors as above, and FRET_BAD_K.
- * Accuracy 1e-17 relative; tables 2e-16, the rounding of their slopes. A table costs 0.5 us a
- * row: fret_normal_profile does not. Of a worn gap g is that of the k that it was worn with. */
+/* g(x) [m] and, if slope is not NULL, g'(x), for |x| [m], -1 < k < 1. Errors as of fret_gap_f, and
+ * FRET_BAD_K. Accuracy 1e-17 relative; tables 2e-16, the rounding of their slopes. A table takes 0.5 us a
+ * row; fret_normal_profile avoids that. For a worn gap g is that of the k that it was worn with. */
 fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope);
 
-/* A sampled gap: r[0] = 0 < r[1] < ..., f[0] = 0, lengths in m. Copies the arrays. A million rows take
- * seconds: the stop flag, which may be NULL, is looked at meanwhile and is not kept. Errors: FRET_BAD_TABLE,
+/* Makes a sampled gap from r[0] = 0 < r[1] < ..., f[0] = 0, lengths in m. Copies the arrays. A million rows
+ * take seconds: the stop flag, which may be NULL, is polled meanwhile and not kept. Errors: FRET_BAD_TABLE,
  * FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. Free with fret_table_free. */
 fret_status fret_table_make(const double *r, const double *f, size_t count, fret_stop stop,
                             struct fret_table **out);
-/* What of more than 2000 rows is left, as pieces of a cubic with f' at both ends, and how far these are off,
- * as a part of the largest f: as few as do within 1e-14 to 1e-6 of it, the first that leaves 2000 or fewer; 0
- * where every row is one. */
+/* A table of more than 2001 rows is thinned to cubic pieces with f' given at both ends. The number of rows
+ * kept; and the tolerance of the thinning, as a part of the largest f: the least of 1e-14, 1e-13 .. 1e-6 that
+ * keeps at most 2000 rows (else 1e-6); 0 for a table that was not thinned. */
 size_t fret_table_count(const struct fret_table *table);
 double fret_table_within(const struct fret_table *table);
-/* The same with f' given at each row: f is the cubic Hermite interpolant, so that a cubic spline comes out as
- * it is. Errors also: FRET_NOT_FINITE naming slope. */
+/* As fret_table_make, with f' given at each row: f is the cubic Hermite interpolant, so that a cubic spline
+ * is reproduced. One more error: FRET_NOT_FINITE naming slope. */
 fret_status fret_table_sloped(const double *r, const double *f, const double *slope, size_t count,
                               fret_stop stop, struct fret_table **out);
 void fret_table_free(struct fret_table *table);

@@ -14,7 +14,7 @@ FRET_BEGIN
 typedef struct fret_body {
     double E0;  /* characteristic modulus [Pa], > 0 */
     double nu;  /* Poisson's ratio, -1 < nu <= 1/2 */
-    bool rigid; /* contributes no compliance; E0 and nu are then not read */
+    bool rigid; /* contributes no compliance; E0 and nu are not read */
 } fret_body;
 
 typedef struct fret_material {
@@ -23,7 +23,7 @@ typedef struct fret_material {
     double c0; /* characteristic depth [m], > 0; without effect at k = 0 */
 } fret_material;
 
-/* Coefficients of the equivalent foundations, those of each body in forms without cancellation, accurate to
+/* The equivalent foundation. Coefficients of each body come from forms without cancellation, accurate to
  * 2e-18 relative where long double has 64 bits:
  *   Q = 1-(1+k)nu, beta^2 = (1+k)Q/(1-nu), S = sin(pi beta/2)/beta,
  *   P = Gamma((3+k+beta)/2) Gamma((3+k-beta)/2) / Gamma(1+k/2)^2,
@@ -34,7 +34,7 @@ typedef struct fret_foundation {
     fret_real eta;          /* stiffness ratio c_N/c_T */
     fret_real hN[2], hT[2]; /* h_N(k,nu), h_T(k,nu) of each body (A1),(A2); 0 for a rigid one */
     fret_real beta[2];      /* beta(k,nu) (A3); 0 for a rigid one */
-    fret_real mismatch;     /* normal-tangential coupling left out; Dundurs' second constant at k = 0 */
+    fret_real mismatch;     /* neglected normal-tangential coupling; |Dundurs' second constant| at k = 0 */
     bool similar;           /* uncoupled: equal bodies, or each nu = 1/(2+k), or mismatch 0 at k = 0 */
 } fret_foundation;
 

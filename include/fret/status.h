@@ -9,7 +9,7 @@
 
 FRET_BEGIN
 
-/* Codes are stable: append, never renumber. 13 was withdrawn: no iteration fails to settle. */
+/* The result of every function that can fail. Codes are stable: append, never renumber; 13 was withdrawn. */
 typedef enum fret_code {
     FRET_OK = 0,
     FRET_NOT_FINITE,     /* an argument is NaN or infinite                                  */
@@ -20,8 +20,8 @@ typedef enum fret_code {
     FRET_BOTH_RIGID,     /* at least one body must be elastic                               */
     FRET_GROSS_SLIP,     /* tangential force beyond mu F_N                                  */
     FRET_OUTSIDE,        /* a point outside the domain of a function                        */
-    FRET_NOT_MONOTONE,   /* g(x) falls: the contact is not a disc; value: radius; limit: that
-                            where a table has soon risen above it again, or 0       */
+    FRET_NOT_MONOTONE,   /* g(x) falls: the contact is not a disc; value: radius; limit: the radius where a
+                            table has soon risen above it again, or 0 */
     FRET_TABLE_SHORT,    /* the gap ends before the load is carried; limit: largest a       */
     FRET_BAD_TABLE,      /* a gap table that is no function: radii must grow; value: radius */
     FRET_OVERFLOW,       /* the result does not fit in a double                             */
@@ -39,7 +39,7 @@ typedef enum fret_category {
     FRET_CAT_SYSTEM   /* memory, interrupt */
 } fret_category;
 
-/* What every function of the library that can fail returns. */
+/* The result of every function of the library that can fail. */
 typedef struct fret_status {
     fret_code code;
     const char *quantity; /* name of the offending argument (static text), or NULL */
@@ -47,17 +47,17 @@ typedef struct fret_status {
     double limit;         /* the bound that was passed, where there is one, SI */
 } fret_status;
 
-/* A flag that a signal handler or another thread sets: long work that knows it ends with FRET_INTERRUPTED, as
- * a rule within some milliseconds. NULL: nothing can stop the work, and asking costs nothing. */
+/* A flag that a signal handler or another thread sets. Long work that is given it polls it and ends with
+ * FRET_INTERRUPTED, usually within some milliseconds. NULL: nothing can stop the work. */
 typedef const volatile sig_atomic_t *fret_stop;
 
 fret_category fret_status_category(fret_code code);
 
-/* The rule that was broken, e.g. "must lie in -1 < k < 1": static text. */
+/* The rule that was broken, e.g. "must lie in -1 < k < 1"; static text. */
 const char *fret_status_rule(fret_code code);
 
-/* Writes "quantity = value rule" into buf, or the rule alone where no argument is to blame; always
- * terminated; returns the length it needs. */
+/* Writes "quantity = value rule" into buf, or the rule alone if no argument is to blame, always terminated.
+ * Returns the length of the full text. */
 int fret_status_text(const fret_status *status, char *buf, size_t size);
 
 FRET_END
