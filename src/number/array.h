@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Arrays that grow, and the order of what qsort puts in order. Touches nothing. Not installed. */
+/* Growing arrays, and the comparison function of qsort. Includes the C library alone. Not installed. */
 #ifndef FRET_NUMBER_ARRAY_H
 #define FRET_NUMBER_ARRAY_H
 
@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room for `count` > 0 items of `size` bytes, and for as many again as there were, where the pointer at
- * `items` points to; they may move. False: out of memory, nothing has changed. */
+/* Makes room for `count` > 0 items of `size` bytes in the array that *items points to, at least doubling it
+ * if it grows; items may move. False: out of memory, nothing has changed. */
 static inline bool fret_array_room(void *items, size_t *room, size_t count, size_t size) {
     void *grown;
     if (count <= *room)
@@ -23,7 +23,7 @@ static inline bool fret_array_room(void *items, size_t *room, size_t count, size
     return true;
 }
 
-/* Of doubles, or of what begins with one. */
+/* For qsort: ascending order of doubles, or of structs whose first member is a double. */
 static inline int fret_ascending(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);

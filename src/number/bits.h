@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers by their words: bits, exponents, rounding to whole numbers, where libm's calls take as long as a
- * product of double-doubles. Rounding to nearest is assumed. Not installed. */
+/* Bits, exponents and rounding of doubles by integer operations, where calls of libm take as long as a
+ * product of double-doubles. Assumes rounding to nearest. Not installed. */
 #ifndef FRET_NUMBER_BITS_H
 #define FRET_NUMBER_BITS_H
 
@@ -12,8 +12,8 @@
 
 #include "fret/base.h"
 
-/* Inlined also without optimisation: the caller's instruction set applies. Who counts branches has them once.
- */
+/* Inlined even without optimisation, for the caller's instruction set. Coverage builds count each branch
+ * once. */
 #ifndef FRET_INLINE
 #define FRET_INLINE static inline __attribute__((always_inline))
 #endif
@@ -30,14 +30,14 @@ FRET_INLINE double fret_from_bits(uint64_t u) {
     return x;
 }
 
-/* |x| < 2^51 rounded to a whole number: by adding and taking away. */
+/* |x| < 2^51 rounded to an integer: adding 1.5 2^52 leaves no bits for a fraction. */
 static inline double fret_whole(double x) {
-    const double big = 6755399441055744.0; /* 1.5 2^52 */
+    const double big = 6755399441055744.0;
     double sum = x + big;
     return sum - big;
 }
 
-/* 2^e and the exponent of x > 0; |e| <= FRET_PLAIN does for all but the ends of the range. */
+/* 2^e, and the e of x = m 2^e, 0.5 <= m < 1, x normal; |e| <= FRET_PLAIN avoids the ends of the range. */
 enum { FRET_PLAIN = 1000 };
 
 static inline double fret_two_to(int e) {
@@ -52,7 +52,7 @@ static inline fret_real fret_scaled(fret_real x, int e) {
     return abs(e) <= FRET_PLAIN ? x * fret_two_to(e) : ldexpl(x, e);
 }
 
-/* x = result 2^e, result in 0.5 .. 1; where x rounds to a power of 2, below 0.5 */
+/* x = result 2^e, 0.5 <= result < 1, or just below 0.5 if x rounds to a power of 2. */
 static inline fret_real fret_mantissa(fret_real x, int *e) {
     *e = fret_exponent((double)x);
     return abs(*e) <= FRET_PLAIN ? x * fret_two_to(-*e) : frexpl(x, e);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sums of chebyshev.h. Pure arithmetic. */
+/* Chebyshev interpolation: see chebyshev.h. Pure arithmetic. */
 #include "number/chebyshev.h"
 
 #include "number/real.h"
 
-/* T_i from the two before: z T_(i-1) doubled, z being 2y-1 where the powers are those of y. */
+/* Coefficients of T_i by the recurrence T_i = 2 z T_(i-1) - T_(i-2), with z = 2y-1 for powers of y. */
 static void make_powers(fret_chebyshev *c) {
     for (int i = 0; i < c->count; i++)
         for (int j = 0; j < c->count; j++) {
@@ -30,12 +30,12 @@ void fret_chebyshev_make(fret_chebyshev *c, int count, bool from_nil) {
 
 void fret_chebyshev_terms(const fret_chebyshev *c, const fret_real *value, fret_real *term) {
     const int count = c->count, half = count / 2;
-    fret_real fold[2][FRET_CHEBYSHEV / 2]; /* even and odd parts */
+    fret_real fold[2][FRET_CHEBYSHEV / 2]; /* even and odd in z */
     for (int j = 0; j < half; j++) {
         fold[0][j] = value[j] + value[count - 1 - j];
         fold[1][j] = value[j] - value[count - 1 - j];
     }
-    for (int i = 0; i < count; i += 2) { /* two sums at a time, not in memory */
+    for (int i = 0; i < count; i += 2) { /* two sums at a time stay in registers */
         const fret_real *at = c->at[i], *next = c->at[i + 1];
         fret_real even = 0, odd = 0;
         for (int j = 0; j < half; j++) {
@@ -48,7 +48,7 @@ void fret_chebyshev_terms(const fret_chebyshev *c, const fret_real *value, fret_
 }
 
 void fret_chebyshev_powers(const fret_chebyshev *c, const fret_real *term, int count, fret_real *power) {
-    const int step = c->from_nil ? 1 : 2; /* of z, even and odd ones stay apart */
+    const int step = c->from_nil ? 1 : 2; /* T_i(z) has powers of the parity of i alone */
     for (int j = 0; j < FRET_CHEBYSHEV; j++) {
         fret_real sum = 0;
         for (int i = j; i < count; i += step)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elementary functions of double-doubles: a table near the argument, then a short series. Pure arithmetic, no
- * libm but for the ends of the range. */
+/* Elementary functions of double-doubles: a table near the argument, then a short series. Of libm uses the
+ * ends of range of log, ldexp and frexp. */
 #include "number/dd.h"
 
 #include <float.h>
@@ -9,7 +9,7 @@
 #include "number/bits.h"
 #include "number/constants.h"
 
-/* c[0] + u c[step] + u^2 c[2 step] ... to double, even and odd terms side by side */
+/* c[0] + u c[step] + u^2 c[2 step] ... to double precision, even and odd terms as independent sums. */
 static inline double tail(const dd *c, int step, int pairs, double u) {
     double u2 = u * u, even = 0, odd = 0;
     for (int i = pairs - 1; i >= 0; i--) {
@@ -19,7 +19,7 @@ static inline double tail(const dd *c, int step, int pairs, double u) {
     return even + u * odd;
 }
 
-/* exp(r)-1, |r| <= ln 2/128: r^n/n! for n > 5 is below 2^-47 r and needs no second part. */
+/* exp(r)-1, |r| <= ln 2/128: terms r^n/n! with n > 5 are below 2^-47 r, so that double will do. */
 static dd expm1_series(dd r) {
     const dd *c = inverse_factorial;
     dd r2 = dd_mul(r, r),
@@ -41,7 +41,7 @@ static dd exp_core(dd x, int *e) {
     return dd_extend(two, dd_mul(two, expm1_series(r)));
 }
 
-/* 2 atanh(s), |s| < 0.0040 */
+/* 2 atanh(s) = 2 (s + s^3/3 + ...), |s| < 0.0040 */
 static dd log_series(dd s) {
     dd s2 = dd_mul(s, s);
     dd p = dd_extend(inverse[5], dd_of(s2.hi * tail(inverse + 7, 2, 2, s2.hi)));
@@ -50,7 +50,7 @@ static dd log_series(dd s) {
     return (dd){2 * p.hi, 2 * p.lo};
 }
 
-/* ln(m 2^e), 0.7 < m < 1.42: near a short C, ln m = ln C + 2 atanh((m-C)/(m+C)) */
+/* ln(m 2^e), 0.7 < m < 1.42, by ln m = ln C + 2 atanh((m-C)/(m+C)) with C = j/128 near m. */
 static dd log_core(dd m, int e) {
     double j = fret_whole(128 * m.hi), C = j / 128;
     dd l = log_series(dd_div(dd_add_d(m, -C), dd_add_d(m, C)));
@@ -60,7 +60,7 @@ static dd log_core(dd m, int e) {
     return dd_add(dd_add_d(dd_mul_d(ln2, e), e * ln2_rest), l);
 }
 
-static int normalise(dd *m, int e) { /* from 0.5 .. 1 */
+static int normalise(dd *m, int e) { /* from 0.5 .. 1 to 0.71 .. 1.41 */
     if (m->hi < 0.70710678118654752) {
         *m = (dd){2 * m->hi, 2 * m->lo};
         e--;
@@ -73,7 +73,7 @@ dd fret_dd_exp(dd x) {
     if (!(fabs(x.hi) <= 745))
         return dd_of(x.hi > 0 ? INFINITY : x.hi < 0 ? 0 : NAN);
     dd m = exp_core(x, &e);
-    double half = fret_two_to(e / 2), other = fret_two_to(e - e / 2); /* 2^e may leave the range */
+    double half = fret_two_to(e / 2), other = fret_two_to(e - e / 2); /* 2^e may overflow or underflow */
     return (dd){m.hi * half * other, m.lo * half * other};
 }
 
@@ -104,7 +104,7 @@ dd fret_dd_log1p(dd x) {
     return fabs(x.hi) < small_argument ? log_series(dd_div(x, dd_add_d(x, 2))) : fret_dd_log(dd_add_d(x, 1));
 }
 
-/* |x| <= pi/2: by sin x = 3 s - 4 s^3, s = sin(x/3). */
+/* sin x, |x| <= pi/2, by sin x = 3 s - 4 s^3, s = sin(x/3). */
 static dd sine(dd x) {
     const dd *c = inverse_factorial;
     dd y = dd_div(x, dd_of(3)), y2 = dd_mul(y, y);
@@ -121,15 +121,15 @@ dd fret_dd_sin_quarter(dd x) {
     return sine(dd_mul(x, half_pi));
 }
 
-/* Gamma(x) = exp(log)/rising: Stirling's series at 16 and more, reached by the rising factorial. */
+/* Gamma(x) = exp(result)/rising: Stirling's series, if x < 16 at x+16 with the factor x ... (x+15). */
 static dd gamma_part(dd x, dd *rising) {
     *rising = dd_of(1);
-    if (x.hi < 16) { /* x ... (x+15) in pairs: (x+j)(x+15-j) = x(x+15) + j(15-j) */
+    if (x.hi < 16) { /* in pairs: (x+j)(x+15-j) = x(x+15) + j(15-j) */
         dd w = dd_mul(x, dd_add_d(x, 15));
         dd part[8];
         for (int j = 0; j < 8; j++)
             part[j] = dd_add_d(w, j * (15 - j));
-        for (int n = 4; n > 0; n /= 2) /* as a tree: products that do not wait for each other */
+        for (int n = 4; n > 0; n /= 2) /* as a tree, so that products are independent */
             for (int j = 0; j < n; j++)
                 part[j] = dd_mul(part[j], part[j + n]);
         *rising = part[0];

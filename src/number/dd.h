@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Double-double arithmetic: a number as the unevaluated sum hi + lo, about 100 bits, by the basic IEEE
- * operations. What is inlined here is named dd_..., what is linked fret_dd_... Not installed. */
+/* Double-double arithmetic: a number is the unevaluated sum hi + lo, about 100 bits, by basic IEEE
+ * operations. Inline functions are named dd_..., others fret_dd_... Not installed. */
 #ifndef FRET_DD_H
 #define FRET_DD_H
 
@@ -42,7 +42,7 @@ static inline dd dd_add(dd a, dd b) {
     return dd_quick_sum(s.hi, s.lo + t.lo);
 }
 
-/* The same in fewer operations for |a| >= |b|, when their sum is no smaller than half of a. */
+/* a + b in fewer operations, for |a| >= |b| and |a + b| >= |a|/2. */
 static inline dd dd_extend(dd a, dd b) {
     dd s = dd_quick_sum(a.hi, b.hi);
     return dd_quick_sum(s.hi, s.lo + (a.lo + b.lo));
@@ -94,32 +94,32 @@ static inline fret_real dd_value(dd a) {
     return (fret_real)a.hi + a.lo;
 }
 
-/* To all bits where long double holds fewer. */
+/* x + rest to all bits, where long double holds less than 106. */
 static inline dd dd_from2(fret_real x, double rest) {
     return dd_add_d(dd_from(x), rest);
 }
 
-/* What the long double of a leaves out. */
+/* a - dd_value(a), to double */
 static inline double dd_rest(dd a) {
     return (double)((a.hi - dd_value(a)) + a.lo);
 }
 
-/* Elementary functions, 2^-98 relative (fret_dd_exp, fret_dd_expm1: plus |x| 2^-105). */
+/* Elementary functions, to 2^-98 relative (fret_dd_exp, fret_dd_expm1: plus |x| 2^-105). */
 dd fret_dd_exp(dd x);
 dd fret_dd_expm1(dd x);
 dd fret_dd_log(dd x);                   /* x > 0 */
-dd fret_dd_log_scaled(dd x, int scale); /* of x 2^scale */
+dd fret_dd_log_scaled(dd x, int scale); /* ln(x 2^scale) */
 dd fret_dd_log1p(dd x);                 /* x > -1 */
 /* sin(pi x/2), 0 <= x <= 1. */
 dd fret_dd_sin_quarter(dd x);
 
-/* Gamma(over[0]) .../(Gamma(under[0]) ...) = factor exp(log), arguments >= 1/2. */
+/* Gamma(over[0]) .../(Gamma(under[0]) ...) = factor exp(log); m and n arguments, all >= 1/2. */
 typedef struct dd_scaled {
     dd factor, log;
 } dd_scaled;
 dd_scaled fret_dd_gamma_quotient(const dd *over, int m, const dd *under, int n);
 
-/* Natural logarithm of x > 0, and exp, over the whole range of long double. */
+/* ln x, x > 0, and exp x over the whole range of long double. */
 dd fret_dd_log_real(fret_real x);
 fret_real fret_dd_exp_real(dd x);
 

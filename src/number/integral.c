@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One integrator: eight points of Gauss in halves, at the ends the double-exponential rule. Pure arithmetic.
- */
+/* An adaptive integrator: the 8-point Gauss rule by bisection, at the ends the double-exponential rule. */
 #include "number/integral.h"
 
 #include <float.h>
@@ -21,25 +20,25 @@ const fret_real fret_gauss_weight[8] = {0.050614268145188129576265677155L, 0.111
                                         0.181341891689180991482575224639L, 0.156853322938943643668981100993L,
                                         0.111190517226687235272177997213L, 0.050614268145188129576265677155L};
 
-/* Parts that an integral may be cut into. */
+/* The most bisections of one integral. */
 enum { PARTS = 20000 };
-/* Of smooth integrands the error falls to 2^-16 from part to half. Where it falls by far more, a kink next to
- * the middle may lie before the first point: the other rule, whose points crowd there, is to say. */
-static const fret_real LUCK = 1e-6L;
+/* Bisection reduces the error of a smooth integrand by 2^-16. A far larger reduction suggests a kink near the
+ * middle that no node has seen: the double-exponential rule, whose nodes cluster there, then decides. */
+static const fret_real TOO_GOOD = 1e-6L;
 
 typedef struct integral {
     fret_integrand *f;
     void *context;
-    fret_real tolerance, size; /* size: int |f|, as far as it is known */
+    fret_real tolerance, size; /* size: int |f|, as known so far */
     fret_sum value, error;
-    int left; /* parts */
+    int left; /* bisections still allowed */
 } integral;
 
 typedef struct part {
     fret_real lo, hi;
 } part;
 
-/* By a rule: the integral, that of |f|, and how far the rule may be off; of Gauss, its values. */
+/* The result of a rule: int f, int |f|, the error estimate and, for Gauss's rule, its values. */
 typedef struct result {
     fret_real value, size, error, at[8];
 } result;
@@ -59,8 +58,9 @@ static result by_gauss(const integral *all, part p) {
     return out;
 }
 
-/* t = 1/(1+exp(-pi sinh u)) in even steps of u, 1/2 and halves of that: singularities at the ends do no harm.
- * It is off by far less than from the step before, whose digits it doubles, unless there are others. */
+/* Double-exponential rule, t = 1/(1+exp(-pi sinh u)), in steps of u of 1/2, 1/4 .. 1/16: resolves
+ * singularities at the ends. A halved step doubles the correct digits; the error estimate is the last
+ * change. */
 static result by_doubling(const integral *all, part p) {
     enum { LAST = sizeof doubling_rule / sizeof *doubling_rule - 1, COARSEST = 8 };
     result out = {.size = 0};
@@ -82,9 +82,9 @@ static result by_doubling(const integral *all, part p) {
     return out;
 }
 
-/* Do the values in the halves of a part go on to its ends? A kink before the first of them is seen by none.
- */
-static bool goes_on(const integral *all, part p, const result *a, const result *b) {
+/* Do the polynomials through the values of both halves extrapolate to values at the ends of the part? If not,
+ * a kink lies between an end and the node next to it. */
+static bool fits_ends(const integral *all, part p, const result *a, const result *b) {
     static const fret_real next_to = 1e-17L, alike = 1e5L;
     fret_real lo = at(all, p, next_to, 1 - next_to), hi = at(all, p, 1 - next_to, next_to);
     for (int i = 0; i < 8; i++) {
@@ -94,17 +94,18 @@ static bool goes_on(const integral *all, part p, const result *a, const result *
     return fabsl(lo) + fabsl(hi) <= alike * all->tolerance * all->size;
 }
 
-/* How far the halves of a part, and those that it came from, are from the whole, in parts of their size. */
+/* Disagreement of a part with the sum of its halves: absolute; and relative to int |f| over the part, for
+ * this part and those that contain it, nearest first. */
 enum { REMEMBERED = 8 };
-typedef struct quarrel {
-    fret_real off, own[REMEMBERED]; /* off: not in parts of it */
-} quarrel;
+typedef struct disagreement {
+    fret_real off, own[REMEMBERED];
+} disagreement;
 
-/* Halves of a smooth integrand agree better than the whole with them, and next to kinks better from part to
- * half on the whole, but by luck. Where the last halving brings less than a factor of two, and several
- * together less than eight, it is noise, as of rounded rows of a table; of what is more than 1e-11, twice as
- * many must tell. What grows in parts of the size is one place near an end of the part. */
-static bool is_noise(fret_real own, const quarrel *before) {
+/* Rounding noise in f ends the bisection. For a smooth integrand the relative disagreement falls quickly,
+ * near kinks slowly but steadily. It is noise, as in tables of rounded numbers, if the last bisection gains
+ * less than a factor of 2 and four together (eight, for a disagreement above 1e-11) less than 8. If it grows
+ * relative to the part, the cause is a single place near an end of the part, and no noise. */
+static bool is_noise(fret_real own, const disagreement *before) {
     const int first = own < 1e-11L ? REMEMBERED / 2 - 1 : REMEMBERED - 1;
     fret_real most = 0;
     for (int i = 0; i <= first; i++)
@@ -112,7 +113,7 @@ static bool is_noise(fret_real own, const quarrel *before) {
     return own < 1e-6L && own > before->own[0] / 2 && own > most / 8 && own < 16 * before->own[first];
 }
 
-static void add(integral *all, part p, fret_real whole, quarrel before) {
+static void add(integral *all, part p, fret_real whole, disagreement before) {
     const fret_real mid = (p.lo + p.hi) / 2;
     const part left = {p.lo, mid}, right = {mid, p.hi};
     const bool first = p.hi - p.lo == 1;
@@ -122,19 +123,19 @@ static void add(integral *all, part p, fret_real whole, quarrel before) {
     if (first)
         all->size = best.size;
     const bool good = off <= all->tolerance * all->size, ends = p.lo == 0 || p.hi == 1,
-               lucky = good && (off < LUCK * before.off || (ends && !goes_on(all, p, &a, &b)));
-    if (lucky || (!good && ends)) {
+               suspicious = good && (off < TOO_GOOD * before.off || (ends && !fits_ends(all, p, &a, &b)));
+    if (suspicious || (!good && ends)) {
         const result other = by_doubling(all, p);
         if (first)
             all->size = fmaxl(all->size, other.size);
-        if (lucky || other.error < off)
+        if (suspicious || other.error < off)
             best = other;
         off = fmaxl(off, best.error);
     }
     const fret_real own = off / best.size;
     if (best.error > all->tolerance * all->size && all->left > 0 && p.lo < mid && mid < p.hi &&
         !is_noise(own, &before)) {
-        quarrel now = {off, {own}};
+        disagreement now = {off, {own}};
         memcpy(now.own + 1, before.own, (REMEMBERED - 1) * sizeof *now.own);
         all->left--;
         add(all, left, a.value, now);
@@ -159,7 +160,7 @@ fret_real fret_integral_smooth(fret_integrand *f, void *context) {
 
 fret_estimate fret_integral(fret_integrand *f, void *context, fret_real tolerance) {
     const part whole = {0, 1};
-    quarrel none = {.off = 0};
+    disagreement none = {.off = 0};
     for (int i = 0; i < REMEMBERED; i++)
         none.own[i] = INFINITY;
     integral all = {.f = f, .context = context, .tolerance = tolerance, .left = PARTS};

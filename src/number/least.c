@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The golden section. Pure arithmetic. */
+/* Golden-section search. Pure arithmetic. */
 #include "number/least.h"
 
 #include <stdbool.h>
@@ -12,7 +12,7 @@ fret_real fret_least(fret_function *f, void *context, fret_real lo, fret_real hi
     while (hi - lo > enough) {
         const bool up = hi - best > best - lo;
         const fret_real x = best + GOLDEN * ((up ? hi : lo) - best);
-        if (x == best) /* numbers lie no closer */
+        if (x == best) /* no number lies between */
             break;
         const fret_real now = f(x, &slope, context);
         const bool better = now < least;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The type of a double-double, for dd.h and for the tables of constants. Not installed. */
+/* The type of a double-double, for dd.h and constants.h. Not installed. */
 #ifndef FRET_NUMBER_PAIR_H
 #define FRET_NUMBER_PAIR_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Powers of long double by logarithms, and the beta function by double-doubles. */
+/* Powers of long double by logarithms, and the beta function by double-doubles. Uses libm. */
 #include "number/real.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ fret_real fret_ratio_pow(fret_real x, fret_real x0, fret_real y) {
     return fret_dd_exp_real(dd_mul(dd_sub(fret_dd_log_real(x), fret_dd_log_real(x0)), dd_from(y)));
 }
 
-/* Gamma(x) = Gamma(1+x)/x keeps small arguments away from the pole. */
+/* By Gamma(x) = Gamma(1+x)/x small arguments stay away from the pole. */
 fret_real fret_beta(fret_real x, fret_real y) {
     dd a = dd_from(x), b = dd_from(y), c = dd_add(a, b);
     const dd over[] = {dd_add_d(a, 1), dd_add_d(b, 1)}, under[] = {dd_add_d(c, 1)};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What libm lacks of long double, or does slowly. Not installed. */
+/* Functions of long double that libm lacks or computes slowly. Not installed. */
 #ifndef FRET_NUMBER_REAL_H
 #define FRET_NUMBER_REAL_H
 

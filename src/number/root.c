@@ -1,33 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The steps of root.h. Pure arithmetic. */
+/* Root finding: see root.h. Pure arithmetic. */
 #include "number/root.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
-typedef struct place {
+typedef struct sample {
     fret_real x, f, slope;
-} place;
+} sample;
 
-static place ask(fret_function *f, void *context, fret_real x) {
-    place p = {.x = x};
+static sample evaluate(fret_function *f, void *context, fret_real x) {
+    sample p = {.x = x};
     p.f = f(x, &p.slope, context);
     return p;
 }
 
 fret_real fret_root(fret_function *f, void *context, fret_real lo, fret_real hi, fret_real guess) {
-    const place first = ask(f, context, lo), other = ask(f, context, hi);
+    const sample first = evaluate(f, context, lo), other = evaluate(f, context, hi);
     const bool rises = first.f < 0;
     fret_real step = hi - lo, before = step;
-    place last = other;
+    sample last = other;
     if (first.f == 0 || other.f == 0)
         return first.f == 0 ? lo : hi;
-    place now = first;
+    sample now = first;
     fret_real next = guess > lo && guess < hi ? guess : lo + (hi - lo) / 2;
     for (;;) {
         last = now;
-        now = ask(f, context, next);
+        now = evaluate(f, context, next);
         if (now.f == 0)
             return now.x;
         *((now.f < 0) == rises ? &lo : &hi) = now.x;

@@ -7,7 +7,7 @@
 
 #include "fret/base.h"
 
-/* Sum with Neumaier's compensation: 1e8 small terms without drift. */
+/* A sum with Neumaier's compensation: 1e8 small terms without drift. */
 typedef struct fret_sum {
     fret_real sum, rest;
 } fret_sum;
