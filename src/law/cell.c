@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values, places and slices of one cell. Pure. */
+/* Values, places and slices of one cell. Pure arithmetic. */
 #include "law/cell.h"
 
 #include <float.h>
@@ -35,7 +35,7 @@ static fret_real at(const fret_cell *c, int i, fret_real s) {
     return even + s * odd;
 }
 
-/* The same to a double's digits. */
+/* The same in double, without and with the derivative. */
 static double about(const fret_cell *c, int i, double s) {
     double sum = 0;
     for (int j = c->count[i]; j-- > 0;)
@@ -58,27 +58,27 @@ static fret_real raised(fret_real s, fret_real e) {
     return e == 1 ? s : e == 0.5L ? sqrtl(s) : s > 0 ? fret_pow(s, e) : 0;
 }
 
-/* A way inwards from s: s^q, how far, and ln of what that leaves of s where it is asked for. */
-typedef struct way {
+/* A step inwards from s: s^q, its length `back`, and ln(1 - back/s) where that is needed. */
+typedef struct descent {
     fret_real s, to_q, back, log;
-} way;
+} descent;
 
-static way way_from(const fret_cell *c, fret_real s) {
-    return (way){s, c->count[RISE_Q] ? raised(s, c->q) : 0, 0, 0};
+static descent descent_from(const fret_cell *c, fret_real s) {
+    return (descent){s, c->count[RISE_Q] ? raised(s, c->q) : 0, 0, 0};
 }
 
 static fret_real log_left(fret_real s, fret_real back) {
     return back < s ? log1pl(-back / s) : -(fret_real)INFINITY;
 }
 
-static void go(const fret_cell *c, way *w, fret_real back) {
+static void descend(const fret_cell *c, descent *w, fret_real back) {
     w->back = back;
     w->log = c->count[RISE_Q] || c->mu != 1 ? log_left(w->s, back) : 0;
 }
 
-/* The fall of s^e p(s), from the quotient (p(s)-p(s1))/(s-s1): no difference loses digits. power: s^e, and
- * how much less it is there. */
-static fret_real fall_of(const fret_cell *c, int i, const way *w, fret_real power, fret_real less) {
+/* The fall of s^e p(s) from s to s1 = s - back, by the quotient (p(s)-p(s1))/(s-s1), without cancellation.
+ * power: s^e; less: the fall of s^e. */
+static fret_real fall_of(const fret_cell *c, int i, const descent *w, fret_real power, fret_real less) {
     const fret_real inner = w->s - w->back;
     fret_real sum = 0, quotient = 0;
     for (int j = c->count[i]; j-- > 0;) {
@@ -88,18 +88,18 @@ static fret_real fall_of(const fret_cell *c, int i, const way *w, fret_real powe
     return less * sum + (power - less) * w->back * quotient;
 }
 
-static fret_real depth_fall(const fret_cell *c, const way *w) {
+static fret_real depth_fall(const fret_cell *c, const descent *w) {
     const fret_real smooth = fall_of(c, RISE, w, w->s, w->back);
     return c->count[RISE_Q] ? smooth + fall_of(c, RISE_Q, w, w->to_q, -w->to_q * expm1l(c->q * w->log))
                             : smooth;
 }
 
-static fret_real stiffness_fall(const fret_cell *c, const way *w) {
+static fret_real stiffness_fall(const fret_cell *c, const descent *w) {
     const fret_real to_mu = raised(w->s, c->mu);
     return fall_of(c, STIFFNESS, w, to_mu, c->mu == 1 ? w->back : -to_mu * expm1l(c->mu * w->log));
 }
 
-static fret_real load_fall(const fret_cell *c, const way *w) {
+static fret_real load_fall(const fret_cell *c, const descent *w) {
     const fret_real to_mu = raised(w->s, c->mu), power = to_mu * w->s, bent = to_mu * w->to_q,
                     less =
                         c->mu == 1 ? w->back * (2 * w->s - w->back) : -power * expm1l((c->mu + 1) * w->log),
@@ -124,13 +124,13 @@ static fret_real stiffness_of_powers(const fret_cell *c, fret_real s) {
     return c->K_at_1 * raised(s, 2 * c->m);
 }
 
-/* The load that a power carries is this part of its depth times K. */
+/* The load carried by one power, as a fraction of its depth times K. */
 static fret_real carried(const fret_cell *c, int i) {
     const fret_real n = c->of[RISE_Q][i];
     return n / (n + 2 * c->m);
 }
 
-/* Thin: by Gauss's rule over ln s. */
+/* For a thin slice: by Gauss's rule over ln s. */
 static fret_stretch thin_part_of_powers(const fret_cell *c, fret_real s, fret_real log) {
     fret_stretch out = {0, 0, 0, 0};
     fret_real g[FRET_CELL_TERMS];
@@ -151,13 +151,14 @@ static fret_stretch thin_part_of_powers(const fret_cell *c, fret_real s, fret_re
     return out;
 }
 
-/* int of s^(e-1) ds from a place outwards by -log in ln s, s^e being inner and outer there. A difference that
- * is 1e-3 of its terms keeps 16 digits. */
+/* int s^(e-1) ds over -log in ln s, with `inner` and `outer` the values of s^e at its ends. A difference
+ * above 1e-3 of its terms keeps 16 digits. */
 static fret_real area_of_power(fret_real e, fret_real outer, fret_real inner, fret_real log) {
     return fabsl(e) > 1e-3L ? (outer - inner) / e : outer * (e != 0 ? -expm1l(e * log) / e : -log);
 }
 
-/* Thick: in two halves, or by differences of depth, load and the area under the load. */
+/* For any slice: a thicker one in halves, a very thick one by differences of depth, load and the area
+ * below. */
 static fret_stretch part_of_powers(const fret_cell *c, fret_real s, fret_real log) {
     static const fret_real THIN = 0.5L, THICK = 4;
     const fret_real inner = s * expl(log), m = c->m, K = stiffness_of_powers(c, s),
@@ -221,7 +222,7 @@ fret_real fret_cell_stiffness(const fret_cell *c, fret_real s) {
     return c->K + raised(s, c->mu) * at(c, STIFFNESS, s);
 }
 
-/* G of what lies below s */
+/* G of the slice from s to the inner end */
 static fret_real load_beyond(const fret_cell *c, fret_real s, fret_real to_q, fret_real to_mu) {
     return to_mu * (s * at(c, PART_G, s) + to_q * at(c, PART_GQ, s));
 }
@@ -234,7 +235,7 @@ fret_real fret_cell_rise(const fret_cell *c, int by, fret_real s) {
     return by == BY_DEPTH ? depth : c->K * depth + load_beyond(c, s, to_q, raised(s, c->mu));
 }
 
-/* A rise and its derivative, to a double's digits. */
+/* A rise and its derivative, in double. */
 static double rise_about(const fret_cell *c, int by, double s, double *rate) {
     double P1, Q1;
     const double P = about_with_rate(c, RISE, s, &P1), Q = about_with_rate(c, RISE_Q, s, &Q1),
@@ -269,8 +270,8 @@ fret_real fret_cell_fall(const fret_cell *c, int by, fret_real s, fret_real back
         const fret_stretch p = part_of_powers(c, s, log_left(s, back));
         return by == BY_DEPTH ? p.h : p.G + p.h * (back < s ? stiffness_of_powers(c, s - back) : 0);
     }
-    way w = way_from(c, s);
-    go(c, &w, back);
+    descent w = descent_from(c, s);
+    descend(c, &w, back);
     return by == BY_DEPTH ? depth_fall(c, &w) : load_fall(c, &w);
 }
 
@@ -288,7 +289,7 @@ fret_real fret_cell_place(const fret_cell *c, fret_real x) {
     return c->powers ? x / c->x : fminl((x - c->x) * (x + c->x) / c->width, 1);
 }
 
-/* In double, with the rate there; false: not found to 1e-6. */
+/* The s of a rise, found in double, and the rate there; false if not found to 1e-6. */
 static bool place_about(const fret_cell *c, int by, fret_real rise, fret_real *place, double *rate) {
     static const double LEAST_DOUBLE = 1e-280;
     const double target = (double)rise, share = (double)(rise / c->rise[by]);
@@ -311,14 +312,14 @@ static bool place_about(const fret_cell *c, int by, fret_real rise, fret_real *p
     return false;
 }
 
-/* What is looked for: a rise, or a fall from s on. */
+/* A root problem: where the rise, or the fall from s on, is `wanted`. */
 typedef struct search {
     const fret_cell *cell;
     int by;
     fret_real wanted, s;
 } search;
 
-/* In logarithms, in which rises are nearly powers. */
+/* In logarithms, since rises are nearly powers of s; the last step goes in s, which has more digits. */
 static fret_real miss_at(fret_real log, fret_real *slope, void *context) {
     const search *f = context;
     const fret_real s = expl(log), value = fret_cell_rise(f->cell, f->by, s);
@@ -326,7 +327,7 @@ static fret_real miss_at(fret_real log, fret_real *slope, void *context) {
     return value > 0 ? logl(value / f->wanted) : -(fret_real)LDBL_MAX;
 }
 
-/* Nearer to the centre, or to a flat end, a place would underflow, and no digit tells it. */
+/* Closer to the centre, or to a flat end, s would underflow. */
 static const fret_real LEAST = 1e-4900L;
 
 fret_real fret_cell_find(const fret_cell *c, int by, fret_real rise) {
@@ -336,7 +337,7 @@ fret_real fret_cell_find(const fret_cell *c, int by, fret_real rise) {
         return 1;
     fret_real lo = fmaxl(c->begin, LEAST), hi = c->powers ? fminl(c->begin + 1, c->width) : 1, s = hi;
     double about;
-    if (!c->powers && place_about(c, by, rise, &s, &about)) { /* whose rate will do for what is left */
+    if (!c->powers && place_about(c, by, rise, &s, &about)) { /* one more Newton step */
         const fret_real step = (rise - fret_cell_rise(c, by, s)) / about;
         if (fabsl(step) <= 1e-9L * s)
             return fminl(s + step, 1);
@@ -345,11 +346,11 @@ fret_real fret_cell_find(const fret_cell *c, int by, fret_real rise) {
         return c->begin;
     for (; c->powers && hi < c->width && fret_cell_rise(c, by, hi) < rise; hi = fminl(16 * hi, c->width))
         lo = hi;
-    if (!(fret_cell_rise(c, by, hi) > rise)) /* the end of what grows */
+    if (!(fret_cell_rise(c, by, hi) > rise)) /* `rise` lies at or beyond the end */
         return hi;
     search f = {c, by, rise, 0};
     s = expl(fret_root(miss_at, &f, logl(lo), logl(hi), logl(s)));
-    s += (rise - fret_cell_rise(c, by, s)) / fret_cell_rate(c, by, s); /* a logarithm tells fewer digits */
+    s += (rise - fret_cell_rise(c, by, s)) / fret_cell_rate(c, by, s);
     return fminl(fmaxl(s, c->begin), hi);
 }
 
@@ -359,7 +360,7 @@ static fret_real short_of(fret_real back, fret_real *slope, void *context) {
     return fret_cell_fall(f->cell, f->by, f->s, back) - f->wanted;
 }
 
-/* By secants, first of the one from s itself: what is left of a step is its product with the one before. */
+/* By secant steps, the first with the rate at s; the error is about the product of the last two steps. */
 fret_real fret_cell_find_back(const fret_cell *c, int by, fret_real s, fret_real drop, fret_real guess) {
     enum { STEPS = 6 };
     static const fret_real ENOUGH = 1e-18L;
@@ -397,13 +398,13 @@ fret_stretch fret_cell_below(const fret_cell *c, fret_real s) {
                                 (bent ? to_q * (s * at(c, PART_LQ, s) + to_q * at(c, PART_LQQ, s)) : 0))};
 }
 
-/* Eight nodes of Gauss's rule at once. */
+/* All nodes of Gauss's rule in one vector. */
 enum { NODES = 8 };
 typedef double lanes __attribute__((vector_size(NODES * sizeof(double))));
 
-/* Of a part of thickness h: G/(h K) and L/(h^2 K), the means of t/h and t/h (1-t/h), whose size a double
- * always holds and whose digits will do. */
-static void means_of_part(const fret_cell *c, const way *w, fret_real h, double *G, double *L) {
+/* For a slice of thickness h: G/(h K) and L/(h^2 K), the means of t/h and t/h (1-t/h), which never underflow
+ * and for which the digits of a double suffice. */
+static void means_of_part(const fret_cell *c, const descent *w, fret_real h, double *G, double *L) {
     const fret_real edge = c->x * c->x + c->width * w->s;
     const double s = (double)w->s, part = (double)(w->back / w->s), q = (double)c->q,
                  power = (double)c->m - 1, share = (double)(w->s / h), share_q = (double)(w->to_q / h),
@@ -439,8 +440,8 @@ static void means_of_part(const fret_cell *c, const way *w, fret_real h, double 
     *L /= sum;
 }
 
-/* By Gauss's rule, in parts that end before they come close to the kink: of a part that is `back` of s, the
- * rule of eight points errs by (4 s/back)^-16. */
+/* By Gauss's rule, in parts that stay away from the kink at s = 0: for a part of length `back` the 8-point
+ * rule errs by (4 s/back)^-16. */
 fret_stretch fret_cell_part(const fret_cell *c, fret_real s, fret_real back) {
     static const fret_real CLOSE = 0.17L;
     if (c->powers)
@@ -451,8 +452,8 @@ fret_stretch fret_cell_part(const fret_cell *c, fret_real s, fret_real back) {
         return fret_stretch_join(&outer, &rest);
     }
     double G, L;
-    way w = way_from(c, s);
-    go(c, &w, back);
+    descent w = descent_from(c, s);
+    descend(c, &w, back);
     const fret_real h = depth_fall(c, &w), K = stiffness_fall(c, &w);
     means_of_part(c, &w, h, &G, &L);
     return (fret_stretch){h, K, h * K * G, h * h * K * L};
@@ -472,7 +473,7 @@ int fret_cell_fit(const fret_chebyshev *nodes, const fret_real *value, fret_real
     return count;
 }
 
-/* Series i becomes int of the values times s^(power-1), over s^power; power 0: they themselves. */
+/* Fits series i: s^power times it is the integral of s^(power-1) times the values; 0: it is the values. */
 static bool integrate(fret_cell *c, int i, const fret_chebyshev *nodes, const fret_real *value,
                       fret_real power) {
     static const fret_real LITTLE = 2e-19L, ENOUGH = 1e-17L;
@@ -486,7 +487,7 @@ static bool integrate(fret_cell *c, int i, const fret_chebyshev *nodes, const fr
     return tail <= ENOUGH * most;
 }
 
-/* The product of two series, its integral as above. */
+/* Adds the product of two series to series i, integrated likewise. */
 static void multiply(fret_cell *c, int i, const fret_real *a, const fret_real *b, int count,
                      fret_real power) {
     for (int j = 0; j < FRET_CELL_TERMS; j++) {
@@ -500,7 +501,7 @@ static void multiply(fret_cell *c, int i, const fret_real *a, const fret_real *b
     }
 }
 
-/* At the centre, where terms may differ by any factor at small s: term by term. */
+/* At the centre, where s is small and terms may differ by any factor: series by series, term by term. */
 static void complete_centre(fret_cell *c) {
     enum { N = FRET_CELL_TERMS };
     const fret_real q = c->q, mu = c->mu, k[N] = {fret_pow(c->width, c->m)};
@@ -560,7 +561,7 @@ static bool complete_by_fits(fret_cell *c, const fret_chebyshev *nodes) {
         v[j] = (c->y + s * at(c, RISE, s)) * dK;
         Q1[j] = at(c, RISE_Q, s) * dK;
     }
-    (void)integrate(c, AREA, nodes, v, 0); /* as smooth as those above */
+    (void)integrate(c, AREA, nodes, v, 0); /* converges like the series above */
     if (bent)
         (void)integrate(c, AREA_Q, nodes, Q1, 0);
     return ok;

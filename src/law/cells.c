@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Places in cells, and what slices across them carry: a tree of sums. Pure. */
+/* Finds places in the cells and sums over slices that span them, by a tree of sums. Pure arithmetic. */
 #include "law/cells.h"
 
 #include <float.h>
@@ -10,7 +10,7 @@ static fret_real begin_of(const fret_cell *c, int by) {
     return by == BY_LOAD ? c->F : c->y;
 }
 
-/* The last cell that begins before the value; among the first `count`. */
+/* The last of the first `count` cells that begins below the value. */
 static size_t cell_of(const fret_cells *all, int by, size_t count, fret_real value) {
     size_t lo = 0;
     while (count > 1) {
@@ -59,7 +59,7 @@ fret_real fret_cells_radius(const fret_cells *all, const fret_place *p) {
 
 fret_real fret_cells_inner(const fret_cells *all, int by, const fret_place *outer, fret_real drop,
                            fret_real left, fret_place *inner) {
-    static const fret_real LITTLE = 1e-3L; /* of which differences would lose too many digits */
+    static const fret_real LITTLE = 1e-3L; /* up to this part of the rise differences lose too many digits */
     const bool known = inner->s > 0 && inner->i <= outer->i;
     const fret_real begin = begin_of(&all->cell[outer->i], by);
     fret_real s = outer->s, rise = fminl(drop + left, all->most[by]) - begin;
@@ -86,7 +86,7 @@ fret_real fret_cells_inner(const fret_cells *all, int by, const fret_place *oute
 
 fret_real fret_cells_fall(const fret_cells *all, int by, const fret_place *outer, const fret_place *inner,
                           fret_real back) {
-    static const fret_real NEAR = 0.9L; /* of s: what is left tells more than how far back */
+    static const fret_real NEAR = 0.9L; /* of s: beyond it the difference of rises has more digits */
     const fret_cell *o = &all->cell[outer->i], *i = &all->cell[inner->i];
     const fret_real s = o == i ? outer->s : 1,
                     part = back < NEAR * s ? fret_cell_fall(i, by, s, back)
@@ -94,7 +94,7 @@ fret_real fret_cells_fall(const fret_cells *all, int by, const fret_place *outer
     return o == i ? part : fret_cell_rise(o, by, outer->s) + (begin_of(o, by) - begin_of(i + 1, by)) + part;
 }
 
-/* Adds the runs of cells below number `from`, down to and with number `to`. */
+/* Adds the sums of the cells from number from-1 down to number `to`, by the longest aligned runs. */
 static void add_runs(const fret_cells *all, size_t from, size_t to, fret_stretch *sum) {
     while (from > to) {
         int l = 0;
@@ -105,10 +105,10 @@ static void add_runs(const fret_cells *all, size_t from, size_t to, fret_stretch
     }
 }
 
-/* Of a slice that is this part of s, or less, L would be lost in differences: it falls with the cube. */
+/* For a slice up to this part of s differences lose L, which falls with the cube of the thickness. */
 static const fret_real THIN = 0.1L;
 
-/* From s inwards by `back`: by a difference, unless that would lose digits. K: there. */
+/* The sums from s inwards by `back`: by a difference, unless that loses digits. K: at the inner end. */
 static fret_stretch part_of(const fret_cell *c, fret_real s, const fret_stretch *whole, fret_real back,
                             fret_real inner, fret_real *K) {
     static const fret_real WORTH = 2e-3L, NEAR = 0.9L;
@@ -137,6 +137,6 @@ fret_stretch fret_cells_between(const fret_cells *all, const fret_place *outer, 
         return fret_stretch_join(&sum, &rest);
     }
     if (!whole)
-        *K = i[1].K; /* just where the next one begins */
+        *K = i[1].K; /* exactly where the next cell begins */
     return sum;
 }

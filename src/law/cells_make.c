@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Makes cells: of a sum of powers one, of other shapes as many as polynomials want, of a sampled gap at least
- * one a row; and scales them. Allocates them, and frees them. */
+/* Makes and scales the cells: one for a sum of powers, as many as polynomials need for other shapes, at least
+ * one a row for a sampled gap. Allocates them, and frees them. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,10 +15,10 @@
 typedef struct maker {
     fret_cells *all;
     const fret_gap *gap;
-    fret_real m, start, end;     /* how far its cells reach */
+    fret_real m, start, end;     /* where the cells of this gap begin and end */
     fret_real summit, at_summit; /* the largest depth so far, and its radius */
-    fret_transform *rows;        /* of a sampled gap */
-    size_t row, last;            /* the row that a cell lies in; the one that goes on to it from before */
+    fret_transform *rows;        /* sampled gap: its transform */
+    size_t row, last;            /* the row of the cell; the row whose smooth continuation it adds to */
     fret_chebyshev nodes;
     fret_stop stop;
     fret_status failed;
@@ -28,7 +28,7 @@ static fret_cell *last_of(const maker *m) {
     return &m->all->cell[m->all->count - 1];
 }
 
-/* One more, which begins where the last one ends. */
+/* Appends a cell, which begins where the last one ends. */
 static fret_cell *new_cell(maker *mk, fret_real x) {
     fret_cells *all = mk->all;
     if (!fret_array_room(&all->cell, &all->room, all->count + 1, sizeof *all->cell)) {
@@ -44,20 +44,21 @@ static fret_cell *new_cell(maker *mk, fret_real x) {
     return c;
 }
 
-/* g so far beyond x0, the beginning of the row, but for the kink there. */
+/* g at the distance e beyond x0, where the row begins, without the kink at x0. */
 static fret_real smooth_at(const maker *mk, fret_real x0, fret_real e) {
     if (mk->rows)
         return fret_transform_at(mk->rows, mk->last, mk->row, e);
     return fret_gap_profile(mk->gap, &mk->all->rule, (x0 - mk->start) + e).g;
 }
 
-/* What the kink adds. */
+/* The part of g that the kink adds. */
 static fret_real kink_at(const maker *mk, fret_real e) {
     return mk->rows ? fret_transform_jump(mk->rows, mk->row, e)
                     : fret_gap_profile(mk->gap, &mk->all->rule, e).g;
 }
 
-/* Where a cell begins: `at` in x^2 beyond the radius x0; with a kink; with nothing but that. */
+/* The beginning of a cell: `at` in x^2 beyond the radius x0. kink: there is a kink; first: and nothing
+ * else. */
 typedef struct beginning {
     fret_real x0, at;
     bool kink, first;
@@ -68,7 +69,7 @@ static fret_real distance_of(const beginning *p, fret_real v) {
     return more / (p->x0 + sqrtl(p->x0 * p->x0 + more));
 }
 
-/* How much of depth the last terms are. */
+/* Fits the depth. error: the last terms, relative to depth. */
 static bool fit_cell(maker *mk, const beginning *p, fret_cell *c, fret_real width, fret_real *error) {
     enum { N = FRET_CELL_TERMS };
     static const fret_real LITTLE = 2e-19L, ENOUGH = 1e-18L;
@@ -96,7 +97,7 @@ static bool fit_cell(maker *mk, const beginning *p, fret_cell *c, fret_real widt
     return *error <= ENOUGH;
 }
 
-/* The radius soon after x, within 1 % of a table, where g is above what it is there; 0: it stays below. */
+/* The radius after x, within 1 % of the table, where g exceeds g(x); 0 if it stays below. */
 static fret_real risen(const maker *mk, fret_real x) {
     const fret_gap *gap = mk->gap;
     const fret_real whole = fret_gap_end(gap) - mk->start, e = x - mk->start,
@@ -109,7 +110,7 @@ static fret_real risen(const maker *mk, fret_real x) {
     return 0;
 }
 
-/* Does depth grow throughout? Where it falls by no more than the noise of rows, it goes on as if it did. */
+/* True if depth grows over the cell; a fall by the noise of rows is ignored. */
 static bool grows(maker *mk, const fret_cell *c) {
     static const fret_real NOISE = 1e-8L;
     enum { LOOKS = 8 };
@@ -128,8 +129,8 @@ static bool grows(maker *mk, const fret_cell *c) {
     return true;
 }
 
-/* From the radius x0 on, over `whole` in x^2, the first cell as wide as `width` at most: half of it, and half
- * again, until polynomials do. */
+/* Makes cells from the radius x0 on, over `whole` in x^2, at first `width` wide: halved until polynomials
+ * fit. */
 static bool add_cells(maker *mk, fret_real x0, fret_real whole, fret_real width, bool kink, bool first) {
     static const fret_real NARROW = 1.0L / 64, WHOLE = 1.2L;
     const fret_real least = NARROW * fminl(width, whole);
@@ -156,7 +157,7 @@ static bool add_cells(maker *mk, fret_real x0, fret_real whole, fret_real width,
     return true;
 }
 
-/* Powers from a radius on, or, x0 being only where they are told, from the centre. */
+/* A cell of powers of x/x0, from x0 on or from the centre. */
 static bool add_powers(maker *mk, const fret_term *term, int count, fret_real x0, bool from_centre) {
     fret_cell *c = new_cell(mk, x0);
     if (!c)
@@ -171,7 +172,7 @@ static bool add_powers(maker *mk, const fret_term *term, int count, fret_real x0
         c->of[RISE][i] = term[i].G;
         c->of[RISE_Q][i] = term[i].n;
     }
-    if (isfinite(mk->end)) { /* x0 */
+    if (isfinite(mk->end)) { /* at x0 */
         c->width = 1;
         for (int by = BY_DEPTH; by <= BY_LOAD; by++)
             c->rise[by] = fret_cell_rise(c, by, 1);
@@ -179,7 +180,7 @@ static bool add_powers(maker *mk, const fret_term *term, int count, fret_real x0
     return true;
 }
 
-/* Whole powers of the radius, at the centre: x^2i is s^i, odd ones have the root of s. */
+/* The cell at the centre, of integer powers of the radius: x^2i becomes s^i, odd powers s^(i+1/2). */
 static bool add_centre(maker *mk, const fret_term *term, int count, fret_real x) {
     fret_cell *c = new_cell(mk, 0);
     if (!c)
@@ -203,7 +204,7 @@ static fret_real rate_there(fret_real s, fret_real *slope, void *context) {
     return fret_cell_rate(context, BY_DEPTH, s);
 }
 
-/* Where a sum of powers with a negative term begins to fall: looked for in logarithms of the radius. */
+/* Finds where a sum of powers with a negative term begins to fall, in logarithmic steps of the radius. */
 static bool find_fall(maker *mk) {
     static const fret_real FIRST = 1e-12L, SPAN = 1e18L;
     enum { LOOKS = 400 };
@@ -237,7 +238,7 @@ static bool make_sum(maker *mk) {
     return add_powers(mk, term, count, x0, true) && (ends || fret_gap_grows(mk->gap) || find_fall(mk));
 }
 
-/* A flat punch: g leaps at its edge, where the place of every depth is. The cell has no width. */
+/* A flat punch: g jumps at its edge, the place of every depth. The cell has no width. */
 static bool make_punch(maker *mk) {
     fret_cell *c = new_cell(mk, mk->start);
     if (c)
@@ -245,7 +246,7 @@ static bool make_punch(maker *mk) {
     return c;
 }
 
-/* Beyond so many radii of the flat end its powers have converged. */
+/* From this many radii of the flat end on its series of powers has converged. */
 static const fret_real FAR = 8;
 
 static bool make_flat(maker *mk) {
@@ -256,7 +257,7 @@ static bool make_flat(maker *mk) {
            (ends || add_powers(mk, term, fret_gap_far(mk->gap, &mk->all->rule, far, term), far, false));
 }
 
-/* The series of a sphere converges as this part of the square of its radius does. */
+/* Up to this part of the largest radius the series of a sphere, in (r/R)^2, has converged. */
 static bool make_sphere(maker *mk) {
     static const fret_real NEAR = 0.3L;
     const fret_real end = mk->end, x = fminl(NEAR * fret_gap_end(mk->gap), end);
@@ -270,7 +271,7 @@ static bool make_rows(maker *mk) {
     const struct fret_table *t = mk->gap->table;
     fret_term term[FRET_MOST_TERMS];
     const size_t first = fret_table_row(t, 0), last = fret_table_rows(t, fret_table_end(t)) - 1;
-    fret_real before = 0; /* where the row before begins */
+    fret_real before = 0; /* radius where the last row begins */
     mk->failed = fret_transform_make(t, &mk->all->rule, mk->stop, &mk->rows);
     for (size_t i = first; i < last && mk->start + fret_table_distance(t, i) < mk->end && !mk->failed.code;
          i++) {
@@ -292,7 +293,7 @@ static bool make_rows(maker *mk) {
     return !mk->failed.code;
 }
 
-/* From the radius x on, whose rows are cubics already: as far at a time as the stiffness is a polynomial. */
+/* From the radius x on, by the rows of g, which are cubics already, in parts over which K is a polynomial. */
 static bool make_worn(maker *mk, const struct fret_worn *w, fret_real x) {
     const fret_real last = fminl((mk->end - w->inner) * (mk->end + w->inner), fret_table_end(w->g));
     fret_real at = (x - w->inner) * (x + w->inner), slope[3];
@@ -329,7 +330,7 @@ static bool make_worn(maker *mk, const struct fret_worn *w, fret_real x) {
 
 /* ---- all --------------------------------------------------------------------------------------- */
 
-/* From the centre outwards, within what has worn as it was before. */
+/* From the centre outwards; inside the worn region by the gap before that wear. */
 static bool make_all(maker *mk) {
     const fret_gap *whole = mk->gap;
     const fret_power *unused;
@@ -380,7 +381,7 @@ static void find_most(fret_cells *all) {
         all->most[by] = ends ? fret_cells_level(all, by, &end) : (fret_real)INFINITY;
 }
 
-/* Cut them for a gap as it is. */
+/* Makes the cells of a gap without scaling. */
 static fret_status cut_cells(const fret_gap *gap, double k, fret_stop stop, fret_cells **out) {
     fret_cells *all = calloc(1, sizeof *all);
     if (!all)
@@ -389,7 +390,7 @@ static fret_status cut_cells(const fret_gap *gap, double k, fret_stop stop, fret
     all->gap = *gap;
     all->k = k;
     all->end = fret_gap_end(gap);
-    all->error = 1e-17L; /* of what is fitted itself */
+    all->error = 1e-17L; /* the error of the values that are fitted */
     fret_gap_rule(gap, k, &all->rule);
     maker mk = {
         .all = all, .gap = gap, .m = ((fret_real)k + 1) / 2, .start = fret_gap_start(gap), .stop = stop};
@@ -422,7 +423,7 @@ static fret_cells *hold(fret_cells *all) {
     return all;
 }
 
-/* How many times as large depths and loads are, the stiffness, what a stretch carries, and radii. */
+/* Factors of depth and load, stiffness, L, and radii. */
 typedef struct scales {
     fret_real level[2], K, L, radius;
 } scales;
@@ -467,7 +468,7 @@ static bool scale_cells(fret_cells *all, const fret_cells *unit, const scales *b
     return true;
 }
 
-/* Takes over its user of `unit`. */
+/* Scaled copies of the cells `unit`, whose reference it takes over. */
 static fret_cells *scaled(fret_cells *unit, const fret_gap *gap, fret_real radii, fret_real depths) {
     const fret_real K = fret_pow(radii, (fret_real)unit->k + 1), F = K * depths;
     fret_cells *all = calloc(1, sizeof *all);

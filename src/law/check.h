@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statuses made and arguments checked. Not installed. */
+/* Making a status, and checks of arguments. Not installed. */
 #ifndef FRET_LAW_CHECK_H
 #define FRET_LAW_CHECK_H
 
@@ -15,11 +15,9 @@ static inline fret_status fret_fail(fret_code code, const char *quantity, double
     return (fret_status){code, quantity, value, limit};
 }
 
-/* NOT_FINITE, NOT_POSITIVE or OK. */
+/* Return FRET_OK, FRET_NOT_FINITE or the code that the name suggests. */
 fret_status fret_check_positive(const char *quantity, double value);
-/* NOT_FINITE, BAD_K or OK. */
 fret_status fret_check_k(double k);
-/* NOT_FINITE, NEGATIVE or OK. */
 fret_status fret_check_not_negative(const char *quantity, double value);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shapes: initial gap f(r), profile g(x) and what is special about each. Nothing outside this file asks
- * which shape a gap has; a new one is a row of shapes[] and its functions. */
+/* The shapes of the gap: f(r), g(x) and the properties of each. No other file asks which shape a gap has; a
+ * new shape is a row of shapes[] and its functions. */
 #include "law/gap.h"
 
 #include "law/check.h"
@@ -22,7 +22,7 @@ fret_real fret_kappa(double n, double k) {
     return dd_value(dd_mul(q.factor, fret_dd_exp(q.log)));
 }
 
-/* In units of the contact radius, with s = r/a, flat = b/a: g = a int f' (1-s^2)^((k-1)/2) ds. */
+/* The profiles use g = a int f' (1-s^2)^((k-1)/2) ds, s = r/a; flat: b/a. */
 
 static fret_real powers_f(const fret_gap *gap, fret_real r) {
     fret_real f = 0;
@@ -99,13 +99,13 @@ static fret_real sphere_f(const fret_gap *gap, fret_real r) {
     fret_real R = gap->R;
     return r * r / (R + sqrtl((R - r) * (R + r)));
 }
-/* Term by term: f has the powers r^2, r^4, ... with positive factors. */
+/* By the series of f in r^2, r^4, ..., whose coefficients are positive. */
 static fret_profile sphere_profile(const fret_gap *gap, const fret_rule *rule, fret_real e) {
     fret_real a = e, k = rule->k, m1 = (k + 3) / 2, q = a / gap->R * (a / gap->R),
               term = a / (gap->R * (k + 1));
     fret_real g = 0, slope = 0, rise;
     int n = 0;
-    do { /* q is at most 0.9 */
+    do { /* q <= 0.95^2 */
         rise = (2 * n + 2) * term;
         g += term;
         slope += rise;
@@ -130,7 +130,7 @@ static int sphere_series(const fret_gap *gap, const fret_rule *rule, fret_real a
 }
 
 static fret_real sphere_end(const fret_gap *gap) {
-    return 0.95L * gap->R; /* near the equator g grows without bound, and its series no longer converges */
+    return 0.95L * gap->R; /* near the equator g grows without bound and its series converges too slowly */
 }
 static fret_real sampled_f(const fret_gap *gap, fret_real r) {
     return fret_table_f(gap->table, r);
@@ -147,7 +147,7 @@ static fret_real sampled_end(const fret_gap *gap) {
 static fret_real sampled_tip(const fret_gap *gap) {
     return fret_table_pointed(gap->table) ? 1 : 2;
 }
-/* Within the first row. Powers that grow by 2 follow one another. */
+/* Valid within the first row. In the order 2, 1, 3 powers that differ by 2 are neighbours. */
 static int sampled_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term *term) {
     static const int powers[] = {2, 1, 3};
     fret_real factor[3];
@@ -216,11 +216,11 @@ static int worn_series(const fret_gap *gap, const fret_rule *rule, fret_real a, 
 
 /* ---- far away ---------------------------------------------------------------------------------- */
 
-/* Far beyond a flat end, with c = b/x,
+/* Far beyond a flat end, with c = b/x, m = (k+1)/2,
  *   int_b^x (x^2-r^2)^(m-1) dr = x^(2m-1) (kappa(1,k) - sum (1-m)_j/j! c^(2j+1)/(2j+1)),
- *   int_b^x 2 r (x^2-r^2)^(m-1) dr = x^2m/m (1-c^2)^m:
- * adds what the slope `steep` of a cone, or 1/R of a paraboloid, makes of them: powers 1, 0, -2, -4 ..., or
- * 2, 0, -2 ... */
+ *   int_b^x 2 r (x^2-r^2)^(m-1) dr = x^2m/m (1-c^2)^m.
+ * The functions below add the terms of a cone of slope `steep`, with powers 1, 0, -2, -4 ..., or of a
+ * paraboloid of radius R, with powers 2, 0, -2 ..., to the factors of x^2, x, 1, x^-2 ... */
 static void add_far_cone(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_real steep,
                          fret_real factor[FRET_MOST_TERMS]) {
     const fret_real c = gap->b / x0, m = (rule->k + 1) / 2;
@@ -251,18 +251,18 @@ static void far_rounded(const fret_gap *gap, const fret_rule *rule, fret_real x0
     add_far_cone(gap, rule, x0, -gap->b / (fret_real)gap->R, factor);
 }
 
-/* One row a shape. What a row leaves out: begins at 0, never ends, begins like r^2, grows. */
+/* One row per shape. Without a function: start 0, end infinity, tip 2 (f ~ r^2), g grows, no series. */
 typedef struct shape {
     fret_real (*f)(const fret_gap *,
-                   fret_real r); /* beyond the start, as the next: none where it ends there */
+                   fret_real r); /* f and profile: beyond the start; NULL if the gap ends there */
     fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real e);
     fret_real (*start)(const fret_gap *), (*end)(const fret_gap *), (*tip)(const fret_gap *);
     bool (*grows)(const fret_gap *);
     int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);
     void (*far)(const fret_gap *, const fret_rule *, fret_real x0, fret_real *factor);
-    bool powers, closed, sharp; /* reads power[]; of gap.h the other two */
-    bool sampled, worn;         /* reads the table; worn */
-    bool b, R, slope;           /* reads these, which must be positive */
+    bool powers, closed, sharp; /* uses power[]; see fret_gap_closed, fret_gap_sharp */
+    bool sampled, worn;         /* uses the table; uses worn */
+    bool b, R, slope;           /* uses these, which must be positive */
 } shape;
 
 static const shape shapes[] = {
@@ -339,7 +339,7 @@ static fret_status check_powers(const fret_gap *gap) {
     return st;
 }
 
-/* What a caller has left out, before anything is looked up by it. */
+/* Checks what must hold before anything is looked up in shapes[] or in the gap. */
 static fret_status check_kind(const fret_gap *gap) {
     if ((unsigned)gap->kind >= SHAPES)
         return fret_fail(FRET_OUTSIDE, "kind", (double)gap->kind, SHAPES - 1);
@@ -433,7 +433,7 @@ const struct fret_worn *fret_gap_worn(const fret_gap *gap) {
     return shape_of(gap)->worn ? gap->worn : NULL;
 }
 
-/* What nothing has worn yet. */
+/* The gap before any wear. */
 static const fret_gap *unworn(const fret_gap *gap) {
     for (const struct fret_worn *w; (w = fret_gap_worn(gap)); gap = &w->of)
         ;
@@ -483,7 +483,7 @@ void fret_gap_rule(const fret_gap *gap, double k, fret_rule *rule) {
         fret_rule_series(rule, k);
     for (int i = 0; shape_of(gap)->powers && i < gap->terms; i++)
         rule->kappa[i] = fret_kappa(gap->power[i].n, k);
-    for (int i = 0; shape_of(gap)->sampled && i < 3; i++) /* of r, r^2, r^3 */
+    for (int i = 0; shape_of(gap)->sampled && i < 3; i++) /* kappa of r, r^2, r^3 */
         rule->kappa[i] = fret_kappa(i + 1, k);
 }
 

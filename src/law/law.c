@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The law F_N(delta), its inverse and its slices: in closed form for the power law, by cells for other
- * shapes. Pure. */
+/* The law F_N(delta), its inverse and sums over slices: closed forms for power laws, else cells. Pure. */
 #include <float.h>
 
 #include "law/cells.h"
@@ -9,7 +8,7 @@
 
 /* ---- the power law ----------------------------------------------------------------------------- */
 
-/* In logarithms. */
+/* The power law in logarithms of force, depth and radius. */
 static dd force_of_depth(const fret_normal *n, dd y) {
     return dd_add(n->wide.ln_force, dd_mul(n->wide.p, dd_sub(y, n->wide.ln_depth)));
 }
@@ -20,16 +19,16 @@ static dd radius_of_depth(const fret_normal *n, dd y) {
     return dd_add(n->wide.ln_r0, dd_div(dd_sub(y, n->wide.ln_depth), dd_of(n->gap.power[0].n)));
 }
 
-/* Moments of the power law F = y^p at y = 1, pm1 = p-1, over distances 0..x from the edge:
+/* Moments of the law F = y^p over the distances t = 0..x from the edge y = 1, pm1 = p-1:
  *   w = int K dt, m1 = int t dK, L = int m1 dt;  K = p y^(p-1). */
 typedef struct moments {
     fret_real w, m1, L;
 } moments;
-/* The closed forms lose digits like (p x)^-3, within the guard digits down to p x = 0.2; beyond, the
- * series of (1-t)^(p-2) under the integral has terms a falling at least as fast as p x. Integrated twice it
- * is the one of (1-t)^p, of terms -a/((i+1)(i+2)). */
+/* The closed forms lose digits like (p x)^-3, which the guard digits cover down to p x = 0.2. Below that the
+ * binomial series of (1-t)^(p-2) is integrated: its terms a fall at least as fast as p x, and integrated
+ * twice, to (1-t)^p, they are -a/((i+1)(i+2)). */
 static moments moments_series(fret_real pm1, fret_real x) {
-    enum { LEADING = 6, MOST = 60 }; /* all terms after the leading ones are below 2^-13: double will do */
+    enum { LEADING = 6, MOST = 60 }; /* terms after the leading ones are below 2^-13: double will do */
     static const fret_real inv[LEADING + 2] = {1.0L / 1, 1.0L / 2, 1.0L / 3, 1.0L / 4,
                                                1.0L / 5, 1.0L / 6, 1.0L / 7, 1.0L / 8};
     fret_real p = 1 + pm1, a = p * pm1 * x * x, slope = pm1 * x, w = 0, m1 = 0, L = 0;
@@ -55,7 +54,7 @@ static moments moments_series(fret_real pm1, fret_real x) {
     return (moments){p * x - (w + wt), m1 + m1t, (L + Lt) * x};
 }
 
-/* log: ln (1-x), which the rounding of x may hide. */
+/* log: ln(1-x), given apart since x may be rounded to 1. */
 static moments power_moments(fret_real pm1, fret_real x, fret_real log) {
     fret_real p = 1 + pm1;
     if (isinf(log))
@@ -69,7 +68,7 @@ static moments power_moments(fret_real pm1, fret_real x, fret_real log) {
     return (moments){x * y - em, m1, x * m1 - m2};
 }
 
-/* left: the ratio of the depths at its ends. */
+/* left: depth at the inner end over that at the outer end. */
 static fret_slice power_slice(const fret_normal *n, const fret_level *outer, fret_real h, fret_real left) {
     const fret_real y = outer->y, F = outer->F, x = h / y, K = n->p * F / y;
     const fret_real log = x < 0.5L ? log1pl(-x) : left > 0 ? logl(left) : -(fret_real)INFINITY;
@@ -93,7 +92,7 @@ static fret_point power_point(const fret_normal *n, bool by_force, fret_real val
 
 /* ---- cells ------------------------------------------------------------------------------------- */
 
-/* So close to a flat end that a radius cannot tell, the load is K y to every digit. */
+/* True so close to a flat end that no radius resolves it: there the load is K y to every digit. */
 static bool is_at_end(const fret_normal *n, const fret_place *p) {
     return p->i == 0 && !(p->s > 0) && fret_gap_start(&n->gap) > 0;
 }
@@ -103,7 +102,7 @@ static bool find_place(const fret_normal *n, bool by_load, fret_real value, fret
            fret_cells_find(n->cells, by_load ? BY_LOAD : BY_DEPTH, by_load ? value / n->stiff : value, at);
 }
 
-/* The load of a depth, or the depth of a load, at its place. */
+/* The load of a depth, or the depth of a load, whose place is known. */
 static fret_real other_at(const fret_normal *n, bool by_load, fret_real value, const fret_place *at) {
     if (is_at_end(n, at)) {
         const fret_real K = n->stiff * fret_cells_stiffness(n->cells, at);
@@ -122,7 +121,7 @@ static fret_point cell_point(const fret_normal *n, bool by_force, fret_real valu
                         n->stiff * fret_cells_stiffness(n->cells, &p)};
 }
 
-/* The places of a slice; false: beyond the end. */
+/* The places of the ends of a slice; false beyond the end of the law. */
 static bool find_ends(const fret_normal *n, const fret_level *outer, bool by_load, fret_real target,
                       fret_real left, fret_place at[2], fret_real *back) {
     const fret_real per = by_load ? 1 / n->stiff : 1, begin = n->cells->cell[0].begin;
@@ -236,7 +235,7 @@ fret_slice fret_law_slice_to(const fret_normal *n, const fret_level *outer, bool
     if (!by_load)
         return power_slice(n, outer, target, left / outer->y);
     const fret_real inner =
-        left > 0 ? fret_pow(left / outer->F, n->q) : 0; /* of little that is left all digits count */
+        left > 0 ? fret_pow(left / outer->F, n->q) : 0; /* keeps the digits of a small rest */
     return power_slice(n, outer, inner < 0.5L ? outer->y * (1 - inner) : fret_law_thickness(n, outer, target),
                        inner);
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Coefficients of the equivalent foundations (A1)-(A3), (4), (5), in double-doubles throughout: the moduli
- * are quotients that lose digits at the ends of the ranges of k and nu. */
+/* Coefficients of the equivalent foundations, (A1)-(A3), (4), (5), in double-doubles: quotients lose digits
+ * at the ends of the ranges of k and nu. */
 #include "law/material.h"
 
 #include <float.h>
 
 #include "law/check.h"
 
-/* What h_N, h_T and eta are made of; ck is the only factor that vanishes as |k| -> 1. */
+/* The factors of h_N, h_T and eta: see fret_foundation. ck is the only one that vanishes as |k| -> 1. */
 typedef struct parts {
     dd beta, Q, SP, ck;
     dd one_nu; /* 1-nu */
@@ -31,7 +31,7 @@ static parts parts_of(double k, double nu) {
     return r;
 }
 
-/* (1-nu^2)/h_N and 1/h_T without cos(pi k/2), which the sums over bodies have in common. */
+/* (1-nu^2)/h_N and 1/h_T times cos(pi k/2), which is common to both bodies. */
 static dd normal_part(const parts *r, double k, double nu) {
     return dd_div(dd_mul(dd_mul(dd_sum(1, nu), r->Q), r->SP), dd_sum(1, k));
 }
@@ -62,7 +62,7 @@ fret_status fret_foundation_make(const fret_material *material, fret_foundation 
     return fret_foundation_make_wide(material, out, &wide);
 }
 
-/* Both bodies, those that are not rigid. */
+/* Checks the material; E0 and nu of elastic bodies alone. */
 static fret_status check_bodies(const fret_material *m) {
     fret_status st = fret_check_k(m->k);
     for (int i = 0; i < 2 && !st.code; i++) {
@@ -89,7 +89,7 @@ fret_status fret_foundation_make_wide(const fret_material *m, fret_foundation *o
     fret_real drive = 0, holl = 0;
     const fret_body *last = NULL;
     parts r;
-    int scale; /* moduli in units of 2^scale, so that no square of them leaves the range */
+    int scale; /* moduli in units of 2^scale, so that their squares stay in range */
     (void)frexp(m->body[m->body[0].rigid].E0, &scale);
     for (int i = 0; i < 2; i++) {
         const fret_body *b = &m->body[i];
@@ -102,7 +102,7 @@ fret_status fret_foundation_make_wide(const fret_material *m, fret_foundation *o
         const dd E = dd_of(ldexp(b->E0, -scale));
         normal = dd_add(normal, dd_div(normal_part(&r, m->k, b->nu), E));
         tangential = dd_add(tangential, dd_div(tangential_part(&r, b->nu), E));
-        fret_real away = dd_value(dd_sub(dd_of(1), dd_mul_d(dd_sum(2, m->k), b->nu))); /* from Holl's ratio */
+        fret_real away = dd_value(dd_sub(dd_of(1), dd_mul_d(dd_sum(2, m->k), b->nu))); /* 1 - nu/nu_Holl */
         drive += (i ? -1 : 1) * away * (1 + (fret_real)b->nu) / E.hi;
         holl = fmaxl(holl, fabsl(away));
         f.hN[i] = hN_of(&r, m->k);
@@ -115,7 +115,7 @@ fret_status fret_foundation_make_wide(const fret_material *m, fret_foundation *o
     f.cN0 = ldexpl(dd_value(wide->cN0), scale);
     f.cT0 = ldexpl(dd_value(dd_div(ck, tangential)), scale);
     f.eta = dd_value(wide->eta);
-    if (!isfinite(f.cN0 + f.cT0 + f.eta)) /* of bodies too far apart */
+    if (!isfinite(f.cN0 + f.cT0 + f.eta)) /* moduli too different */
         return fret_fail(FRET_OVERFLOW, E_name[m->body[0].rigid], m->body[m->body[0].rigid].E0, DBL_MAX);
     bool equal = !m->body[0].rigid && !m->body[1].rigid && m->body[0].E0 == m->body[1].E0 &&
                  m->body[0].nu == m->body[1].nu;

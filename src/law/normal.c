@@ -9,7 +9,7 @@
 #include "law/check.h"
 #include "number/real.h"
 
-/* Depth and force of the power law at a = r0, in logarithms: any exponent, no overflow. */
+/* Depth and force of the power law at a = r0, in logarithms, which cannot overflow. */
 static void make_power(fret_normal *n) {
     const fret_foundation *f = &n->foundation;
     const fret_power *g = &n->gap.power[0];
@@ -38,7 +38,7 @@ static void make_power(fret_normal *n) {
     n->wide.ln_force = dd_add(dd_add(force, r0), n->wide.ln_depth);
 }
 
-/* The rest of a contact that has its foundation. */
+/* Makes the rest of a contact whose foundation is known. */
 static fret_status give_shape(fret_normal *n, const fret_gap *gap, const fret_normal *like, fret_stop stop) {
     const double k = (double)n->foundation.k;
     fret_status st = fret_gap_check(gap);
@@ -167,7 +167,7 @@ static bool too_small(const fret_press *p) {
     return !(p->F >= DBL_MIN && p->dz >= DBL_MIN && p->a >= DBL_MIN) && (p->F != 0 || p->dz != 0);
 }
 
-/* Can doubles hold what it is pressed to? */
+/* True if doubles can hold the state. */
 static bool is_held(const fret_press *p) {
     return !too_large(p) && !too_small(p);
 }
@@ -185,7 +185,7 @@ static fret_status beyond_end(const fret_normal *n, const char *name, double val
                      falls ? (double)n->end : value, falls ? 0 : (double)n->end);
 }
 
-/* By force or depth, without a closed form. */
+/* The state by force or depth, by cells. */
 static fret_status by_cells(const fret_normal *n, bool by_force, double value, fret_press *out) {
     const fret_point p = by_force ? fret_law_at_force(n, value) : fret_law_at_depth(n, value);
     if (isnan(p.a))

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Moments of the kernel (1-s^2)^((k-1)/2) from the edge inwards. Pure arithmetic. */
+/* Moments of the kernel (1-s^2)^((k-1)/2) of (3) near the edge s = 1. Pure arithmetic. */
 #include "law/profile.h"
 
 #include "number/real.h"
 
-/* The last moment by its series, the others downwards: every term is positive. */
+/* The highest moment by its series, the others by downward recurrence, whose terms are all positive. */
 fret_edge fret_edge_moments(const fret_rule *rule, fret_real v) {
     if (v <= 0)
         return (fret_edge){{0}, 0};

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the codes mean, and the checks of arguments that most functions share. The one file here that writes
- * text, into the caller's buffer. */
+/* The texts of the codes, and the checks of arguments. Writes into the caller's buffer alone. */
 #include "fret/status.h"
 
 #include <stdbool.h>
@@ -31,7 +30,7 @@ static const struct {
 };
 
 static bool known(fret_code code) {
-    return (unsigned)code < FRET_CODES && codes[code].rule; /* a code that was withdrawn has none */
+    return (unsigned)code < FRET_CODES && codes[code].rule; /* withdrawn codes have none */
 }
 
 fret_category fret_status_category(fret_code code) {
@@ -45,7 +44,7 @@ const char *fret_status_rule(fret_code code) {
 int fret_status_text(const fret_status *status, char *buf, size_t size) {
     if (!status->quantity)
         return snprintf(buf, size, "%s", fret_status_rule(status->code));
-    const bool sentence = fret_status_category(status->code) >= FRET_CAT_NUMERIC; /* of its own */
+    const bool sentence = fret_status_category(status->code) >= FRET_CAT_NUMERIC; /* a sentence of its own */
     return snprintf(buf, size, "%s = %.6g%s %s", status->quantity, status->value, sentence ? ":" : "",
                     fret_status_rule(status->code));
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sampled gaps: rows to a smooth monotone gap, and its profile row by row. Allocates, and frees what it
- * allocated. */
+/* Sampled gaps: a smooth monotone curve through the rows, and its profile row by row. Allocates, and frees,
+ * its tables. */
 #include "law/table.h"
 
 #include <stdlib.h>
@@ -10,16 +10,16 @@
 #include "number/integral.h"
 #include "number/real.h"
 
-/* Cubic Hermite pieces, with Steffen's slopes where none are given: monotone data give a monotone gap, f' is
- * continuous, and the error falls with the third power of the spacing. Per piece f' = d0 + d1 t + d2 t^2, t =
- * r - r_i. */
+/* Cubic Hermite pieces, with Steffen's slopes unless slopes are given: monotone data give a monotone gap, f'
+ * is continuous, and the error falls with the third power of the spacing. In each piece f' = d0 + d1 t + d2
+ * t^2, t = r - r_i. */
 struct fret_table {
     size_t count;
     double *r, *f, *d0, *d1, *d2;
-    double start; /* it may begin flat */
+    double start; /* radius of a flat end, or 0 */
     bool grows;
-    double within;  /* of the largest f: what many rows were thinned by */
-    fret_stop stop; /* while it is made */
+    double within;  /* tolerance of thinning, relative to the largest f */
+    fret_stop stop; /* while the table is made */
 };
 
 static fret_real f1_of(const struct fret_table *t, size_t i, fret_real x) {
@@ -51,7 +51,7 @@ static void steffen_slopes(struct fret_table *t) {
                 (double)((sign_of(s1) + sign_of(s2)) * fminl(fminl(fabsl(s1), fabsl(s2)), fabsl(p) / 2));
             continue;
         }
-        /* ends: the parabola through the three nearest points, limited to keep the sense of the data */
+        /* at the ends: the parabola through the nearest three points, limited to the sign of the data */
         size_t a = i ? n - 2 : 0, b = n > 2 ? (i ? n - 3 : 1) : a;
         h1 = (fret_real)t->r[a + 1] - t->r[a];
         h2 = (fret_real)t->r[b + 1] - t->r[b];
@@ -74,7 +74,7 @@ static void hermite_pieces(struct fret_table *t) {
     }
 }
 
-/* f' + r f'' >= 0 everywhere makes g grow. */
+/* g grows if f' + r f'' >= 0, at five points a piece. */
 static bool grows(const struct fret_table *t) {
     for (size_t i = 0; i + 1 < t->count && !stopped(t); i++)
         for (int j = 0; j <= 4; j++) {
@@ -89,8 +89,8 @@ static bool grows(const struct fret_table *t) {
 
 enum { MANY = 2000 };
 
-/* Is the cubic between two rows, with their slopes, as close to those between, as a part of the gap there, or
- * of little of the largest? Halfway from row to row, too. */
+/* True if the cubic between rows i and j is within a part `within` of f, or of 1e-3 `most` if f is less, at
+ * all rows between and halfway from row to row. */
 static bool spans(const struct fret_table *t, size_t i, size_t j, double within, double most) {
     static const double little = 1e-3;
     const fret_real h = (fret_real)t->r[j] - t->r[i], s = ((fret_real)t->f[j] - t->f[i]) / h;
@@ -107,8 +107,7 @@ static bool spans(const struct fret_table *t, size_t i, size_t j, double within,
     return true;
 }
 
-/* The last row that a piece from row i reaches, not beyond `last`: twice as far as long as that does, then by
- * halves. */
+/* The last row up to `last` that a piece from row i may span: by doubling the step, then bisection. */
 static size_t reach_of(const struct fret_table *t, size_t i, size_t last, double within, double most) {
     size_t step = 1;
     while (i + 2 * step <= last && spans(t, i, i + 2 * step, within, most))
@@ -121,8 +120,8 @@ static size_t reach_of(const struct fret_table *t, size_t i, size_t last, double
     return near;
 }
 
-/* How many rows are left, which come first: `keep` false leaves all as it is. The flat end stays where it is.
- */
+/* Thins the rows and returns how many remain; only counts them unless `keep`. Keeps the end of the flat
+ * part. */
 static size_t thin_out(struct fret_table *t, double within, double most, bool keep) {
     size_t left = 1;
     for (size_t i = 0; i + 1 < t->count && !stopped(t); left++) {
@@ -136,7 +135,7 @@ static size_t thin_out(struct fret_table *t, double within, double most, bool ke
     return left;
 }
 
-/* Fewer rows, within as little of the largest gap as leaves not too many, at most the last of these parts. */
+/* Thins to MANY rows by the smallest of the tolerances that does, else by the largest. */
 static void thin(struct fret_table *t) {
     static const double parts[] = {1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6};
     double most = 0;
@@ -158,7 +157,6 @@ fret_status fret_table_make(const double *r, const double *f, size_t count, fret
     return fret_table_sloped(r, f, NULL, count, stop, out);
 }
 
-/* slope NULL: Steffen's. */
 fret_status fret_table_sloped(const double *r, const double *f, const double *slope, size_t count,
                               fret_stop stop, struct fret_table **out) {
     for (size_t i = 0; i < count; i++) {
@@ -212,7 +210,7 @@ void fret_table_free(struct fret_table *t) {
     free(t);
 }
 
-/* The piece that holds r. */
+/* The piece that contains r. */
 static size_t table_piece(const struct fret_table *t, fret_real r) {
     size_t lo = 0, hi = t->count - 1;
     while (hi - lo > 1) {
@@ -268,12 +266,12 @@ bool fret_table_grows(const struct fret_table *t) {
     return t->grows;
 }
 
-/* int f' K and int r f'' K over a part of the contact, in units of its radius. */
+/* int f' K and int r f'' K over the contact, in units of its radius a: g = a int f' K, g' their sum. */
 typedef struct sums {
     fret_real g, s;
 } sums;
 
-/* A piece that begins so far from the edge, at eight of its half-widths or more: by Gauss's rule. */
+/* Adds a piece far from the edge, by eight of its half-widths or more: by Gauss's rule. */
 static void add_far(sums *all, const struct fret_table *t, size_t i, fret_real alpha, fret_real a,
                     fret_real away) {
     const fret_real h = (fret_real)t->r[i + 1] - t->r[i];
@@ -285,13 +283,13 @@ static void add_far(sums *all, const struct fret_table *t, size_t i, fret_real a
     }
 }
 
-/* A piece near the edge or at it: the kernel's moments between its ends, lo and hi. */
+/* Adds a piece near or at the edge: by the moments of the kernel between its ends lo and hi. */
 static void add_near(sums *all, const struct fret_table *t, size_t i, fret_real a, fret_real v,
                      const fret_edge *lo, const fret_edge *hi) {
     fret_real d1 = t->d1[i] * a, d2 = t->d2[i] * a * a, m[3];
     for (int j = 0; j < 3; j++)
         m[j] = lo->moment[j] - hi->moment[j];
-    /* f' and r f'' in powers of the distance from the edge; v: that of the piece's start */
+    /* f' and r f'' in powers of the distance from the edge, v being that of the start of the piece */
     all->g += (t->d0[i] + v * (d1 + v * d2)) * m[0] - (d1 + 2 * v * d2) * m[1] + d2 * m[2];
     all->s += (d1 + 2 * v * d2) * (m[0] - m[1]) - 2 * d2 * (m[1] - m[2]);
 }

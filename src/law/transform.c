@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Moments of rows, and their sums. Allocates them, and frees them.
+/* The transform (3) of a sampled gap, by moments of blocks of rows. Allocates them, and frees them.
  *
- * With R = r^2, X = x^2 and m = (k+1)/2 the transform (3) is g = X^(1-m) int f' (X-R)^(m-1) dr. Over a block
- * of rows about R0, of half-width d in R, and D = X-R0 well beyond d, (X-R)^(m-1) = D^(m-1) sum (1-m)_n/n!
- * ((R-R0)/d)^n (d/D)^n, so that the block counts by its moments int f' ((R-R0)/d)^n dr. Rows that are too
- * near for that, and the one that x lies in, count by the moments of the kernel from the edge inwards. */
+ * With R = r^2, X = x^2 and m = (k+1)/2 it is g = X^(1-m) int f' (X-R)^(m-1) dr. Over a block of rows about
+ * R0, of half-width d in R, with D = X-R0 well beyond d, (X-R)^(m-1) = D^(m-1) sum (1-m)_n/n! ((R-R0)/d)^n
+ * (d/D)^n, so that a block needs only its moments int f' ((R-R0)/d)^n dr. Rows too near for that, and the row
+ * that x lies in, use the moments of the kernel at the edge. */
 #include "law/transform.h"
 
 #include <stdlib.h>
@@ -13,14 +13,14 @@
 #include "number/integral.h"
 #include "number/real.h"
 
-/* NEAR^-MOMENTS is 5e-20; of those after the leading ones, which count by 2e-5, a double keeps enough. */
+/* NEAR^-MOMENTS is 5e-20; the later moments contribute 2e-5 at most, so that double will do. */
 enum { LEADING = 8, LATER = 24, MOMENTS = LEADING + LATER, NEAR = 4 };
 
-/* A block of several rows precedes its two halves. */
+/* A block of several rows, stored before its two halves. */
 typedef struct block {
-    size_t first, last, next;   /* rows; the first block that is no part of this one */
+    size_t first, last, next;   /* rows; the first block after its parts */
     fret_real begin, end, R, d; /* radii */
-    fret_real moment[LEADING];  /* with the factor of the series */
+    fret_real moment[LEADING];  /* times (1-m)_n/n! */
     double later[LATER];
 } block;
 
@@ -36,8 +36,8 @@ static fret_real radius_of(const fret_transform *t, size_t row) {
     return t->start + fret_table_distance(t->table, row);
 }
 
-/* By Gauss's rule of eight points in parts of each row: four a block at least, which may begin at the centre
- * and end near x. */
+/* By the 8-point Gauss rule in parts of each row: at least four parts a block, since a block may begin at the
+ * centre. */
 static void make_moments(const fret_transform *t, block *b) {
     const size_t rows = b->last - b->first;
     const int parts = rows >= 4 ? 1 : rows > 1 ? 2 : 4;
@@ -112,11 +112,11 @@ void fret_transform_free(fret_transform *t) {
     free(t);
 }
 
-/* A block that is far; D: how far X is beyond its middle. */
+/* The sum over a distant block; D: X less its middle. */
 static fret_real far_sum(const fret_transform *t, const block *b, fret_real D, fret_real X) {
     const fret_real ratio = b->d / D;
     const double x = (double)ratio, square = x * x;
-    double even = 0, odd = 0; /* two sums take half the time of one */
+    double even = 0, odd = 0; /* two independent sums take half the time */
     for (int n = LATER - 2; n >= 0; n -= 2) {
         odd = odd * square + b->later[n + 1];
         even = even * square + b->later[n];
@@ -127,7 +127,8 @@ static fret_real far_sum(const fret_transform *t, const block *b, fret_real D, f
     return sum * fret_pow(D / X, t->m - 1);
 }
 
-/* Of f' = c0 + c1 t + c2 t^2, t from a place that is v = (x-r)/x from the edge x, by the kernel's moments. */
+/* The integral for f' = c0 + c1 t + c2 t^2, t from a place at the distance v = (x-r)/x from x, by the
+ * kernel's moments. */
 static fret_real near_sum(const fret_real c[3], fret_real v, fret_real x, const fret_real moment[3]) {
     const fret_real c1 = c[1] * x, c2 = c[2] * x * x;
     return x * ((c[0] + v * (c1 + v * c2)) * moment[0] - (c1 + 2 * v * c2) * moment[1] + c2 * moment[2]);
