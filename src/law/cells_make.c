@@ -231,11 +231,14 @@ static bool find_fall(maker *mk) {
 static bool make_sum(maker *mk) {
     const fret_power *power;
     fret_term term[FRET_MOST_TERMS];
-    (void)fret_gap_powers(mk->gap, &power);
+    const int powers = fret_gap_powers(mk->gap, &power);
     const bool ends = isfinite(mk->end);
+    bool may_fall = false;
+    for (int i = 0; i < powers; i++)
+        may_fall |= power[i].h < 0;
     const fret_real x0 = ends ? mk->end : power[0].r0;
     const int count = fret_gap_series(mk->gap, &mk->all->rule, x0, term);
-    return add_powers(mk, term, count, x0, true) && (ends || fret_gap_grows(mk->gap) || find_fall(mk));
+    return add_powers(mk, term, count, x0, true) && (ends || !may_fall || find_fall(mk));
 }
 
 /* A flat punch: g jumps at its edge, the place of every depth. The cell has no width. */

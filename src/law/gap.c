@@ -46,12 +46,6 @@ static fret_real powers_tip(const fret_gap *gap) {
         least = gap->power[i].h != 0 ? fminl(least, gap->power[i].n) : least;
     return least;
 }
-static bool sum_grows(const fret_gap *gap) {
-    for (int i = 0; i < gap->terms; i++)
-        if (gap->power[i].h < 0)
-            return false;
-    return true;
-}
 
 static int powers_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fret_term *term) {
     for (int i = 0; i < gap->terms; i++) {
@@ -162,9 +156,6 @@ static int sampled_series(const fret_gap *gap, const fret_rule *rule, fret_real 
     }
     return terms;
 }
-static bool sampled_grows(const fret_gap *gap) {
-    return fret_table_grows(gap->table);
-}
 
 /* ---- worn -------------------------------------------------------------------------------------- */
 
@@ -251,13 +242,12 @@ static void far_rounded(const fret_gap *gap, const fret_rule *rule, fret_real x0
     add_far_cone(gap, rule, x0, -gap->b / (fret_real)gap->R, factor);
 }
 
-/* One row per shape. Without a function: start 0, end infinity, tip 2 (f ~ r^2), g grows, no series. */
+/* One row per shape. Without a function: start 0, end infinity, tip 2 (f ~ r^2), no series. */
 typedef struct shape {
     fret_real (*f)(const fret_gap *,
                    fret_real r); /* f and profile: beyond the start; NULL if the gap ends there */
     fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real e);
     fret_real (*start)(const fret_gap *), (*end)(const fret_gap *), (*tip)(const fret_gap *);
-    bool (*grows)(const fret_gap *);
     int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);
     void (*far)(const fret_gap *, const fret_rule *, fret_real x0, fret_real *factor);
     bool powers, closed, sharp; /* uses power[]; see fret_gap_closed, fret_gap_sharp */
@@ -275,7 +265,6 @@ static const shape shapes[] = {
     [FRET_GAP_SUM] = {.f = powers_f,
                       .profile = powers_profile,
                       .tip = powers_tip,
-                      .grows = sum_grows,
                       .series = powers_series,
                       .powers = true},
     [FRET_GAP_FLAT_CONE] = {.f = cone_f,
@@ -306,7 +295,6 @@ static const shape shapes[] = {
                         .start = sampled_start,
                         .end = sampled_end,
                         .tip = sampled_tip,
-                        .grows = sampled_grows,
                         .series = sampled_series,
                         .sampled = true},
     [FRET_GAP_WORN] = {.f = worn_f,
@@ -458,11 +446,6 @@ fret_gap fret_gap_of_worn(const struct fret_worn *worn) {
 
 bool fret_gap_sampled(const fret_gap *gap) {
     return shape_of(gap)->sampled || shape_of(gap)->worn;
-}
-
-bool fret_gap_grows(const fret_gap *gap) {
-    const shape *s = shape_of(gap);
-    return !s->grows || s->grows(gap);
 }
 
 fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f) {

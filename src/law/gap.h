@@ -69,7 +69,4 @@ bool fret_gap_closed(const fret_gap *gap);
 /* True for a sampled or worn gap, which is smooth between its rows alone. */
 bool fret_gap_sampled(const fret_gap *gap);
 
-/* True if g certainly grows throughout; false if that must be looked at. */
-bool fret_gap_grows(const fret_gap *gap);
-
 #endif

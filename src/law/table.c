@@ -16,8 +16,7 @@
 struct fret_table {
     size_t count;
     double *r, *f, *d0, *d1, *d2;
-    double start; /* radius of a flat end, or 0 */
-    bool grows;
+    double start;   /* radius of a flat end, or 0 */
     double within;  /* tolerance of thinning, relative to the largest f */
     fret_stop stop; /* while the table is made */
 };
@@ -72,17 +71,6 @@ static void hermite_pieces(struct fret_table *t) {
         t->d1[i] = (double)(2 * (3 * s - 2 * (fret_real)t->d0[i] - t->d0[i + 1]) / h);
         t->d2[i] = (double)(3 * ((fret_real)t->d0[i] + t->d0[i + 1] - 2 * s) / (h * h));
     }
-}
-
-/* g grows if f' + r f'' >= 0, at five points a piece. */
-static bool grows(const struct fret_table *t) {
-    for (size_t i = 0; i + 1 < t->count && !stopped(t); i++)
-        for (int j = 0; j <= 4; j++) {
-            double h = t->r[i + 1] - t->r[i], x = h * j / 4;
-            if (t->d0[i] + x * (t->d1[i] + x * t->d2[i]) + (t->r[i] + x) * (t->d1[i] + 2 * x * t->d2[i]) < 0)
-                return false;
-        }
-    return true;
 }
 
 /* ---- many rows --------------------------------------------------------------------------------- */
@@ -193,7 +181,6 @@ fret_status fret_table_sloped(const double *r, const double *f, const double *sl
     hermite_pieces(t);
     if (count > MANY + 1)
         thin(t);
-    t->grows = grows(t);
     if (stopped(t)) {
         fret_table_free(t);
         return fret_fail(FRET_INTERRUPTED, NULL, 0, 0);
@@ -260,10 +247,6 @@ bool fret_table_tip(const struct fret_table *t, fret_real r, fret_real factor[3]
     factor[1] = t->d1[0] / 2;
     factor[2] = t->d2[0] / 3;
     return true;
-}
-
-bool fret_table_grows(const struct fret_table *t) {
-    return t->grows;
 }
 
 /* int f' K and int r f'' K over the contact, in units of its radius a: g = a int f' K, g' their sum. */
