@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The door to histories: the diagram in one of its numbers, and the sine. Allocates them. */
+/* The functions of fret/contact.h, by the memory diagram, exact or in double, or the swing. Allocates
+ * these. */
 #include "history/contact.h"
 
 #include <math.h>
@@ -111,7 +112,7 @@ void fret_contact_count_loss(fret_contact *c, bool on) {
         fret_diagram_count_loss(c->diagram, on);
 }
 
-/* A swing for the state as it is: of a contact that has not swung, or not since it was reset. */
+/* Makes a swing from the state of the memory, after a first or another straight history. */
 static fret_status begin_swing(fret_contact *c) {
     fret_swing *made = NULL;
     const fret_status st = fret_swing_make(c->memory, &made);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* First loading, gross slip and the loss per cycle at constant F_N: closed forms of the fraction t of gross
- * slip, for other shapes the law of normal.h. */
+/* First loading, gross slip and the loss per cycle at constant F_N, as functions of the fraction t of gross
+ * slip: closed forms for power laws, the law of normal.h for other shapes. */
 #include "fret/cycle.h"
 
 #include <float.h>
@@ -10,14 +10,14 @@
 #include "law/normal.h"
 #include "number/real.h"
 
-/* t, its complement s = 1-t to full relative accuracy (near gross slip the rounding of the product mu F_N
- * matters), and ln s, which stays finite where s itself is too small for a double. */
+/* t; s = 1-t to full relative accuracy, for which the rounding of mu F_N matters near gross slip; l = ln s,
+ * finite if s is too small for a double. */
 typedef struct fraction {
     dd t, s, l;
-    fret_real t_wide; /* t in the range of long double */
+    fret_real t_wide; /* t, in the range of long double */
 } fraction;
 
-/* Below this ln(1-t) is -t, and products of such numbers may leave the range of double. */
+/* Below this ln(1-t) = -t, and products of these numbers may underflow in double. */
 static const double tiny = 1e-40;
 
 static fraction fraction_from(dd t, dd s) {
@@ -27,7 +27,7 @@ static fraction fraction_from(dd t, dd s) {
     return f;
 }
 
-/* F of limit; the logarithm is for a power law alone. */
+/* t = F/limit; the logarithm for a power law alone. */
 static fraction fraction_of(const fret_pressed *c, double F, dd limit) {
     const dd t = dd_div(dd_of(F), limit), s = dd_div(dd_add_d(limit, -F), limit);
     fraction f = fret_normal_closed(c->normal) ? fraction_from(t, s) : (fraction){t, s, s, dd_value(t)};
@@ -36,7 +36,7 @@ static fraction fraction_of(const fret_pressed *c, double F, dd limit) {
     return f;
 }
 
-/* 0.3 times 100 N is not 30 N in binary: F equal to mu F_N up to its rounding is gross slip, no more. */
+/* 0.3 times 100 N is not 30 N in binary: F equal to mu F_N up to rounding counts as gross slip. */
 static fraction force_fraction(const fret_pressed *c, double F) {
     fraction f = fraction_of(c, F, dd_mul_d(dd_from2(c->press.F, c->press.F_rest), c->mu));
     return fabs(f.s.hi) <= DBL_EPSILON ? fraction_from(dd_of(1), dd_of(0)) : f;
@@ -46,7 +46,7 @@ static bool gross(const fraction *f) {
     return isinf(f->l.hi);
 }
 
-/* 1-exp(power ln s), and exp(power ln s) */
+/* 1-s^power, and s^power */
 static fret_real lost(const fraction *f, dd power) {
     if (gross(f))
         return 1;
@@ -90,7 +90,7 @@ fret_status fret_loading_by_force(const fret_pressed *c, double Fx, fret_loading
     return fret_unless_stopped(c->normal, fret_ok());
 }
 
-/* The same by displacement: t = dx/delta_x,max, s = 1-t. */
+/* For a displacement: t = dx/delta_x,max. */
 static fraction depth_fraction(const fret_pressed *c, double dx) {
     dd max = dd_mul(dd_mul_d(c->normal->wide_foundation.eta, c->mu), dd_from2(c->press.dz, c->press.dz_rest));
     return fraction_of(c, dx, max);
@@ -122,7 +122,8 @@ fret_status fret_loading_by_displacement(const fret_pressed *c, double dx, fret_
     return fret_unless_stopped(c->normal, fret_ok());
 }
 
-/* Small L: series without cancellation. Otherwise the closed form, arranged for q <= 1/2 and > 1/2. */
+/* The loss w(t) by a series of positive terms for -ln s < 3.5, else by (27), arranged for either size of
+ * q. */
 static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
     const fret_real q = dd_value(q_wide), r = dd_value(r_wide), t = f->t_wide, s = dd_value(f->s);
     if (t <= 0)
@@ -134,7 +135,7 @@ static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
         fret_real alpha = (1 + q) * l / 2, a2 = alpha * alpha, b2 = (r * l / 2) * (r * l / 2);
         fret_real h = 1, power = 1, factorial = 6, sum = h / factorial, old;
         int j = 1;
-        do { /* positive terms, divided by ever more than they are multiplied by */
+        do { /* positive terms, which fall ever faster */
             power *= b2;
             h = a2 * h + power;
             factorial *= (2 * j + 2) * (2 * j + 3);
@@ -157,14 +158,14 @@ fret_real fret_loss_shape(fret_real q, fret_real r, fret_real t, fret_real s) {
     return loss_shape(dd_from(q), dd_from(r), &f);
 }
 
-/* What of a power law the loss depends on: r = 1-q. */
+/* The loss shape of a power law, with r = 1-q = (k+1)/(n+k+1). */
 static fret_real loss_of_power(const fret_normal *normal, const fraction *f) {
     dd r = dd_div(dd_sum(1, (double)normal->foundation.k), normal->wide.s);
     return loss_shape(normal->wide.q, r, f);
 }
 
-/* The general loop by Masing: 4 times the dissipation of first loading, counted from the edge:
- * int_0^d [F(y)-F(y-t)-tK(y-t)] dt = L. f: of the load, or of the depth. */
+/* The loss for any shape, by Masing's rule 4 times that of first loading: with t the depth below the edge it
+ * is int_0^d [F(y)-F(y-t)-tK(y-t)] dt = L. f: a fraction of load or of depth. */
 static fret_real general_loss(const fret_pressed *c, bool by_load, const fraction *f) {
     const fret_level edge = {c->press.dz, c->press.F};
     const fret_real whole = by_load ? edge.F : edge.y, s = dd_value(f->s), t = fminl(f->t_wide, 1);
@@ -210,7 +211,7 @@ fret_status fret_cycle_loss_by_displacement(const fret_pressed *c, double dA, fr
         *loss = general_loss(c, false, &f);
         return fret_unless_stopped(c->normal, fret_ok());
     }
-    const fret_real t = lost(&f, c->normal->wide.p), s = kept(&f, c->normal->wide.p); /* s^p in place of s */
+    const fret_real t = lost(&f, c->normal->wide.p), s = kept(&f, c->normal->wide.p); /* s^p, of load */
     f = (fraction){dd_from(t), dd_from(s), dd_mul(c->normal->wide.p, f.l), t};
     *loss = loss_of(c, &f);
     return fret_unless_stopped(c->normal, fret_ok());

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The loss per cycle by its definition, integrated as it stands: independent of the closed forms but for the
- * place of the slip front. Pure. */
+/* The loss per cycle by quadrature of its definition: shares only the slip front with the closed forms.
+ * Pure. */
 #include <float.h>
 
 #include "fret/cycle.h"
@@ -9,9 +9,9 @@
 #include "number/integral.h"
 #include "number/real.h"
 
-/* The annulus that slips. Of power laws depths relative to delta_z, where both brackets are distances from
- * the ends and keep every digit: from yc to 1, of width X = 1-yc. Of other shapes radii, as distances from
- * the start of the gap, since depths may jump there. */
+/* The slip annulus. For a power law in depths relative to delta_z, from yc to 1 with X = 1-yc, where both
+ * brackets are distances from the ends and keep every digit. For other shapes in radii, as distances from the
+ * start of the gap, since depths may jump there. */
 typedef struct annulus {
     const fret_normal *normal;
     fret_real p, pm1; /* F_N ~ delta_z^p, p-1 */
@@ -19,7 +19,7 @@ typedef struct annulus {
     fret_real start, inner, outer, g_inner, g_outer;
 } annulus;
 
-/* (1-y) (y-yc) K'(y) in units of F_N, K' = p (p-1) y^(p-2) */
+/* (1-y) (y-yc) K'(y)/X^2 in units of F_N, K' = p (p-1) y^(p-2) */
 static fret_real by_depth(fret_real t, fret_real rest, void *context) {
     const annulus *s = context;
     const fret_real from_edge = s->X * rest, y = s->yc + s->X * t,
@@ -62,10 +62,10 @@ fret_status fret_cycle_loss_by_definition(const fret_pressed *c, const fret_load
         s.outer = c->press.a - s.start;
         s.inner = fmaxl(peak->c - s.start, 0);
         s.g_outer = profile(&s, s.outer);
-        /* beside a flat end g grows within less than the last digit of the radius */
+        /* beside a flat end the radius c does not resolve g(c) */
         s.g_inner = s.inner > s.start / 64 ? profile(&s, s.inner) : s.g_outer * (1 - X);
         scale = 4 * c->mu * c->mu * f->eta * f->cN0 * (s.outer - s.inner);
-        lost *= fmaxl(1, s.start / s.outer) / X; /* differences of depths, and of radii near a flat end */
+        lost *= fmaxl(1, s.start / s.outer) / X; /* lost in differences, near a flat end of radii */
     }
     const fret_estimate sum = fret_integral(power ? by_depth : by_radius, &s, power ? 1e-18L : lost);
     *error = sum.value > 0 ? fmaxl(sum.error / sum.value, lost) : 0;

@@ -3,7 +3,7 @@
 #include "history/diagram.h"
 
 #define NUMBER double
-#define SPOT char /* a power law looks for none */
+#define SPOT char /* a power law needs no places */
 #define DIAGRAM fret_diagram
 #define FUNCTION(f) f
 #define POWER pow
@@ -15,14 +15,14 @@
 
 /* ---- the law ----------------------------------------------------------------------------------- */
 
-FRET_INLINE void law_know(const fret_diagram *d, coordinate by, place *p) {
+FRET_INLINE void law_find(const fret_diagram *d, coordinate by, place *p) {
     if (p->v < 0)
         p->v = power_value(&d->law[by], p->y);
 }
 
 FRET_INLINE double law_fall(const fret_diagram *d, coordinate by, place *edge, double thick, place *inner) {
     (void)thick;
-    law_know(d, by, inner);
+    law_find(d, by, inner);
     return edge->v - inner->v;
 }
 
@@ -31,14 +31,15 @@ FRET_INLINE bow law_bow(const fret_diagram *d, coordinate by, const place *outer
     return power_bow(&d->law[by], outer, inner, w);
 }
 
-/* Depth and load, or load and depth, whose product is an energy: numbers to go on with? */
-static bool law_shown(const fret_diagram *d, coordinate by, double y) {
+/* True if depth, load and their product, an energy, are within the range of double. */
+static bool law_holds(const fret_diagram *d, coordinate by, double y) {
     const double v = power_value(&d->law[by], y), product = y * v;
     return product > 1e-290 && product < 1e290 && v > 1e-290 && v < 1e290;
 }
 
-/* F_N - s F_x/mu with all digits, which tell a depth near gross slip. */
-FRET_INLINE double law_left(const fret_diagram *d, coordinate by, double s, const place *edge, double level) {
+/* F_N - s F_x/mu with all digits, on which delta_x depends near gross slip. */
+FRET_INLINE double law_level(const fret_diagram *d, coordinate by, double s, const place *edge,
+                             double level) {
     const dd limit = dd_prod(d->mu, edge->y);
     return by == DEPTH ? level : fmax(((limit.hi - s * d->Fx) + limit.lo) / d->mu, 0);
 }
@@ -49,7 +50,7 @@ static fret_real law_radius(const fret_diagram *d) {
 
 #include "history/diagram_body.h"
 
-/* It keeps no account of places. */
+/* FRET_DOUBLE does not record slip. */
 FRET_INLINE void law_slips(fret_diagram *d, coordinate by, double gain, const slip_front *a,
                            const slip_front *b, double travel) {
     (void)d, (void)by, (void)gain, (void)a, (void)b, (void)travel;
@@ -59,9 +60,9 @@ FRET_INLINE void law_slips_all(fret_diagram *d, double e, const place *from, con
     (void)d, (void)e, (void)from, (void)to;
 }
 
-static fret_status law_press(fret_diagram *d, coordinate by, double y) {
-    const fret_status st = count_near(d, by, y);
-    return st.code || law_shown(d, by, y) ? st : fret_fail(FRET_OVERFLOW, NULL, y, 1e290);
+static fret_status law_prepare(fret_diagram *d, coordinate by, double y) {
+    const fret_status st = choose_reference(d, by, y);
+    return st.code || law_holds(d, by, y) ? st : fret_fail(FRET_OVERFLOW, NULL, y, 1e290);
 }
 
 /* ---- the object -------------------------------------------------------------------------------- */

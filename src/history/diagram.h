@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The memory diagram of a power law in double: FRET_DOUBLE of fret/contact.h. Not installed. */
+/* The memory diagram of a power law in double, for FRET_DOUBLE of fret/contact.h. Not installed. */
 #ifndef FRET_HISTORY_DIAGRAM_H
 #define FRET_HISTORY_DIAGRAM_H
 
@@ -7,8 +7,7 @@
 
 typedef struct fret_diagram fret_diagram;
 
-/* With slices > 0 there is room for so many slices and no allocation after this: a history nested deeper is
- * refused; 0: room grows as needed. */
+/* slices > 0: room for that many slices, and steps that need more fail; 0: room grows as needed. */
 fret_status fret_diagram_make(const fret_normal *normal, double mu, size_t slices, fret_diagram **out);
 void fret_diagram_free(fret_diagram *diagram);
 void fret_diagram_count_loss(fret_diagram *diagram, bool on);
@@ -19,7 +18,7 @@ void fret_diagram_state(const fret_diagram *diagram, fret_state *out);
 void fret_diagram_forces(const fret_diagram *diagram, fret_state *out);
 double fret_diagram_last_loss(const fret_diagram *diagram);
 
-/* As fret/contact.h packs: how many numbers there are, what they are, and back. */
+/* For fret_contact_pack and _unpack: the length of the array, writing it, and reading it back. */
 size_t fret_diagram_packed(const fret_diagram *diagram);
 void fret_diagram_pack(const fret_diagram *diagram, double out[]);
 fret_status fret_diagram_unpack(fret_diagram *diagram, const double from[], size_t count);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The memory diagram: a curve that steps append to and cut. Included once for each kind of number, behind
- * history/diagram_type.h and what the law is there:
- *   law_know    the other coordinate of a place, where it is < 0, and where the law has found that
- *   law_fall    how far it is below that of the edge; of a place `thick` below it, which is then known
- *   law_bow     what a slice of the law bends (history/power_law.h)
- *   law_shown   whether numbers hold it
- *   law_press   gets ready for an edge out of the ordinary, if they do
- *   law_left    the level of slip at an edge near gross slip, of which every digit counts
- *   law_radius  the contact radius
- *   law_slips   is told each phase of slip that dissipates
- * LITTLE: what places are known to, of the largest. Allocates the layers of its contact. */
+/* The memory diagram: a curve that steps append to and cut. Included once for each type of number, after
+ * history/diagram_type.h and these functions of the law:
+ *   law_find         v, the other coordinate of a place, if it is < 0, and the place in the law
+ *   law_fall         the fall of v from the edge to a place at the distance `thick`, which is then found
+ *   law_bow          the bending of a slice of the law (history/power_law.h)
+ *   law_holds        true if numbers hold a value and its v
+ *   law_prepare      extends the range, or chooses a new reference, for a value outside it
+ *   law_level        y - s t at the edge near gross slip, where every digit counts
+ *   law_radius       the contact radius
+ *   law_slips        records a phase of slip that dissipates
+ * LITTLE: the relative accuracy of positions on the curve. Allocates the layers of its contact. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@
 #include "law/check.h"
 #include "number/array.h"
 
-/* libm's are calls; of a NaN the second. */
+/* fmin and fmax without a call; the second argument if one is NaN. */
 FRET_INLINE NUMBER lesser(NUMBER a, NUMBER b) {
     return a < b ? a : b;
 }
@@ -30,22 +30,22 @@ FRET_INLINE NUMBER size_of(NUMBER x) {
     return FUNCTION(fabs)(x);
 }
 
-/* Each by itself: as parts of one function they would keep in memory what fits into registers. */
-#define APART static __attribute__((noinline))
+/* Not inlined: within a larger function their variables would be spilled to memory. */
+#define NOINLINE static __attribute__((noinline))
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
 static void diagram_reset(DIAGRAM *d) {
     d->edge = (point){.y = {0, 0}};
     d->dz = d->slid = d->dx = d->Fx = d->W = d->W_rest = d->last_loss = 0;
-    d->limit[DEPTH] = d->limit[LOAD] = 0;
-    d->sure[DEPTH] = d->sure[LOAD] = (NUMBER)INFINITY;
-    d->told = DEPTH;
+    d->high[DEPTH] = d->high[LOAD] = 0;
+    d->low[DEPTH] = d->low[LOAD] = (NUMBER)INFINITY;
+    d->imposed = DEPTH;
     d->direction = 1;
     d->count = 0;
 }
 
-/* layers > 0: room for no more. */
+/* layers > 0: room for that many and never more. */
 static fret_status diagram_make(const fret_normal *normal, double mu, size_t layers, DIAGRAM **out) {
     const fret_status st = fret_check_positive("mu", mu);
     if (st.code)
@@ -80,7 +80,7 @@ static void diagram_free(DIAGRAM *d) {
     free(d);
 }
 
-APART fret_status make_room(DIAGRAM *d, size_t count) {
+NOINLINE fret_status make_room(DIAGRAM *d, size_t count) {
     return !d->bounded && fret_array_room(&d->layers, &d->room, count, sizeof *d->layers)
                ? fret_ok()
                : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
@@ -111,11 +111,11 @@ static fret_status diagram_copy(DIAGRAM *to, const DIAGRAM *from) {
 
 /* ---- the power law ----------------------------------------------------------------------------- */
 
-static fret_status law_press(DIAGRAM *d, coordinate by, double y);
+static fret_status law_prepare(DIAGRAM *d, coordinate by, double y);
 
-/* Powers are taken of the ratio to a place nearby, where their rounding is least: the middle of the 2^16-fold
- * range of loads that y is in, and so the same whatever came before. */
-APART fret_status count_near(DIAGRAM *d, coordinate by, double y) {
+/* Sets the reference point of the power law near y, where rounding of powers of the ratio is least: the
+ * middle of the 2^16-fold range of loads that contains y, so that it does not depend on the history. */
+NOINLINE fret_status choose_reference(DIAGRAM *d, coordinate by, double y) {
     fret_press p, middle;
     const fret_status st =
         by == LOAD ? fret_press_by_force(d->normal, y, &p) : fret_press_by_depth(d->normal, y, &p);
@@ -124,7 +124,7 @@ APART fret_status count_near(DIAGRAM *d, coordinate by, double y) {
     int exponent;
     frexpl(p.F, &exponent);
     if (fret_press_by_force(d->normal, ldexp(1, (exponent & ~15) + 8), &middle).code)
-        middle = p; /* next to the ends of what numbers hold */
+        middle = p; /* next to the ends of the range of numbers */
     const fret_real at[2] = {middle.dz, middle.F}, wide[2] = {exp2l(8 / d->normal->p), 256};
     for (coordinate i = DEPTH; i <= LOAD; i++) {
         d->law[i].per_y = (NUMBER)(1 / at[i]);
@@ -132,43 +132,42 @@ APART fret_status count_near(DIAGRAM *d, coordinate by, double y) {
     }
     for (coordinate i = DEPTH; i <= LOAD; i++) {
         const NUMBER least = (NUMBER)(at[i] / wide[i]);
-        d->limit[i] = (NUMBER)(at[i] * wide[i]);
-        d->sure[i] = law_shown(d, i, d->limit[i]) && law_shown(d, i, least) ? least : (NUMBER)INFINITY;
+        d->high[i] = (NUMBER)(at[i] * wide[i]);
+        d->low[i] = law_holds(d, i, d->high[i]) && law_holds(d, i, least) ? least : (NUMBER)INFINITY;
     }
     return st;
 }
 
 /* ---- what slip dissipates ---------------------------------------------------------------------- */
 
-/* While the front goes inwards at d and the edge is at D, slip dissipates int_d^D (D-z) dm, dm = |v''| dz.
- * Over the phase that is int psi(z) dm, with psi(z) = int (D-z) |dd|   over the times at which d < z < D: a
+/* While the slip front is at d and the edge at D, a move of the front dissipates int_d^D (D-z) dm, dm = |v''|
+ * dz. Over a phase that is int psi(z) dm, psi(z) = int (D-z) |dd| over the times at which d < z < D: a
  * quadratic between any two of the places where front and edge begin and end, here inner (1-x)^2 + 2 middle x
- * (1-x) + outer x^2,   x = 0 .. 1 from the inner one to the outer one. No term is negative: thin zones keep
- * their digits. */
-FRET_INLINE NUMBER weighed(NUMBER weight, NUMBER bend) {
-    return weight > 0 ? weight * bend : 0; /* the centre may bend without end */
+ * (1-x) + outer x^2, x = 0 .. 1 from the inner place to the outer. All terms are positive. */
+FRET_INLINE NUMBER product_or_0(NUMBER weight, NUMBER bend) {
+    return weight > 0 ? weight * bend : 0; /* bend may be infinite at the centre */
 }
 
-FRET_INLINE NUMBER over(const DIAGRAM *d, coordinate by, const place *from, const place *to, NUMBER w,
-                        NUMBER inner, NUMBER middle, NUMBER outer) {
+FRET_INLINE NUMBER weighted_bow(const DIAGRAM *d, coordinate by, const place *from, const place *to, NUMBER w,
+                                NUMBER inner, NUMBER middle, NUMBER outer) {
     if (!(w > 0))
         return 0;
     const bow b = law_bow(d, by, to, from, w);
-    return weighed(middle, b.middle) + weighed(outer, b.outer) + weighed(inner, b.inner);
+    return product_or_0(middle, b.middle) + product_or_0(outer, b.outer) + product_or_0(inner, b.inner);
 }
 
-/* The zone where a front of slip is. */
+/* A slip zone, from the slip front to the edge. */
 typedef struct slip_front {
     place edge, at;
-    NUMBER thick; /* edge - at with its digits */
+    NUMBER thick; /* edge - at, with the digits of a small difference */
 } slip_front;
 
 static void law_slips(DIAGRAM *d, coordinate by, NUMBER gain, const slip_front *a, const slip_front *b,
                       NUMBER travel);
 static void law_slips_all(DIAGRAM *d, NUMBER e, const place *from, const place *to);
 
-/* Edge and front go evenly from a to b, the front by `travel`. */
-APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_front *b, NUMBER travel) {
+/* The loss of a phase of slip: edge and front move linearly from a to b, the front by `travel`. */
+NOINLINE NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_front *b, NUMBER travel) {
     const NUMBER h0 = lesser(a->thick, a->edge.y),
                  h1 = lesser(b->thick, b->edge.y), /* whatever rounding says */
         growth = b->edge.y - a->edge.y, size = size_of(growth);
@@ -177,15 +176,15 @@ APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_fro
            middle[2] = {travel * h1 / 2, (start + end) / 2};
     if (!(travel > 0))
         return 0;
-    law_know(d, by, &a->edge);
-    law_know(d, by, &a->at);
-    law_know(d, by, &b->edge);
-    law_know(d, by, &b->at);
+    law_find(d, by, &a->edge);
+    law_find(d, by, &a->at);
+    law_find(d, by, &b->edge);
+    law_find(d, by, &b->at);
     if (growth < 0 && h1 >= travel) {
         at[2] = &b->edge;
         at[3] = &a->edge;
         w[1] = h1 - travel;
-    } else if (growth < 0) { /* the edge comes to where the front has been */
+    } else if (growth < 0) { /* the edge reaches places that the front has passed */
         at[1] = &b->edge;
         at[2] = &a->at;
         at[3] = &a->edge;
@@ -197,17 +196,17 @@ APART NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_fro
         middle[0] = h1 * h1 / 2;
         middle[1] = h0 * h1 / 2;
     }
-    return over(d, by, at[2], at[3], w[2], end, 0, 0) +
-           over(d, by, at[1], at[2], w[1], start, middle[1], end) +
-           over(d, by, at[0], at[1], w[0], 0, middle[0], start);
+    return weighted_bow(d, by, at[2], at[3], w[2], end, 0, 0) +
+           weighted_bow(d, by, at[1], at[2], w[1], start, middle[1], end) +
+           weighted_bow(d, by, at[0], at[1], w[0], 0, middle[0], start);
 }
 
-/* Of the force between two depths: that of the chord, less what lies between. */
-APART NUMBER mean_force(const DIAGRAM *d, const place *a, const place *b) {
-    const NUMBER way = size_of(b->y - a->y);
+/* The mean force between two depths: that of the chord, less the bending. */
+NOINLINE NUMBER mean_force(const DIAGRAM *d, const place *a, const place *b) {
+    const NUMBER h = size_of(b->y - a->y);
     const bool rises = a->y < b->y;
-    return way > 0 ? (a->v + b->v) / 2 - law_bow(d, DEPTH, rises ? b : a, rises ? a : b, way).middle * way / 4
-                   : b->v;
+    return h > 0 ? (a->v + b->v) / 2 - law_bow(d, DEPTH, rises ? b : a, rises ? a : b, h).middle * h / 4
+                 : b->v;
 }
 
 /* ---- steps ------------------------------------------------------------------------------------- */
@@ -216,19 +215,19 @@ APART NUMBER mean_force(const DIAGRAM *d, const place *a, const place *b) {
 typedef struct normal_end {
     NUMBER y[2];
     SPOT at;
-    NUMBER dz; /* depth, or < 0 the gap between the bodies where they part */
-    coordinate told;
+    NUMBER dz; /* depth, or < 0: minus the gap of the open bodies */
+    coordinate imposed;
 } normal_end;
 
 /* One step, straight in (y, t) of the coordinate `by`, with the contact closed at both ends. */
 typedef struct path {
     DIAGRAM *d;
-    bool counts;       /* the loss */
-    point to;          /* t of the other coordinate is found */
+    bool counts;       /* whether to compute the loss */
+    point to;          /* its t in the other coordinate is found by the step */
     NUMBER grow, turn; /* changes of y and t */
     NUMBER Y;          /* the larger edge */
-    NUMBER felt;       /* whose rounding the drive has */
-    NUMBER loss;       /* per mu^2 eta */
+    NUMBER felt;       /* the drive has the rounding errors of numbers of this size */
+    NUMBER loss;       /* divided by mu^2 eta */
     bool slides;       /* ends in gross slip */
 } path;
 
@@ -236,7 +235,7 @@ FRET_INLINE place place_of(const point *p, coordinate by) {
     return (place){p->y[by], p->y[other_than(by)], p->at};
 }
 
-/* Not as a whole: that waits for its parts to be written. */
+/* Member by member: copying the struct would wait for its members to be written. */
 FRET_INLINE void put_place(place *to, const place *from) {
     to->y = from->y;
     to->v = from->v;
@@ -249,22 +248,22 @@ FRET_INLINE void put_point(place *to, const point *p, coordinate by) {
     to->at = p->at;
 }
 
-/* One that is not known. */
+/* A place that is not yet found. */
 FRET_INLINE void put_at(place *to, NUMBER y) {
     to->y = y;
     to->v = -1;
     to->at = (SPOT){0};
 }
 
-/* The level y - s t of slip of sign s at the end. Below a tenth of y the difference loses digits: law_left
- * goes by what was asked for, and so knows more near gross slip, but nothing where delta_x is far larger than
- * what is left of it here. */
+/* The level y - s t at the end of the step, for slip of sign s. Below a tenth of y the difference loses
+ * digits: law_level uses imposed values, better near gross slip but useless if delta_x is far larger than mu
+ * eta t. */
 FRET_INLINE NUMBER end_level(const path *p, coordinate by, NUMBER s) {
     const NUMBER y = p->to.y[by], level = y - s * p->to.t[by];
     if (size_of(level) > (NUMBER)0.1 * y || level == 0)
         return level;
     const place edge = place_of(&p->to, by);
-    const NUMBER left = law_left(p->d, by, s, &edge, level);
+    const NUMBER left = law_level(p->d, by, s, &edge, level);
     return size_of(left - level) <= LITTLE * y ? left : level;
 }
 
@@ -275,12 +274,13 @@ FRET_INLINE void dissipate(path *p, coordinate by, NUMBER gain, slip_front *a, s
     p->loss += gain * phase_loss(p->d, by, a, b, travel);
 }
 
-/* How far a front has come, by the drive or by its places: near the centre these have more digits. */
+/* How far a front has moved: by the drive, or near the centre by its places, which have more digits there. */
 FRET_INLINE NUMBER travelled(const path *p, const slip_front *a, const slip_front *b, NUMBER travel) {
     return a->at.y < p->felt ? a->at.y - b->at.y : travel;
 }
 
-/* Slip of sign s meets a layer: the drive that a unit of it takes, and what of it is beyond the end. */
+/* Slip of sign s in a layer. gain: the drive per distance of the front; rest: the drive from its end to the
+ * inner end. */
 typedef struct meeting {
     NUMBER gain, rest;
 } meeting;
@@ -289,9 +289,10 @@ FRET_INLINE meeting meet(const layer *l, coordinate by, NUMBER s, NUMBER level) 
     return (meeting){1 - s * l->sigma, level - (l->inner.y[by] - s * l->inner.t[by])};
 }
 
-/* Ends the step with slip of sign s, in a zone so thick: cuts the outermost of `count` layers where its level
- * is that of the end, and goes straight to the edge; no layer: gross slip. outer: of a layer so thin that its
- * t tell more than its y, else NULL; the front has gone `travel` from there. */
+/* Ends the step with slip of sign s in a zone of thickness `thick`: cuts the outermost of `count` layers
+ * where its level is that of the end of the step, `part` from its inner end, and adds a straight line to the
+ * edge; count = 0: gross slip. outer: NULL, or the outer end of a layer so thin that its t is more exact than
+ * its y, from which the front has moved `travel`. */
 FRET_INLINE void cut(path *p, coordinate by, NUMBER s, size_t count, NUMBER part, NUMBER thick,
                      const point *outer, NUMBER travel) {
     const coordinate aside = other_than(by);
@@ -316,7 +317,7 @@ FRET_INLINE void cut(path *p, coordinate by, NUMBER s, size_t count, NUMBER part
             }
             ty += top->sigma * part;
             tv += top->sigma * t;
-        } else { /* all of it */
+        } else { /* the whole layer slips */
             put_point(&front, &top->inner, by);
             fall = law_fall(d, by, &edge, thick, &front);
             zone--;
@@ -336,7 +337,7 @@ FRET_INLINE void cut(path *p, coordinate by, NUMBER s, size_t count, NUMBER part
     p->to.t[aside] = tv + s * fall;
 }
 
-/* Where the front is after a cut. */
+/* The slip zone after a cut. */
 FRET_INLINE void put_end(slip_front *end, const path *p, coordinate by, NUMBER thick) {
     put_point(&end->edge, &p->to, by);
     put_point(&end->at, &p->d->layers[p->d->count - 1].inner, by);
@@ -355,17 +356,17 @@ FRET_INLINE void begin_at(slip_front *begin, const point *edge, coordinate by) {
     begin->thick = 0;
 }
 
-/* Gross slip for `e` of the drive, from the edge `from` on: by depth it moves on. */
+/* The loss of gross slip over the part `e` of the drive, while the edge moves on from `from`; by load 0. */
 FRET_INLINE void dissipate_all(path *p, coordinate by, NUMBER e, place *from) {
     if (by == DEPTH && e > 0 && p->counts) {
         const place b = place_of(&p->to, DEPTH);
-        law_know(p->d, DEPTH, from);
+        law_find(p->d, DEPTH, from);
         law_slips_all(p->d, e, from, &b);
         p->loss += e * mean_force(p->d, from, &b);
     }
 }
 
-/* Slip of sign s from the beginning to the end of the step. */
+/* A step with slip of one sign s from its beginning to its end. */
 FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
     DIAGRAM *d = p->d;
     const NUMBER drive = s * p->turn - p->grow, level = end_level(p, by, s), edge = p->to.y[by];
@@ -379,16 +380,16 @@ FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
     for (; count; count--) {
         const layer *top = &d->layers[count - 1];
         const NUMBER thick = layer_thickness(top, outer, by),
-                     same = count > 1 ? LITTLE * p->Y : 0; /* of the core the least bit counts */
+                     same = count > 1 ? LITTLE * p->Y : 0; /* in the innermost layer every bit counts */
         at = meet(top, by, s, level);
         thin = size_of(top->sigma) == 1 && p->felt < top->inner.y[by];
-        if (thin) /* the same, by the drive */
+        if (thin) /* the same from the drive */
             at.rest = at.gain * thick - left;
-        /* what is left of it may be rounding, unless it is more than a trace of the layer */
+        /* stop here, unless the rest is rounding and a trace of the layer */
         if (at.gain > 0 && at.rest > 0 && !(at.rest <= same && at.rest <= (NUMBER)1e-6 * at.gain * thick))
             break;
         outer = &top->inner;
-        if (!(at.gain > 0)) { /* it slips as it is */
+        if (!(at.gain > 0)) { /* it slips already */
             put_point(&now.at, outer, by);
             now.thick += thick;
             continue;
@@ -408,7 +409,7 @@ FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
         cut(p, by, s, 0, 0, edge, NULL, 0);
         return;
     }
-    /* of an edge that comes from far the drive has lost the digits */
+    /* if the edge moves far the drive has lost digits */
     const NUMBER travel = left / at.gain, part = at.rest / at.gain,
                  thick = -p->grow > edge ? edge - (d->layers[count - 1].inner.y[by] + part)
                                          : now.thick + (edge - now.edge.y) + travel;
@@ -417,17 +418,18 @@ FRET_INLINE void slip(path *p, coordinate by, NUMBER s) {
     dissipate(p, by, at.gain, &now, &next, travelled(p, &now, &next, travel));
 }
 
-/* The last phase of a step that goes back: up to its end a front of slip of sign s moves in the outermost of
- * `count` layers; s = 0: none does. */
+/* The last phase of a step in which the edge retreats: up to its end a front of slip of sign s moves in the
+ * outermost of `count` layers; s = 0: there is none. */
 typedef struct last_phase {
     slip_front zone[2], *begin, *end;
     NUMBER s, gain, travel;
     size_t count;
 } last_phase;
 
-/* The edge goes inwards and the drive is smaller. At the edge a slope sigma means a surplus sigma - r over
- * the slope r of the path, and starts a zone of that sign, whose front is faster than the edge by the surplus
- * over 1 - s sigma; a front slower than the edge is overtaken, and the next slope decides anew. */
+/* The losses while the edge moves inwards by more than the drive. With r the slope of the path, a layer of
+ * slope sigma at the edge starts a slip zone of the sign of sigma - r, the surplus. Its front is faster than
+ * the edge by the surplus over 1 - s sigma. The edge overtakes a slower front; then the next layer
+ * decides. */
 FRET_INLINE void phases_back(path *p, coordinate by, last_phase *last) {
     const DIAGRAM *d = p->d;
     const NUMBER r = p->turn / p->grow, to = p->to.y[by];
@@ -450,23 +452,23 @@ FRET_INLINE void phases_back(path *p, coordinate by, last_phase *last) {
             continue;
         }
         const NUMBER widens = s * surplus / gain, speed = 1 + widens;
-        NUMBER way = now->edge.y - to, travel = speed * way;
+        NUMBER moved = now->edge.y - to, travel = speed * moved;
         const bool reaches = thick <= travel;
         if (reaches) {
-            way = thick > 0 ? thick / speed : 0;
+            moved = thick > 0 ? thick / speed : 0;
             travel = thick;
         }
-        const bool overtaken = widens < 0 && now->thick <= -widens * way, reached = reaches && !overtaken;
+        const bool overtaken = widens < 0 && now->thick <= -widens * moved, reached = reaches && !overtaken;
         if (overtaken) {
-            way = now->thick / -widens;
-            travel = lesser(speed * way, thick);
+            moved = now->thick / -widens;
+            travel = lesser(speed * moved, thick);
         }
-        put_at(&next->edge, greater(now->edge.y - way, to));
+        put_at(&next->edge, greater(now->edge.y - moved, to));
         if (reached)
             put_point(&next->at, &top->inner, by);
         else
             put_at(&next->at, overtaken ? next->edge.y : now->at.y - travel);
-        next->thick = overtaken ? 0 : now->thick + widens * way;
+        next->thick = overtaken ? 0 : now->thick + widens * moved;
         if (!reached && !overtaken) {
             put_point(&next->edge, &p->to, by);
             last->begin = now;
@@ -490,12 +492,12 @@ FRET_INLINE void phases_back(path *p, coordinate by, last_phase *last) {
     last->s = 0;
 }
 
-/* Both levels fall: the curve is cut where one of them is first that of the end. */
+/* A step in which both levels fall: cuts the curve where the first of them has its value at the end. */
 FRET_INLINE void retreat(path *p, coordinate by) {
     DIAGRAM *d = p->d;
     const coordinate aside = other_than(by);
     const NUMBER to = p->to.y[by], forward = end_level(p, by, 1), backward = end_level(p, by, -1);
-    last_phase last; /* all of it would take as long as the rest */
+    last_phase last; /* initialising all of it would double the time */
     last.s = 0;
     last.end = NULL;
     last.count = 0;
@@ -513,7 +515,7 @@ FRET_INLINE void retreat(path *p, coordinate by) {
             break;
         }
     }
-    if (count && thick <= LITTLE * to) { /* the end lies on the curve */
+    if (count && thick <= LITTLE * to) { /* the end of the step lies on the curve */
         const layer *top = &d->layers[count - 1];
         d->count = count;
         p->to.t[aside] = top->inner.t[aside] + top->sigma * (p->to.y[aside] - top->inner.y[aside]);
@@ -526,8 +528,8 @@ FRET_INLINE void retreat(path *p, coordinate by) {
         dissipate(p, by, last.gain, last.begin, last.end, travelled(p, last.begin, last.end, last.travel));
 }
 
-/* Nothing slips: the curve grows. Slopes that differ by less than the rounding of targets merge, else a ramp
- * in many small steps would pile up layers. */
+/* A step without slip: the curve grows. Slopes that differ by less than the rounding of targets merge, else a
+ * ramp in many small steps would pile up layers. */
 FRET_INLINE void grow(path *p, coordinate by) {
     DIAGRAM *d = p->d;
     const coordinate aside = other_than(by);
@@ -544,10 +546,10 @@ FRET_INLINE void grow(path *p, coordinate by) {
     p->to.t[aside] = top->inner.t[aside] + top->sigma * (p->to.y[aside] - top->inner.y[aside]);
 }
 
-/* To y, with t of the coordinate `by` there. Returns the loss. */
+/* Moves the edge to y, with t in the coordinate `by`. Returns the loss. */
 FRET_INLINE NUMBER advance(DIAGRAM *d, coordinate by, const normal_end *end, NUMBER t, bool counts) {
     const NUMBER *y = end->y;
-    path p; /* not as a whole: that waits for its parts to be written */
+    path p; /* member by member, as in put_place */
     p.d = d;
     p.counts = counts;
     p.loss = 0;
@@ -569,28 +571,28 @@ FRET_INLINE NUMBER advance(DIAGRAM *d, coordinate by, const normal_end *end, NUM
         grow(&p, by);
     else
         return 0;
-    for (coordinate i = DEPTH; i <= LOAD; i++) { /* not as a whole: that waits for its parts to be written */
+    for (coordinate i = DEPTH; i <= LOAD; i++) { /* member by member, as in put_place */
         d->edge.y[i] = p.to.y[i];
         d->edge.t[i] = p.to.t[i];
     }
     d->edge.at = p.to.at;
     for (size_t i = d->count; i > 0 && d->layers[i - 1].inner.y[other_than(by)] > y[other_than(by)]; i--)
-        d->layers[i - 1].inner.y[other_than(by)] = y[other_than(by)]; /* whatever rounding says */
+        d->layers[i - 1].inner.y[other_than(by)] = y[other_than(by)]; /* against rounding */
     if (p.slides && by == DEPTH)
         d->slid = d->dx - d->mu_eta * d->edge.t[DEPTH];
     return p.loss;
 }
 
-APART NUMBER by_load(DIAGRAM *d, const normal_end *end, NUMBER t) {
+NOINLINE NUMBER by_load(DIAGRAM *d, const normal_end *end, NUMBER t) {
     return advance(d, LOAD, end, t, false);
 }
-APART NUMBER by_load_with_loss(DIAGRAM *d, const normal_end *end, NUMBER t) {
+NOINLINE NUMBER by_load_with_loss(DIAGRAM *d, const normal_end *end, NUMBER t) {
     return advance(d, LOAD, end, t, true);
 }
-APART NUMBER by_depth(DIAGRAM *d, const normal_end *end, NUMBER t) {
+NOINLINE NUMBER by_depth(DIAGRAM *d, const normal_end *end, NUMBER t) {
     return advance(d, DEPTH, end, t, false);
 }
-APART NUMBER by_depth_with_loss(DIAGRAM *d, const normal_end *end, NUMBER t) {
+NOINLINE NUMBER by_depth_with_loss(DIAGRAM *d, const normal_end *end, NUMBER t) {
     return advance(d, DEPTH, end, t, true);
 }
 
@@ -609,37 +611,37 @@ FRET_INLINE fret_status press_to(DIAGRAM *d, coordinate by, double target, norma
     if (end != to->y[by]) {
         place edge;
         put_at(&edge, end);
-        if (end > 0 && (end < d->sure[by] || end > d->limit[by])) {
-            const fret_status st = law_press(d, by, end);
+        if (end > 0 && (end < d->low[by] || end > d->high[by])) {
+            const fret_status st = law_prepare(d, by, end);
             if (st.code)
                 return st;
         }
-        law_know(d, by, &edge);
+        law_find(d, by, &edge);
         to->y[by] = end;
         to->y[other_than(by)] = edge.v;
         to->at = edge.at;
-        to->told = by;
+        to->imposed = by;
     }
     to->dz = target < 0 ? (NUMBER)target : to->y[DEPTH];
     return fret_ok();
 }
 
 FRET_INLINE fret_status find_normal_end(DIAGRAM *d, const fret_step *step, normal_end *to) {
-    to->y[DEPTH] = d->edge.y[DEPTH]; /* not as a whole: that waits for its parts to be written */
+    to->y[DEPTH] = d->edge.y[DEPTH]; /* member by member, as in put_place */
     to->y[LOAD] = d->edge.y[LOAD];
     to->at = d->edge.at;
     to->dz = d->dz;
-    to->told = d->told;
+    to->imposed = d->imposed;
     return step->normal_by == FRET_KEEP_NORMAL ? fret_ok()
            : step->normal_by == FRET_TO_FORCE  ? press_to(d, LOAD, step->normal, to)
                                                : press_to(d, DEPTH, step->normal, to);
 }
 
-/* F_x/mu at the end. */
+/* F_x/mu at the end of the step. */
 FRET_INLINE fret_status find_load(const DIAGRAM *d, const fret_step *step, NUMBER FN, NUMBER *load) {
     fret_real to = 0;
     *load = (NUMBER)step->tangential / (NUMBER)d->mu;
-    if (size_of(*load) < (NUMBER)0.9 * FN) /* far from gross slip */
+    if (size_of(*load) < (NUMBER)0.9 * FN) /* no check needed far from gross slip */
         return fret_ok();
     const fret_status st = fret_step_load(d->mu, step, FN, &to);
     *load = (NUMBER)to;
@@ -648,24 +650,24 @@ FRET_INLINE fret_status find_load(const DIAGRAM *d, const fret_step *step, NUMBE
 
 static void step_by_force(DIAGRAM *d, double Fx, const normal_end *end, NUMBER load) {
     if (Fx == d->Fx && size_of(d->edge.t[LOAD]) <= end->y[LOAD])
-        load = d->edge.t[LOAD]; /* the rounding of a quotient is no reversal */
+        load = d->edge.t[LOAD]; /* else the rounding of the quotient would be a reversal */
     d->Fx = Fx;
     d->last_loss = d->lossless ? by_load(d, end, load) : by_load_with_loss(d, end, load);
     if (end->y[LOAD] <= 0)
-        open_contact(d, d->slid); /* no spring is left to be displaced */
+        open_contact(d, d->slid); /* no spring is in contact */
     d->dx = d->slid + d->mu_eta * d->edge.t[DEPTH];
 }
 
-/* With the contact closed. t: int sigma dy at the end. */
-FRET_INLINE void move(DIAGRAM *d, const normal_end *end, NUMBER t) {
+/* A step by displacement with the contact closed; t: int sigma dy at its end. */
+FRET_INLINE void step_closed(DIAGRAM *d, const normal_end *end, NUMBER t) {
     d->last_loss = d->lossless ? by_depth(d, end, t) : by_depth_with_loss(d, end, t);
 }
 
-FRET_INLINE NUMBER turned(const DIAGRAM *d, NUMBER to, NUMBER from) {
+FRET_INLINE NUMBER t_of_dx(const DIAGRAM *d, NUMBER to, NUMBER from) {
     return to == from ? d->edge.t[DEPTH] : (to - d->slid) * d->per_mu_eta;
 }
 
-/* While open, the bodies move freely: only the closed part of the path counts. */
+/* The open bodies move freely: only the closed part of the path counts. */
 static void step_by_displacement(DIAGRAM *d, NUMBER target, const normal_end *end) {
     const NUMBER old = d->dx, from = d->dz, to = end->dz;
     NUMBER stop = target;
@@ -676,13 +678,13 @@ static void step_by_displacement(DIAGRAM *d, NUMBER target, const normal_end *en
     else if (from > 0 && to <= 0)
         stop = old + (target - old) * (from / (from - to));
     if (from > 0 || to > 0)
-        move(d, end, turned(d, stop, old));
+        step_closed(d, end, t_of_dx(d, stop, old));
     if (to <= 0)
         open_contact(d, target);
     d->Fx = d->mu * d->edge.t[LOAD];
 }
 
-/* The end of every step. */
+/* The last part of every step: the sum of losses, compensated. */
 FRET_INLINE void end_step(DIAGRAM *d, NUMBER dz) {
     d->dz = dz;
     if (d->lossless)
@@ -693,13 +695,13 @@ FRET_INLINE void end_step(DIAGRAM *d, NUMBER dz) {
     d->last_loss = x;
 }
 
-FRET_INLINE void face(DIAGRAM *d, NUMBER before, NUMBER target) {
+FRET_INLINE void set_direction(DIAGRAM *d, NUMBER before, NUMBER target) {
     if (target != before)
         d->direction = target < before ? -1 : 1;
 }
 
-/* With all that may have to be refused, made or opened. */
-APART fret_status any_step(DIAGRAM *d, const fret_step *step) {
+/* Any step, with its checks, allocation, opening and closing. */
+NOINLINE fret_status any_step(DIAGRAM *d, const fret_step *step) {
     const bool by_force = step->tangential_by == FRET_TO_FX;
     normal_end to;
     NUMBER load = 0;
@@ -713,8 +715,8 @@ APART fret_status any_step(DIAGRAM *d, const fret_step *step) {
     if (st.code)
         return st;
     const NUMBER target = step->tangential_by == FRET_KEEP_DX ? d->dx : (NUMBER)step->tangential;
-    face(d, by_force ? d->Fx : d->dx, target);
-    d->told = to.told;
+    set_direction(d, by_force ? d->Fx : d->dx, target);
+    d->imposed = to.imposed;
     if (by_force)
         step_by_force(d, step->tangential, &to, load);
     else
@@ -723,10 +725,10 @@ APART fret_status any_step(DIAGRAM *d, const fret_step *step) {
     return st;
 }
 
-/* Contact stays closed, and there is nothing to refuse and nothing to make: what most steps are. */
+/* True for the common step, in which the contact stays closed, needing neither checks nor allocation. */
 FRET_INLINE bool is_plain(const DIAGRAM *d, const fret_step *step) {
     return step->normal_by == FRET_TO_DEPTH && step->tangential_by == FRET_TO_DX && d->dz > 0 &&
-           step->normal > 0 && step->normal >= d->sure[DEPTH] && step->normal <= d->limit[DEPTH] &&
+           step->normal > 0 && step->normal >= d->low[DEPTH] && step->normal <= d->high[DEPTH] &&
            fabs(step->tangential) <= DBL_MAX && d->count + 2 <= d->room;
 }
 
@@ -740,15 +742,15 @@ FRET_INLINE fret_status diagram_step(DIAGRAM *d, const fret_step *step) {
     if (stays)
         put_point(&edge, &d->edge, DEPTH);
     else
-        law_know(d, DEPTH, &edge);
+        law_find(d, DEPTH, &edge);
     to.y[DEPTH] = edge.y;
     to.y[LOAD] = edge.v;
     to.at = edge.at;
-    const NUMBER t = turned(d, step->tangential, d->dx);
-    face(d, d->dx, step->tangential);
+    const NUMBER t = t_of_dx(d, step->tangential, d->dx);
+    set_direction(d, d->dx, step->tangential);
     d->dx = step->tangential;
-    d->told = stays ? d->told : DEPTH;
-    move(d, &to, t);
+    d->imposed = stays ? d->imposed : DEPTH;
+    step_closed(d, &to, t);
     d->Fx = d->mu * d->edge.t[LOAD];
     end_step(d, to.y[DEPTH]);
     return fret_ok();
@@ -756,8 +758,8 @@ FRET_INLINE fret_status diagram_step(DIAGRAM *d, const fret_step *step) {
 
 /* ---- state ------------------------------------------------------------------------------------- */
 
-/* U = mu^2 eta/2 int v^2 dK with v the sum of sigma from the edge: from the centre outwards, a layer of
- * thickness h adds sigma h T + sigma^2 J to the half integral, T the sum of sigma dF_N inside it. */
+/* U = mu^2 eta/2 int v^2 dK, v = int sigma dy from the edge. From the centre outwards, a layer of thickness h
+ * adds sigma h T + sigma^2 int t K dt to int v^2 dK/2, T = int sigma dF_N inside it. */
 static fret_real stored(const DIAGRAM *d) {
     fret_real sum = 0;
     for (const layer *l = d->layers; l < d->layers + d->count && !fret_stopped(d->normal); l++) {
@@ -771,7 +773,7 @@ static fret_real stored(const DIAGRAM *d) {
     return d->mu * (d->mu * d->normal->foundation.eta) * sum;
 }
 
-/* Inwards from a layer, past those that are as thin as the rounding of loads. */
+/* Skips layers, inwards, that are thinner than the rounding of loads. */
 static const layer *past_rounding(const DIAGRAM *d, const layer *from) {
     const NUMBER rounding = 4 * (NUMBER)DBL_EPSILON * d->edge.y[LOAD];
     while (from > d->layers && layer_thickness(from, outer_of(d, from), LOAD) <= rounding)
@@ -779,8 +781,8 @@ static const layer *past_rounding(const DIAGRAM *d, const layer *from) {
     return from;
 }
 
-/* The layer that tells c: slip that a load has come back to, but for its rounding, is not hidden by what that
- * leaves at the edge, or where the present slip meets it. */
+/* The layer that determines the stick radius c. Thin layers that rounding leaves at the edge, or where the
+ * present slip meets earlier slip of the same sign, do not hide a slip zone. */
 static const layer *outermost(const DIAGRAM *d) {
     const layer *top = &d->layers[d->count - 1], *zone = past_rounding(d, top), *next = zone;
     if (size_of(zone->sigma) < 1)
@@ -794,7 +796,7 @@ static const layer *outermost(const DIAGRAM *d) {
 
 static void diagram_forces(const DIAGRAM *d, fret_state *out) {
     static const fret_state nothing;
-    *out = nothing; /* cleared as a literal, by gcc's loop, it takes as long as a step */
+    *out = nothing; /* gcc clears a literal in a loop, which takes as long as a step */
     out->FN = d->edge.y[LOAD];
     out->dz = d->dz;
     out->Fx = d->Fx;
@@ -823,10 +825,10 @@ static void diagram_state(const DIAGRAM *d, fret_state *out) {
 
 /* ---- as doubles -------------------------------------------------------------------------------- */
 
-enum { PACKED_KIND, PACKED_TOLD, PACKED_DIRECTION, PACKED_LOSSLESS, PACKED_NUMBERS }; /* the first ones */
+enum { PACKED_KIND, PACKED_IMPOSED, PACKED_DIRECTION, PACKED_LOSSLESS, PACKED_NUMBERS }; /* the header */
 enum { NUMBERS_EDGE = 4, NUMBERS_REST = 7, NUMBERS_LAYER = 5 };
 
-/* A number is a sum of two doubles: long double has no more digits. */
+/* A number is packed as two doubles: long double has no more digits. */
 static double *pack_number(double *out, NUMBER x) {
     const double high = (double)x;
     *out++ = high;
@@ -858,7 +860,7 @@ static size_t packed(const DIAGRAM *d) {
 static void diagram_pack(const DIAGRAM *d, double out[]) {
     const NUMBER rest[NUMBERS_REST] = {d->dz, d->slid, d->dx, d->Fx, d->W, d->W_rest, d->last_loss};
     out[PACKED_KIND] = sizeof(NUMBER);
-    out[PACKED_TOLD] = d->told;
+    out[PACKED_IMPOSED] = d->imposed;
     out[PACKED_DIRECTION] = d->direction;
     out[PACKED_LOSSLESS] = d->lossless;
     double *next = pack_point(out + PACKED_NUMBERS, &d->edge);
@@ -868,8 +870,8 @@ static void diagram_pack(const DIAGRAM *d, double out[]) {
         next = pack_number(pack_point(next, &d->layers[i].inner), d->layers[i].sigma);
 }
 
-/* Is it a curve that rises from a place to one further out, with slopes of at most 1, and what comes of them,
- * and energies of something that rubs? */
+/* True for a possible history: a curve that rises outwards with |sigma| <= 1, forces and displacements within
+ * their bounds, and positive energies. */
 static bool is_history(const DIAGRAM *d) {
     bool ok = d->W >= 0 && size_of(d->W_rest) <= d->W && d->last_loss >= 0 &&
               d->W + d->last_loss <= DBL_MAX && size_of(d->Fx) <= 2 * d->mu * d->edge.y[LOAD] &&
@@ -895,14 +897,14 @@ static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count)
     for (size_t i = 0; i < count; i++)
         if (!isfinite(from[i]))
             return wrong;
-    DIAGRAM own = *d, *made = &own; /* of the same law: its series are long to make */
+    DIAGRAM own = *d, *made = &own; /* keeps the series of the law, which take long to make */
     fret_status st = fret_ok();
     made->layers = malloc(((count - least) / (2 * NUMBERS_LAYER) + 1) * sizeof *made->layers);
     if (!made->layers)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     NUMBER rest[NUMBERS_REST];
     made->count = (count - least) / (2 * NUMBERS_LAYER);
-    made->told = from[PACKED_TOLD] == (double)LOAD ? LOAD : DEPTH;
+    made->imposed = from[PACKED_IMPOSED] == (double)LOAD ? LOAD : DEPTH;
     made->direction = from[PACKED_DIRECTION] < 0 ? -1 : 1;
     made->lossless = from[PACKED_LOSSLESS] != 0;
     const double *next = unpack_point(from + PACKED_NUMBERS, &made->edge);
@@ -912,13 +914,12 @@ static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count)
         next = unpack_number(unpack_point(next, &made->layers[i].inner), &made->layers[i].sigma);
     made->dz = rest[0], made->slid = rest[1], made->dx = rest[2], made->Fx = rest[3];
     made->W = rest[4], made->W_rest = rest[5], made->last_loss = rest[6];
-    const coordinate by = made->told;
+    const coordinate by = made->imposed;
     const NUMBER end = made->edge.y[by];
     if (!is_history(made))
         st = wrong;
-    else if (made->count &&
-             (end < made->sure[by] || end > made->limit[by])) /* else the law counts from there */
-        st = law_press(made, by, (double)end);
+    else if (made->count && (end < made->low[by] || end > made->high[by])) /* already in range otherwise */
+        st = law_prepare(made, by, (double)end);
     if (!st.code)
         st = diagram_copy(d, made);
     free(made->layers);

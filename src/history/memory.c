@@ -4,7 +4,7 @@
 
 #include "number/dd.h"
 
-/* Places suffer from the rounding of long double alone. */
+/* The accuracy of positions on the curve: the rounding of long double. */
 #define LITTLE 1e-17L
 
 /* ---- the law ----------------------------------------------------------------------------------- */
@@ -13,7 +13,7 @@ static fret_level level_of(coordinate by, const place *p) {
     return by == LOAD ? (fret_level){p->v, p->y} : (fret_level){p->y, p->v};
 }
 
-FRET_INLINE void law_know(const fret_memory *m, coordinate by, place *p) {
+FRET_INLINE void law_find(const fret_memory *m, coordinate by, place *p) {
     if (fret_normal_closed(m->normal) && p->v < 0)
         p->v = power_value(&m->law[by], p->y);
     else if (p->v < 0)
@@ -30,7 +30,7 @@ static fret_real law_fall(const fret_memory *m, coordinate by, place *edge, fret
             inner->v = edge->v - fall;
         return fall;
     }
-    law_know(m, by, inner);
+    law_find(m, by, inner);
     return edge->v - inner->v;
 }
 
@@ -45,7 +45,7 @@ FRET_INLINE bow law_bow(const fret_memory *m, coordinate by, const place *outer,
     const fret_real N = (s.h * s.fall - s.G) / (by_load ? s.K + s.fall : 1),
                     G = !by_load  ? s.G
                         : s.K > 0 ? s.G / s.K
-                                  : 0; /* the centre has no weight */
+                                  : 0; /* at the centre K = 0 */
     return (bow){(w * G - s.L) / (w * w), 2 * s.L / (w * w), (w * N - s.L) / (w * w)};
 }
 
@@ -53,25 +53,25 @@ static fret_status press(const fret_memory *m, coordinate by, double y, fret_pre
     return by == LOAD ? fret_press_by_force(m->normal, y, out) : fret_press_by_depth(m->normal, y, out);
 }
 
-static bool law_shown(const fret_memory *m, coordinate by, fret_real y) {
+static bool law_holds(const fret_memory *m, coordinate by, fret_real y) {
     fret_press p;
     return !press(m, by, (double)y, &p).code;
 }
 
 fret_press fret_memory_pressed(const fret_memory *m) {
-    fret_press p = {.F = 0}; /* what has been pressed can be */
-    (void)press(m, m->told, (double)m->edge.y[m->told], &p);
+    fret_press p = {.F = 0}; /* cannot fail: it succeeded before */
+    (void)press(m, m->imposed, (double)m->edge.y[m->imposed], &p);
     return p;
 }
 
-/* Of y - s t with all digits: F_N - s F_x/mu, or delta_z - s (delta_x - slid)/(mu eta). */
-static fret_real law_left(const fret_memory *m, coordinate by, fret_real s, const place *edge,
-                          fret_real level) {
+/* y - s t with all digits: F_N - s F_x/mu, or delta_z - s (delta_x - slid)/(mu eta). */
+static fret_real law_level(const fret_memory *m, coordinate by, fret_real s, const place *edge,
+                           fret_real level) {
     fret_press p = {.F = 0};
     double rest = 0;
     (void)level;
-    if (m->told != by) {
-        (void)press(m, m->told, (double)edge->v, &p);
+    if (m->imposed != by) {
+        (void)press(m, m->imposed, (double)edge->v, &p);
         rest = (double)(by == LOAD ? (p.F - edge->y) + p.F_rest : (p.dz - edge->y) + p.dz_rest);
     }
     const dd scale = by == LOAD ? dd_of(m->mu) : dd_mul_d(m->normal->wide_foundation.eta, m->mu);
@@ -99,16 +99,16 @@ static void law_slips_all(fret_memory *m, fret_real e, const place *from, const 
     fret_slips_add(m->slips, &(slip_phase){.kind = GROSS, .edge = {from->y, to->y}, .gain = e});
 }
 
-/* What lies between loads that numbers have held is held too. */
-static fret_status law_press(fret_memory *m, coordinate by, double y) {
+/* Widens the range to the value: what lies between values in range is in range. */
+static fret_status law_prepare(fret_memory *m, coordinate by, double y) {
     fret_press p;
     if (fret_normal_closed(m->normal))
-        return count_near(m, by, y);
+        return choose_reference(m, by, y);
     const fret_status st = press(m, by, y, &p);
     for (coordinate i = DEPTH; i <= LOAD && !st.code; i++) {
         const fret_real at = i == LOAD ? p.F : p.dz;
-        m->sure[i] = fminl(m->sure[i], at);
-        m->limit[i] = fmaxl(m->limit[i], at);
+        m->low[i] = fminl(m->low[i], at);
+        m->high[i] = fmaxl(m->high[i], at);
     }
     return st;
 }
@@ -184,7 +184,7 @@ bool fret_memory_segment(const fret_memory *m, size_t i, fret_segment *out) {
     return true;
 }
 
-/* From the edge inwards, where u begins at 0: near the edge no difference loses digits. */
+/* Sums from the edge inwards, where u = 0: near the edge no difference loses digits. */
 fret_real fret_memory_displacement(const fret_memory *m, fret_real x) {
     const fret_real y = fret_normal_profile(m->normal, x);
     fret_real u = 0;
@@ -196,8 +196,8 @@ fret_real fret_memory_displacement(const fret_memory *m, fret_real x) {
     return m->mu_eta * (u + l->sigma * (outer_of(m, l)->y[DEPTH] - y));
 }
 
-/* int |u (delta_x-u)| dK over a part of a layer, of thickness h, without a change of sign within: with t the
- * distance from its outer end u = u0 + s t and delta_x-u = v0 - s t. */
+/* int |u (delta_x-u)| dK over a part of a layer, of thickness h, in which the sign does not change: with t
+ * the distance from its outer end, u = u0 + s t and delta_x-u = v0 - s t. */
 static fret_real slip_part(const fret_memory *m, const fret_level *outer, fret_real h, fret_real u0,
                            fret_real v0, fret_real s) {
     const fret_slice part = fret_law_slice(m->normal, outer, h);
@@ -206,7 +206,7 @@ static fret_real slip_part(const fret_memory *m, const fret_level *outer, fret_r
     return fabsl(ends + s * (v0 - u0) * part.G - s * s * t2);
 }
 
-/* The same over a layer, cut where u or delta_x-u changes sign. */
+/* The same over a layer, in parts between the zeros of u and of delta_x-u. */
 static fret_real slip_layer(const fret_memory *m, const fret_level *outer, fret_real h, fret_real u0,
                             fret_real v0, fret_real s) {
     fret_real cut_at[2] = {s != 0 ? -u0 / s : 0, s != 0 ? v0 / s : 0}, sum = 0, from = 0;
@@ -235,7 +235,7 @@ fret_real fret_memory_slip_work(const fret_memory *m) {
         const layer *l = &m->layers[i];
         const point *end = outer_of(m, l);
         const fret_level outer = {end->y[DEPTH], end->y[LOAD]};
-        /* to the very centre, where K may rise so steeply that the rounding of a thickness shows */
+        /* exactly to the centre, where a steep K would show the rounding of a thickness */
         const fret_real h = i ? layer_thickness(l, end, DEPTH) : outer.y, s = m->mu_eta * l->sigma;
         sum += slip_layer(m, &outer, h, u, dx - u, s);
         u += s * h;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The exact memory diagram under any law: what fret/contact.h says of one that has not swung. Not installed.
- */
+/* The exact memory diagram, under any law, for FRET_EXACT contacts that are not curved. Not installed. */
 #ifndef FRET_HISTORY_MEMORY_H
 #define FRET_HISTORY_MEMORY_H
 
@@ -28,13 +27,13 @@ bool fret_memory_segment(const fret_memory *memory, size_t i, fret_segment *out)
 fret_real fret_memory_displacement(const fret_memory *memory, fret_real x);
 fret_real fret_memory_slip_work(const fret_memory *memory);
 
-/* The edge with its radius, and all digits. */
+/* The normal contact at the edge of the curve. */
 fret_press fret_memory_pressed(const fret_memory *memory);
 
-/* Room for `count` layers. Error: FRET_NO_MEMORY. */
+/* Makes room for `count` layers. Error: FRET_NO_MEMORY. */
 fret_status fret_memory_reserve(fret_memory *memory, size_t count);
 
-/* As fret/contact.h packs: how many numbers there are, what they are, and back. */
+/* For fret_contact_pack and _unpack: the length of the array, writing it, and reading it back. */
 size_t fret_memory_packed(const fret_memory *memory);
 void fret_memory_pack(const fret_memory *memory, double out[]);
 fret_status fret_memory_unpack(fret_memory *memory, const double from[], size_t count);

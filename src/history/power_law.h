@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A power law v ~ y^s, load by depth or depth by load, in numbers of the kind NUMBER, and what a slice of it
- * bends. FUNCTION(f) is libm's f for that kind, POWER(x, s) a power. Included once for each kind; pure. */
+/* A power law v ~ y^s, load of depth or depth of load, for numbers of type NUMBER, and its bending over
+ * slices. FUNCTION(f) is libm's f for that type, POWER(x, s) a power. Included once for each type; pure. */
 #include "number/bits.h"
 #include "number/real.h"
 
-/* Powers go by square roots up to s = 4, where 2 s is a whole number (sphere, cone at k = 0). */
+/* Up to s = 4 powers with whole 2 s (sphere, cone at k = 0) are products of x and sqrt(x). */
 enum { LAW_HALVES = 8 };
 
-/* Three series, whose later terms, taken by pairs, are so small that double will do. */
+/* Three series; their later terms, in pairs, are so small that double suffices. */
 typedef double law_pair __attribute__((vector_size(16)));
 enum { CROSS, EVEN, ODD, LAW_SERIES, LAW_LEADING = 2, LAW_PAIRS = 14 };
 
 typedef struct power_law {
     NUMBER s, sm1, bend; /* sm1 = s-1 without cancellation; bend = |s (s-1)| */
-    int halves;          /* 2 s where powers go by square roots, else 0 */
-    NUMBER per_y, v;     /* 1/y and v of a y near the largest so far */
+    int halves;          /* 2 s if powers are products of x and sqrt(x), else 0 */
+    NUMBER per_y, v;     /* 1/y and v at a reference point near the present one */
     NUMBER per_reach;    /* the series are in (rho/reach)^2, and good up to 1/4 */
     NUMBER leading[LAW_LEADING][LAW_SERIES];
     law_pair later[LAW_PAIRS][LAW_SERIES];
 } power_law;
 
-/* With b the law's second derivative over a slice from c (1-rho) to c (1+rho), each of
+/* With b = v'' over a slice from c (1-rho) to c (1+rho), u the distance from c in units of c, each of
  *   int (rho^2-u^2) b du,   int (rho^2+u^2) b du,   2 rho int u b du
- * is rho^3 s (s-1) v(c) times a series in rho^2, the last one times rho too, by the binomial series of
- * (1+u)^(s-2). v(c) follows from the ends, whose mean is v(c) times the even part of (1+rho)^s: the
- * coefficients kept are those of the quotients, which converge up to rho = tan(pi/(2s)), at most 1. */
+ * is rho^3 s (s-1) v(c) times a series in rho^2, the last one also times rho, by the binomial series of
+ * (1+u)^(s-2). v(c) follows from the values at the ends, whose mean is v(c) times the even part of (1+rho)^s:
+ * the coefficients kept are those of the quotients, which converge up to rho = tan(pi/(2s)), at most 1. */
 static inline void power_make(fret_real s, fret_real sm1, power_law *out) {
     enum { TERMS = LAW_LEADING + 2 * LAW_PAIRS };
     const fret_real reach = s > 2 ? tanl(FRET_PI / (2 * s)) : 1, twice = 2 * s;
@@ -63,7 +63,7 @@ static NUMBER power_of(const power_law *p, NUMBER x) {
     return product;
 }
 
-/* v(y), y >= 0. Hertz's root in a line: a call takes as long. */
+/* v(y), y >= 0. Hertz's s = 3/2 is inline: a call takes as long as the root. */
 FRET_INLINE NUMBER power_value(const power_law *p, NUMBER y) {
     const NUMBER x = y * p->per_y;
     if (!(x > 0))
@@ -73,21 +73,20 @@ FRET_INLINE NUMBER power_value(const power_law *p, NUMBER y) {
 
 /* ---- what a slice bends ------------------------------------------------------------------------ */
 
-/* A coordinate and the other one, and where the law has them: SPOT, all zeros where it has not looked. */
+/* A place: a coordinate, the other one and, if found (not all zeros), its SPOT in the law. */
 typedef struct place {
     NUMBER y, v;
     SPOT at;
 } place;
 
-/* Of a slice of thickness w, t from its outer end, dm = |v''| dy:
- *   int t^2 dm/w^2,   2 int t (w-t) dm/w^2,   int (w-t)^2 dm/w^2. */
+/* The bending of a slice of thickness w, with t the distance from its outer end and dm = |v''| dy:
+ *   inner = int t^2 dm/w^2,   middle = 2 int t (w-t) dm/w^2,   outer = int (w-t)^2 dm/w^2. */
 typedef struct bow {
     NUMBER inner, middle, outer;
 } bow;
 
-/* Of a slice that takes up most of the contact, in closed form, x = inner/outer. A straight line has no bend:
- * of (y/outer)^s = 1 + a (y/outer - 1) + e there counts e alone, with a = 0 for flat laws and 1 for others.
- */
+/* The same for a slice of most of the contact, in closed form, with x = inner/outer. A straight line does not
+ * bend, so (y/outer)^s = 1 + a (y/outer - 1) + e is replaced by e: a = 0 for flat laws, else 1. */
 static bow power_thick_bow(const power_law *p, const place *outer, const place *inner, NUMBER w) {
     const bool flat = p->s < (NUMBER)0.5, straight = p->bend < (NUMBER)0.2;
     const NUMBER x = inner->y / outer->y, h = w / outer->y, s = p->s;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The list of what has slipped. Allocates it. */
+/* The record of slip phases. Allocates it. */
 #include "history/slips.h"
 
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The foundation cut into springs, in double: one loop moves them, and one pass from the edge inwards finds
- * by how much where a force is imposed. Asks the normal law for its radius and its profile alone. Allocates.
- */
+/* The foundation cut into springs, in double: one loop moves them; for an imposed force one pass from the
+ * edge inwards finds the displacement. Of the normal law uses radius and profile alone. Allocates. */
 #include "fret/springs.h"
 
 #include <float.h>
@@ -14,10 +13,9 @@
 #include "number/real.h"
 #include "number/sum.h"
 
-/* Forces are met to this part of mu F_N, which is also what the rounding of mu F_N may be. */
+/* Forces are accurate to this part of mu F_N, which is also the rounding of mu F_N. */
 #define ROUNDING 1e-14L
-/* A spring slips when that part of mu F_N more would move it: it keeps to its bound through many roundings.
- */
+/* A spring counts as slipping if this part of mu F_N more would make it slip, whatever the rounding. */
 #define SLIPS 1e-12L
 
 struct fret_springs {
@@ -25,14 +23,14 @@ struct fret_springs {
     double mu, mu_eta;
     fret_real eta, cell; /* width of a cell [m] */
     fret_real end_dz, end_FN;
-    size_t count, closed; /* springs, and those that the present depth touches: the first */
-    double *g, *w, *u;    /* depth of touch, normal stiffness, displacement */
+    size_t count, closed; /* springs, and how many of them, the first ones, are in contact */
+    double *g, *w, *u;    /* depth at touch, normal stiffness, displacement */
     fret_real *held;      /* [i]: stiffness of springs 0..i-1 */
     fret_real *touch;     /* [i]: F_N where spring i touches */
     fret_real dz, FN, dx, Fx;
-    fret_real goal; /* F_x as it was asked for, or as it came out of a displacement */
+    fret_real goal; /* F_x as imposed, or as it follows from a displacement */
     int direction;  /* of the last tangential motion */
-    bool by_depth;  /* F_N came out of a depth */
+    bool by_depth;  /* F_N follows from an imposed depth */
     fret_sum W;
 };
 
@@ -48,19 +46,19 @@ static bool allocate(fret_springs *s, size_t count) {
     return s->g && s->held;
 }
 
-/* int of x^k over cell i of width 1: x+^(k+1)-x-^(k+1) without the cancellation at large i. */
+/* int x^k dx over cell i of width 1, (x+^(k+1)-x-^(k+1))/(k+1), without cancellation at large i. */
 static fret_real cell_weight(size_t i, fret_real k) {
     const fret_real outer = (fret_real)i + 1, k1 = 1 + k;
     return fret_pow(outer, k1) * -expm1l(k1 * log1pl(-1 / outer)) / k1;
 }
 
-/* Unfinished where it is stopped. */
+/* Computes g, w and the sums; may end early if stopped. */
 static void fill(fret_springs *s, fret_weight rule) {
-    enum { LOOK = 64 }; /* springs after which the stop flag is looked at */
+    enum { SPAN = 64 }; /* springs between looks at the stop flag */
     const fret_foundation *f = fret_normal_foundation(s->normal);
     const fret_real scale = 2 * f->cN0 * s->cell * fret_pow(s->cell / f->c0, f->k);
     fret_real stiffness = 0, force = 0;
-    for (size_t i = 0; i < s->count && (i % LOOK || !fret_stopped(s->normal)); i++) {
+    for (size_t i = 0; i < s->count && (i % SPAN || !fret_stopped(s->normal)); i++) {
         const fret_real mid = (fret_real)i + 0.5L, last = i ? s->g[i - 1] : 0;
         s->w[i] = (double)(scale * (rule == FRET_WEIGHT_CELL ? cell_weight(i, f->k) : fret_pow(mid, f->k)));
         /* rounding must not undo the order of touch */
@@ -73,7 +71,7 @@ static void fill(fret_springs *s, fret_weight rule) {
     s->held[s->count] = stiffness;
 }
 
-/* What presses to the radius: of a flat punch it may be anything. */
+/* The normal contact of the largest radius; for a flat punch, any load. */
 static fret_status press_of(const fret_normal *normal, double radius, fret_press *out) {
     if (!fret_normal_punch(normal) || radius != normal->end)
         return fret_press_by_radius(normal, radius, out);
@@ -158,7 +156,7 @@ static size_t springs_below(const fret_springs *s, double dz) {
     return lo;
 }
 
-/* Sum of w (z - g) over the springs before `end`, which all touch at depth z: of positive terms. */
+/* Sum of w (z - g) over the springs before `end`, all in contact at depth z: positive terms alone. */
 static fret_real load_inside(const fret_springs *s, size_t end, fret_real z) {
     return end ? s->touch[end - 1] + s->held[end] * (z - s->g[end - 1]) : 0;
 }
@@ -183,10 +181,9 @@ static fret_real depth_of_force(const fret_springs *s, fret_real FN) {
 
 /* ---- steps ------------------------------------------------------------------------------------- */
 
-/* Straight in (delta_z, delta_x), all springs that it touches. A spring is moved for the part of the step
- * during which it is in contact. On a straight path one that has begun to slip goes on to the end, so the
- * bound at both ends decides; it slips at a steady rate since its onset, while the bound goes linearly to its
- * end. */
+/* Moves all springs along a straight path in (delta_z, delta_x), each for the part of it during which it is
+ * in contact. On a straight path a spring that has begun to slip slips to the end: the bounds at the ends
+ * decide. It slips at a constant rate from its onset, while the bound changes linearly. */
 static void advance(fret_springs *s, fret_real dz, fret_real dx) {
     const double z0 = (double)s->dz, z1 = (double)dz, ddx = (double)(dx - s->dx), deepest = larger(z0, z1),
                  inverse = z0 == z1 ? DBL_MAX : 1 / fabs(z1 - z0);
@@ -212,16 +209,16 @@ static void advance(fret_springs *s, fret_real dz, fret_real dx) {
     s->dx = dx;
 }
 
-/* The change of delta_x that brings F_x on the way to depth z, up to rounding. No history makes u steeper in
- * g than the bound is, so springs begin to slip one after the other from the edge inwards, all to one side,
- * and the front is found in one pass over those that slip. Sums are of w u. */
+/* The change of delta_x that leads to F_x at depth z, up to rounding. In no history is u steeper in g than
+ * the bound, so springs begin to slip one after the other from the edge inwards, all in one direction: one
+ * pass over those that slip finds the front. Sums are of w u. */
 static fret_real displacement_of_front(const fret_springs *s, fret_real z, fret_real Fx) {
     const fret_real z0 = fmaxl(s->dz, 0), z1 = fmaxl(z, 0), deeper = fmaxl(z1 - z0, 0);
     size_t inside = s->closed;
-    fret_real missing = (Fx - s->Fx) * s->eta, slipping = 0, left = 0; /* left: room of the next to slip */
-    for (; inside > 0 && !(s->g[inside - 1] < (double)z1); inside--)   /* parted on the way */
+    fret_real missing = (Fx - s->Fx) * s->eta, slipping = 0, left = 0; /* left: to the bound */
+    for (; inside > 0 && !(s->g[inside - 1] < (double)z1); inside--)   /* parted */
         missing += (fret_real)s->w[inside - 1] * s->u[inside - 1];
-    /* what springs touched on the way add per displacement, up to that of their bound */
+    /* springs touched on the path add this stiffness, until they slip */
     const fret_real touching = deeper > 0 ? (load_inside(s, springs_below(s, (double)z1), z1) -
                                              load_inside(s, inside, z1)) /
                                                 deeper
@@ -242,16 +239,16 @@ static fret_real displacement_of_front(const fret_springs *s, fret_real z, fret_
     return sign * left;
 }
 
-/* To a load, at its depth, and a force; a second time for what the rounding of many springs leaves. */
+/* Moves to a load, its depth and a force; a second pass corrects the rounding of many springs. */
 static void follow(fret_springs *s, fret_real load, fret_real depth, fret_real force) {
     const fret_real limit = s->mu * load, to = fminl(fmaxl(force, -limit), limit);
     for (int pass = 0; pass < 2 && (pass == 0 || fabsl(to - s->Fx) > ROUNDING * limit); pass++)
         advance(s, depth, s->dx + displacement_of_front(s, depth, to));
 }
 
-/* The last part of a way to no load, where displacements go with a power of it: in parts ever smaller, down
- * to a single spring, which parts where its force ends. */
-static void let_go(fret_springs *s, fret_real load, fret_real force, unsigned parts) {
+/* The last part of an unloading to F_N = 0, where displacements follow a power of the load: in ever smaller
+ * parts, down to a single spring, which parts when its force is 0. */
+static void release(fret_springs *s, fret_real load, fret_real force, unsigned parts) {
     const fret_real least = load * 1e-20L;
     while (s->closed > 1 && load > least && !fret_stopped(s->normal)) {
         for (unsigned j = parts - 1; j >= 1; j--) {
@@ -266,24 +263,24 @@ static void let_go(fret_springs *s, fret_real load, fret_real force, unsigned pa
     advance(s, 0, s->dx);
 }
 
-static void walk_forces(fret_springs *s, fret_real FN, fret_real dz, fret_real Fx, unsigned substeps) {
+static void step_by_force(fret_springs *s, fret_real FN, fret_real dz, fret_real Fx, unsigned substeps) {
     enum { FEWEST = 8 };
     const fret_real FN0 = s->FN, Fx0 = s->Fx;
     const bool opens = FN == 0 && FN0 > 0;
-    s->dz = fmaxl(s->dz, 0); /* an open contact closes without load */
+    s->dz = fmaxl(s->dz, 0); /* an open contact closes first */
     for (unsigned j = 1; j < substeps + !opens && !fret_stopped(s->normal); j++) {
         const fret_real t = (fret_real)j / substeps, rest = (fret_real)(substeps - j) / substeps,
                         load = FN0 * rest + FN * t;
         fret_real depth = j == substeps ? fmaxl(dz, 0) : depth_of_force(s, load);
         if (FN == FN0)
-            depth = s->dz; /* rounding must not make it breathe */
+            depth = s->dz; /* else rounding would change the depth */
         follow(s, load, depth, Fx0 * rest + Fx * t);
     }
     if (opens)
-        let_go(s, FN0 / substeps, Fx0 / substeps, substeps > FEWEST ? substeps : FEWEST);
+        release(s, FN0 / substeps, Fx0 / substeps, substeps > FEWEST ? substeps : FEWEST);
 }
 
-static void walk_displacements(fret_springs *s, fret_real dz, fret_real dx, unsigned substeps) {
+static void step_by_displacement(fret_springs *s, fret_real dz, fret_real dx, unsigned substeps) {
     const fret_real dz0 = s->dz, dx0 = s->dx;
     for (unsigned j = 1; j < substeps && !fret_stopped(s->normal); j++) {
         const fret_real t = (fret_real)j / substeps, rest = (fret_real)(substeps - j) / substeps;
@@ -292,14 +289,14 @@ static void walk_displacements(fret_springs *s, fret_real dz, fret_real dx, unsi
     advance(s, dz, dx);
 }
 
-static void turn(fret_springs *s, fret_real before, fret_real after) {
+static void set_direction(fret_springs *s, fret_real before, fret_real after) {
     if (after != before)
         s->direction = after < before ? -1 : 1;
 }
 
 /* Depth and load at the end of a step. */
 static fret_status normal_end(const fret_springs *s, const fret_step *step, fret_real *dz, fret_real *FN) {
-    const fret_real slack = 1 + 1e-12L; /* radius was rounded */
+    const fret_real slack = 1 + 1e-12L; /* rounding of radius */
     fret_status st = fret_ok();
     *dz = s->dz;
     *FN = s->FN;
@@ -324,7 +321,7 @@ static fret_status normal_end(const fret_springs *s, const fret_step *step, fret
     return st;
 }
 
-/* mu F_N [N] as the continuum has it, which the cells' sum misses by the error of the cells. */
+/* mu F_N [N] of the continuum, from which the sum over cells differs by the error of the cells. */
 static fret_real limit_of(const fret_springs *s, fret_real dz, fret_real FN, bool by_depth) {
     fret_press press;
     const bool known = by_depth && dz > 0 && !fret_press_by_depth(s->normal, (double)dz, &press).code;
@@ -350,13 +347,13 @@ fret_status fret_springs_step(fret_springs *s, const fret_step *step, unsigned s
             return fret_fail(FRET_GROSS_SLIP, "Fx", step->tangential, (double)fmaxl(limit, own));
         const fret_real Fx =
             copysignl(size >= limit * (1 - ROUNDING) ? own : fminl(size, own), step->tangential);
-        turn(s, s->goal, Fx); /* which rounding must not make a reversal */
-        walk_forces(s, FN, dz, Fx, substeps);
+        set_direction(s, s->goal, Fx); /* compared with the imposed F_x: no reversal by rounding */
+        step_by_force(s, FN, dz, Fx, substeps);
         s->goal = Fx;
     } else {
         const fret_real dx = step->tangential_by == FRET_TO_DX ? (fret_real)step->tangential : s->dx;
-        turn(s, s->dx, dx);
-        walk_displacements(s, dz, dx, substeps);
+        set_direction(s, s->dx, dx);
+        step_by_displacement(s, dz, dx, substeps);
         s->goal = s->Fx;
     }
     s->dz = dz;
@@ -371,7 +368,7 @@ void fret_springs_state(const fret_springs *s, fret_state *out) {
     size_t sticking = s->closed;
     for (size_t i = s->closed; i-- > 0;) {
         const double bound = s->mu_eta * ((double)s->dz - s->g[i]), u = s->u[i];
-        /* as long as those outside slip, the force moves this one and those within */
+        /* while all springs outside slip, a force moves this one and those inside */
         if (sticking == i + 1 && s->held[i + 1] * (bound - fabs(u)) <= little)
             sticking = i;
         if (s->held[i + 1] * (bound - s->direction * u) > little)

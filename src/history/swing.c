@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The memory curve in (M, P): cut and grown along the ways of the load, and what they dissipate. Allocates
- * its arcs. */
+/* The memory curve in (M, P): cuts and extends it along paths of the load, and sums the losses. Allocates its
+ * arcs. */
 #include "history/swing.h"
 
 #include <float.h>
@@ -11,7 +11,7 @@
 #include "number/array.h"
 #include "number/real.h"
 
-/* Of two that are harmonic, and meet where both rise: then their lags are the same, too. */
+/* True if two harmonic paths that meet while both coordinates rise are one: then their lags agree too. */
 static bool same_way(const way *a, const way *b) {
     return a->mean == b->mean && a->size[M] == b->size[M] && a->size[P] == b->size[P];
 }
@@ -24,7 +24,7 @@ static fret_status reserve(fret_swing *c, size_t count) {
                : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
 }
 
-/* What a force of the present size is known to. */
+/* The rounding errors of forces of the present size. */
 static fret_real noise(const fret_swing *c) {
     return 512 * LDBL_EPSILON * c->scale;
 }
@@ -37,7 +37,7 @@ fret_real fret_swing_other(const arc *p, int which, fret_real level) {
     return p->first[other] + (p->last[other] - p->first[other]) * part;
 }
 
-/* Which arc the level of `which` crosses; NULL: none. */
+/* The arc that the level of `which` crosses, or NULL. */
 static const arc *crossed(const fret_swing *c, int which, fret_real level) {
     for (size_t i = c->count; i-- > 0;) {
         const arc *p = &c->arcs[i];
@@ -47,7 +47,7 @@ static const arc *crossed(const fret_swing *c, int which, fret_real level) {
     return NULL;
 }
 
-/* The other coordinate where the curve crosses it. */
+/* The other coordinate of the curve at that level. */
 static fret_real curve_other(const fret_swing *c, int which, fret_real level) {
     const arc *p = crossed(c, which, level);
     return p ? fret_swing_other(p, which, fminl(level, p->last[which])) : 0;
@@ -60,8 +60,8 @@ static fret_status append(fret_swing *c, const arc *p) {
     return st;
 }
 
-/* Are two straight arcs one, to the rounding of targets? Not where a curve in the smallest steps would pass
- * for straight. */
+/* True if two straight arcs form one line, to the rounding of targets; false for very short ones, else a
+ * curve in tiny steps would become one line. */
 static bool in_line(const fret_swing *c, const arc *a, const arc *b) {
     const fret_real rounding = 4 * DBL_EPSILON * c->scale, least = 1e-7L * c->scale;
     const fret_real m = b->last[M] - a->first[M], p = b->last[P] - a->first[P];
@@ -70,7 +70,7 @@ static bool in_line(const fret_swing *c, const arc *a, const arc *b) {
            fmaxl(b->last[M] - b->first[M], b->last[P] - b->first[P]) > least;
 }
 
-/* Parts of one way are one arc. */
+/* Appends an arc, or extends the last one if it is on the same path or line. */
 static fret_status grow(fret_swing *c, const arc *p) {
     if (!c->count)
         return append(c, p);
@@ -85,7 +85,7 @@ static fret_status grow(fret_swing *c, const arc *p) {
     return fret_ok();
 }
 
-/* Cut at the level of `which`, then straight to the end. */
+/* Cuts the curve at the level of `which` and goes straight to the end. */
 static fret_status cut(fret_swing *c, int which, fret_real level, const fret_real end[2]) {
     while (c->count && c->arcs[c->count - 1].last[which] > level &&
            c->arcs[c->count - 1].first[which] >= level)
@@ -120,22 +120,22 @@ typedef struct slip {
     fret_real lo, hi, end; /* end: the level at hi */
 } slip;
 
-/* [F(D)-F(d)-(D-d) F'(d)]/F'(d) [m]: D the depth of the load `edge`, d that of `front` >= 0; zone: the
- * difference of the loads by itself. */
+/* [F(D)-F(d)-(D-d) F'(d)]/F'(d) [m], D the depth of the load `edge`, d that of `front` >= 0; zone = edge -
+ * front, with all digits. */
 static fret_real loss_rate(const fret_normal *n, fret_real edge, fret_real front, fret_real zone) {
     if (!(zone > 0))
         return 0;
     fret_place at[2] = {{0, 0}, {0, 0}};
     const fret_level outer = {fret_law_other(n, true, edge, &at[0]), edge};
     const fret_slice s = fret_law_slice_to(n, &outer, true, zone, front, at);
-    return s.K > 0 ? s.G / s.K : 0; /* the centre has no weight */
+    return s.K > 0 ? s.G / s.K : 0; /* at the centre K = 0 */
 }
 
-/* That times the fall of the level. */
+/* That times the rate at which the level falls. */
 static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
     const slip *l = context;
     const fret_real s = l->lo * rest + l->hi * t;
-    /* from the end, where it may be 0 and the rate infinite */
+    /* counted from the end, where the level may be 0 and the rate infinite */
     const fret_real level = l->way->harmonic ? way_at(l->way, l->which, s)
                                              : l->end - l->way->span[l->which] * ((l->hi - l->lo) * rest);
     const fret_real other = way_at(l->way, 1 - l->which, s), inner = curve_other(l->curve, l->which, level);
@@ -143,11 +143,11 @@ static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
            way_fall(l->way, l->which, s);
 }
 
-/* instants closer than so much, of the greatest, are one */
+/* values of s closer than this, relative to the largest, are one */
 static const fret_real CLOSE = 16 * LDBL_EPSILON;
 
-/* The first instant after lo at which a falling coordinate (bits: 1 M, 2 P) meets an end of an arc, of
- * `count`, or hi. */
+/* The first s after lo at which a falling coordinate (bits: 1 M, 2 P) reaches an end of one of `count` arcs,
+ * or hi. */
 static fret_real next_crossing(const fret_swing *c, size_t count, const way *w, int coordinates, fret_real lo,
                                fret_real hi) {
     const fret_real close = CLOSE * fmaxl(1, fabsl(hi));
@@ -168,17 +168,17 @@ static fret_real next_crossing(const fret_swing *c, size_t count, const way *w, 
     return next;
 }
 
-/* Where the front comes near the centre at the end, the rate, a power of its level, is singular as near to
- * that end in the plane of complex instants: a part is no longer than twice that distance and what follows
- * it. */
+/* The end of the next part of an integral. The rate is a power of the level: if the front is near the centre
+ * at hi, its singularity is about as near to hi in the complex plane of s. Parts longer than twice that
+ * distance are halved. */
 static fret_real part_end(const way *w, int which, fret_real lo, fret_real hi) {
     const fret_real level = way_at(w, which, hi);
     const fret_real distance = w->harmonic ? sqrtl(2 * level / w->size[which]) : level / -w->span[which];
     return hi - lo > 2 * distance && hi - lo > 1e-6L ? (lo + hi) / 2 : hi;
 }
 
-/* For who keeps what slips. */
-static void tell(const fret_swing *c, const slip *l) {
+/* Adds a phase to the record of slip. */
+static void record(const fret_swing *c, const slip *l) {
     fret_slips *all = c->slips;
     const arc *front = crossed(c, l->which, way_at(l->way, l->which, (l->lo + l->hi) / 2));
     if (!all || !front)
@@ -190,7 +190,7 @@ static void tell(const fret_swing *c, const slip *l) {
     fret_slips_add(all, &(slip_phase){.kind = SWUNG, .gain = 1, .swung = all->swings++});
 }
 
-/* Between two instants with the front at the level of `which`, which falls. */
+/* Slip between two values of s, with the front at the level of `which`, which falls. */
 static fret_status slip_between(fret_swing *c, const way *w, int which, fret_real lo, fret_real hi) {
     slip l = {.curve = c, .way = w, .which = which, .lo = lo};
     while (l.lo < hi) {
@@ -198,40 +198,40 @@ static fret_status slip_between(fret_swing *c, const way *w, int which, fret_rea
         l.end = way_at(w, which, l.hi);
         const fret_real loss = (l.hi - l.lo) * fret_swing_integral(c, slip_rate, &l);
         c->last_loss += loss > 0 ? loss : 0;
-        tell(c, &l);
+        record(c, &l);
         l.lo = l.hi;
     }
     const fret_real end[2] = {way_at(w, M, hi), way_at(w, P, hi)};
     return cut(c, which, end[which], end);
 }
 
-/* Does P lie above the curve (1), below it (-1), or on it? */
+/* 1 if the point on the path lies above the curve, -1 if below, 0 if on it. */
 static int side_of(const fret_swing *c, const way *w, fret_real s) {
     const fret_real above = way_at(w, P, s) - curve_other(c, M, way_at(w, M, s));
     return fabsl(above) <= 4 * noise(c) ? 0 : above > 0 ? 1 : -1;
 }
 
-/* Where one looks for a change of sides, as a part of the way: closer towards its ends, since what is missed
- * there counts by its third power in the loss. */
-enum { LOOKS = 24, CLOSER = 12, HALVINGS = 64 };
+/* Sample points for a change of sides, as a part of the path: denser towards its ends, since a change missed
+ * there affects the loss by the third power of its distance. */
+enum { SAMPLES = 24, CLOSER = 12, HALVINGS = 64 };
 
-static fret_real look(int i) {
-    const fret_real first = 0.5L / (fret_real)LOOKS;
+static fret_real sample(int i) {
+    const fret_real first = 0.5L / (fret_real)SAMPLES;
     if (i < CLOSER)
         return ldexpl(first, i - CLOSER);
-    if (i >= CLOSER + LOOKS)
-        return 1 - ldexpl(first, CLOSER + LOOKS - 1 - i);
+    if (i >= CLOSER + SAMPLES)
+        return 1 - ldexpl(first, CLOSER + SAMPLES - 1 - i);
     return first * (1 + 2 * (i - CLOSER));
 }
 
-/* Up to when, at most hi, is the way on the side that it is on after lo? Where it begins on the curve it has
- * to leave it first. */
+/* Returns the side of the path after lo, and sets *hi to where it leaves that side. If the path begins on the
+ * curve, its side is the first one that the first samples find. */
 static int side_until(const fret_swing *c, const way *w, fret_real lo, fret_real *hi) {
     const fret_real length = *hi - lo;
     fret_real before = lo;
     int side = 0;
-    for (int i = 0; i < CLOSER + LOOKS + CLOSER; i++) {
-        fret_real after = lo + length * look(i);
+    for (int i = 0; i < CLOSER + SAMPLES + CLOSER; i++) {
+        fret_real after = lo + length * sample(i);
         const int now = side_of(c, w, after);
         if (side == 0 && i <= CLOSER / 2)
             side = now;
@@ -248,22 +248,22 @@ static int side_until(const fret_swing *c, const way *w, fret_real lo, fret_real
     return side;
 }
 
-/* Is the arc straight along this coordinate? */
+/* True if the arc is straight along this coordinate. */
 static bool goes_along(const arc *p, int which) {
     return !p->curved && p->first[1 - which] == p->last[1 - which];
 }
 
-/* Slip is forward above the curve, backward below; there is none on the way back along it. The curve is
- * another after each. */
+/* Both coordinates fall: slip is forward above the curve, backward below; along it there is none. Slip
+ * changes the curve. */
 static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
     fret_status st = fret_ok();
     const fret_real least = 1e-9L * (hi - lo);
-    size_t left = 0; /* a straight arc that has just been left goes with the next fall: its end is no event */
+    size_t left = 0; /* 1 if the last arc is the one that slip has just made: its end is no event */
     while (lo < hi && !st.code && !fret_stopped(c->normal)) {
         const fret_real crossing = next_crossing(c, c->count - left, w, 1 << M | 1 << P, lo, hi);
         fret_real stop = crossing;
         const int side = side_until(c, w, lo, &stop);
-        stop = fminl(fmaxl(stop, lo + least), crossing); /* on, whatever rounding says */
+        stop = fminl(fmaxl(stop, lo + least), crossing); /* progress, against rounding */
         if (side == 0) {
             const fret_real end[2] = {way_at(w, M, stop), way_at(w, P, stop)};
             st = cut(c, M, end[M], end);
@@ -276,7 +276,7 @@ static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_rea
     return st;
 }
 
-/* A part of the way in which both coordinates are monotone. */
+/* Follows a part of the path in which both coordinates are monotone. */
 static fret_status go_between(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
     const fret_real begin[2] = {way_at(w, M, lo), way_at(w, P, lo)},
                     end[2] = {way_at(w, M, hi), way_at(w, P, hi)};
@@ -315,7 +315,7 @@ static void make_harmonic(const fret_swing *c, const fret_sine *sine, way *out) 
 bool fret_swing_fits(const fret_swing *c, const fret_sine *sine, double from) {
     way w;
     make_harmonic(c, sine, &w);
-    /* where a part has left it: to the rounding of the time */
+    /* after another part: to the rounding of the time */
     const fret_real little = (from > 0 ? 16 : 4) * DBL_EPSILON * sine->FN, s = 2 * FRET_PI * from;
     fret_press most;
     if (fret_press_by_force(c->normal, (double)sine->FN + fabs(sine->FNA), &most).code)
@@ -341,14 +341,14 @@ static void add_loss(fret_swing *c) {
     fret_sum_add(&c->W, c->last_loss);
 }
 
-/* The end of a motion. */
-static fret_status known(fret_swing *c) {
+/* Finishes a motion. */
+static fret_status finish(fret_swing *c) {
     fret_swing_know(c);
     return fret_unless_stopped(c->normal, fret_ok());
 }
 
-/* Where it passes through its mean, to the rounding of the time. */
-static fret_real harmonic(fret_real angle) {
+/* cos(angle), with 0 where it is 0 but for the rounding of the time. */
+static fret_real cosine(fret_real angle) {
     const fret_real v = cosl(angle);
     return fabsl(v) < 4 * DBL_EPSILON ? 0 : v;
 }
@@ -369,7 +369,7 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
             if (w.size[i] > 0 && s > lo && s < hi)
                 turn[turns++] = s;
         }
-    for (size_t i = 1; i < turns; i++) /* few */
+    for (size_t i = 1; i < turns; i++) /* insertion sort */
         for (size_t j = i; j > 1 && turn[j] < turn[j - 1]; j--) {
             const fret_real s = turn[j];
             turn[j] = turn[j - 1];
@@ -384,18 +384,17 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
         if (turn[i] - turn[i - 1] > CLOSE * 2 * FRET_PI)
             st = go_between(c, &w, turn[i - 1], turn[i]);
     if (!st.code)
-        st =
-            fret_press_by_force(c->normal, (double)(sine->FN + sine->FNA * harmonic(last + sine->phase)), &p);
+        st = fret_press_by_force(c->normal, (double)(sine->FN + sine->FNA * cosine(last + sine->phase)), &p);
     if (st.code)
         return st;
     add_loss(c);
-    set_edge(c, &p, sine->FA * harmonic(last));
+    set_edge(c, &p, sine->FA * cosine(last));
     if (sine->FA != 0)
         c->direction = (to > 0.5) == (sine->FA > 0) ? 1 : -1;
-    return known(c);
+    return finish(c);
 }
 
-/* Straight between forces, to F_x = mu load. */
+/* A straight path in forces, to F_x = mu load. */
 static fret_status go_straight(fret_swing *c, const fret_press *p, fret_real load) {
     way w = {.harmonic = false};
     const fret_real old = c->Fx / c->mu, begin[2] = {c->FN - old, c->FN + old},
@@ -408,7 +407,7 @@ static fret_status go_straight(fret_swing *c, const fret_press *p, fret_real loa
     return go_between(c, &w, 0, 1);
 }
 
-/* At constant F_N to delta_x: beyond gross slip all of it slides. */
+/* At constant F_N to delta_x; what exceeds delta_x,max is gross slip. */
 static fret_status slide(fret_swing *c, double dx) {
     if (!isfinite(dx))
         return fret_fail(FRET_NOT_FINITE, "dx", dx, 0);
@@ -433,7 +432,7 @@ static fret_status slide(fret_swing *c, double dx) {
     c->direction = sign;
     c->held = true;
     c->goal = dx;
-    return known(c);
+    return finish(c);
 }
 
 fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
@@ -459,7 +458,7 @@ fret_status fret_swing_step(fret_swing *c, const fret_step *step) {
     add_loss(c);
     c->held = false;
     set_edge(c, &p, step->tangential);
-    return known(c);
+    return finish(c);
 }
 
 /* ---- life -------------------------------------------------------------------------------------- */

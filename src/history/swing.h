@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A memory curve from inside: for what follows it, and what integrates along it. Not installed. */
+/* The memory curve under swinging loads, for this room and fields. Not installed. */
 #ifndef FRET_HISTORY_SWING_H
 #define FRET_HISTORY_SWING_H
 
@@ -9,57 +9,55 @@
 #include "number/real.h"
 #include "number/sum.h"
 
-/* The memory diagram under harmonic forces, event by event, no chords. With P = F_N + F_x/mu and M = F_N -
- * F_x/mu the memory of a contact is a curve that rises in both from (0, 0) to the present (M, P); its slice
- * at the load N = (M+P)/2 has the slope sigma = (dP-dM)/(dP+dM). When both grow the curve grows; when M falls
- * below it, it is cut at M and goes straight up (slip forward), when P does, straight across (slip backward).
- * With D and d the depths of the edge and of the cut, forward slip dissipates
- *   dW = -dM mu^2 eta [F_N(D) - F_N(d) - (D-d) F_N'(d)]/F_N'(d),   backward slip the same with dP.
- * A swinging load keeps arcs of its own way as arcs of the curve. */
+/* The memory diagram under harmonic forces, event by event, without chords. With P = F_N + F_x/mu and M = F_N
+ * - F_x/mu the memory is a curve that rises in both from (0, 0) to the present (M, P); at the load N =
+ * (M+P)/2 its slope is sigma = (dP-dM)/(dP+dM). If both grow the curve grows. If M falls the curve is cut at
+ * that M and goes on straight up (slip forward), if P falls, straight across (slip backward). With D and d
+ * the depths of the edge and of the cut, slip forward dissipates
+ *   dW = -dM mu^2 eta [F_N(D) - F_N(d) - (D-d) F_N'(d)]/F_N'(d),   slip backward the same with dP.
+ * A swinging load leaves arcs of its own path in the curve. */
 typedef struct fret_swing fret_swing;
 
-/* Goes on from the state of a memory, closed. Borrows its law, not the memory. Errors: FRET_OUTSIDE (a
+/* Makes a swing from the state of a memory that is in contact. Borrows its law alone. Errors: FRET_OUTSIDE (a
  * table), FRET_NO_MEMORY. */
 fret_status fret_swing_make(const fret_memory *memory, fret_swing **out);
 void fret_swing_free(fret_swing *swing);
 fret_status fret_swing_copy(fret_swing *to, const fret_swing *from);
 
-/* Can it run this: the contact stays closed and slips partially throughout, and is where the period is
- * at the time `from`? */
+/* True if the contact stays closed, slips partially throughout, and is now at the load of the time `from`. */
 bool fret_swing_fits(const fret_swing *swing, const fret_sine *sine, double from);
-/* A part of a period that fits: as fret_contact_swing. */
+/* Follows a part of a period that fits, as fret_contact_swing. */
 fret_status fret_swing_part(fret_swing *swing, const fret_sine *sine, double from, double to);
-/* A step by force, by depth with F_x, or to delta_x at constant F_N; others: FRET_OUTSIDE. */
+/* A step to F_x, or to delta_x at constant F_N; FRET_OUTSIDE for others. */
 fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
 void fret_swing_state(const fret_swing *swing, fret_state *out);
 fret_real fret_swing_last_loss(const fret_swing *swing);
 fret_real fret_swing_displacement(const fret_swing *swing, fret_real x);
-/* The state as a memory: curved arcs in 640 straight ones each. Error: FRET_NO_MEMORY. */
+/* Copies the state to a memory, curved arcs as 640 chords each. Error: FRET_NO_MEMORY. */
 fret_status fret_swing_memory(const fret_swing *swing, fret_memory *out);
 
-/* Two coordinates of a place on the curve or on the way of the load. */
+/* The coordinates of a point on the curve or on the path of the load. */
 enum { M, P };
 
-/* A way of the load over s: straight over 0..1, or harmonic, each coordinate mean + size cos(s - lag). */
+/* A path of the load over s: straight over 0..1, or harmonic, each coordinate mean + size cos(s - lag). */
 typedef struct way {
     bool harmonic;
     fret_real start[2], span[2];
     fret_real mean, size[2], lag[2];
 } way;
 
-/* A part of the curve from the place first to the place last: straight, or the way itself between two
- * instants. */
+/* A part of the curve between two points: straight, or curved along a path from s = lo to hi. */
 typedef struct arc {
     fret_real first[2], last[2];
     bool curved;
     way way;
     fret_real lo, hi;
-    bool known; /* of one that is curved: its sums, from the end of the motion that has changed it on */
+    bool known; /* curved: true once its sums are computed, at the end of a motion */
     fret_real sum[2];
 } arc;
 
-/* Slip by a swinging load, or a straight one of a curve that is none: the level of `which` falls from the
- * time lo to hi of the way, and crosses the arc `front`. */
+/* A phase of slip of a curve with arcs: the coordinate `which` of the path falls from s = lo to hi, and its
+ * level crosses the arc `front`. */
 typedef struct swung_phase {
     way way;
     int which;
@@ -70,10 +68,10 @@ typedef struct swung_phase {
 struct fret_swing {
     const fret_normal *normal;
     double mu;
-    fret_real FN, Fx; /* now; the end of the curve is their M, P */
-    fret_real dz, a;  /* the edge */
+    fret_real FN, Fx; /* at the end of the curve */
+    fret_real dz, a;  /* depth and radius of the edge of contact */
     fret_real slid;   /* delta_x - mu eta int sigma dy */
-    bool held;        /* the last motion ended at delta_x = goal exactly */
+    bool held;        /* delta_x = goal exactly, since the last motion imposed it */
     double goal;
     int direction;
     fret_sum W;
@@ -83,21 +81,21 @@ struct fret_swing {
     fret_slips *slips; /* borrowed, or NULL */
 };
 
-/* On an arc, where the coordinate `which` has the level, the other one. */
+/* The other coordinate where the coordinate `which` of an arc has the level. */
 fret_real fret_swing_other(const arc *p, int which, fret_real level);
 
 /* ---- along the curve --------------------------------------------------------------------------- */
 
-/* Rules of few points are to agree to what the law is good to. */
+/* An integral along the curve, as accurate as the law. */
 static inline fret_real fret_swing_integral(const fret_swing *c, fret_integrand *f, void *context) {
     return fret_integral_ends(f, context, fret_normal_closed(c->normal) ? 1e-17L : 1e-13L);
 }
 
-/* The sums of arcs that have changed: a question only reads. */
+/* Computes the sums of changed arcs, so that later queries only read. */
 void fret_swing_know(fret_swing *c);
 fret_real fret_swing_dx(const fret_swing *c);
-/* Where a front of slip that goes inwards along `which` at constant F_N comes to, for so much of delta_x per
- * mu eta; what is left of it all slides. */
+/* The level of `which` that a slip front reaches at constant F_N when delta_x moves by *left mu eta; *left
+ * becomes what remains as gross slip. */
 fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left);
 
 /* ---- ways -------------------------------------------------------------------------------------- */
@@ -107,21 +105,21 @@ static inline fret_real way_at(const way *w, int which, fret_real s) {
                        : w->start[which] + w->span[which] * s;
 }
 
-/* -d/ds of a coordinate */
+/* -d/ds of a coordinate. */
 static inline fret_real way_fall(const way *w, int which, fret_real s) {
     return w->harmonic ? w->size[which] * sinl(s - w->lag[which]) : -w->span[which];
 }
 
-/* A harmonic way in load N = (M+P)/2, as M, and T = (P-M)/2, as P. */
+/* A harmonic path in the coordinates N = (M+P)/2, in the place of M, and T = (P-M)/2, of P. */
 void fret_swing_loads(const way *w, way *out);
 
-/* The angle less whole turns, within pi of `middle`. */
+/* The angle, moved by whole turns to within pi of `middle`. */
 static inline fret_real turned_to(fret_real angle, fret_real middle) {
     const fret_real turn = 2 * FRET_PI;
     return angle - turn * floorl((angle - middle) / turn + 0.5L);
 }
 
-/* When a coordinate, monotone between lo and hi, has the level. */
+/* The s between lo and hi where a coordinate, monotone there, has the level. */
 static inline fret_real way_when(const way *w, int which, fret_real level, fret_real lo, fret_real hi) {
     fret_real s;
     if (w->harmonic) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a memory curve holds: sums along it, how far a front of slip goes, the state, all of it as a memory.
- */
+/* What follows from the memory curve of a swing: displacement, energy, state, slip fronts, a copy as a
+ * memory. Pure. */
 #include <float.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 
 /* ---- along the curve --------------------------------------------------------------------------- */
 
-/* int sigma dy and int T sigma dy, T = (P-M)/2: displacement and stored energy. */
+/* An integrand: of int sigma dy, or of int T sigma dy, T = (P-M)/2, for the stored energy. */
 typedef struct along {
     const fret_swing *curve;
     const arc *arc;
@@ -65,8 +65,8 @@ static fret_real sum_along(const fret_swing *c, bool energy) {
 
 /* ---- by displacement --------------------------------------------------------------------------- */
 
-/* A front of slip that goes inwards along `which` at constant F_N moves delta_x by mu eta int dw/K over what
- * it passes: w the coordinate, 1/K the compliance at the load. */
+/* A slip front that moves inwards along `which` at constant F_N moves delta_x by mu eta int dw/K, w the
+ * coordinate, 1/K the compliance at the load. */
 typedef struct passing {
     const fret_swing *curve;
     const arc *arc;
@@ -92,7 +92,7 @@ static fret_real passed_less(fret_real s, fret_real *slope, void *context) {
     return passed(l->curve, l->arc, l->which, s) - l->rest;
 }
 
-/* The level at which the front has passed `rest` of a curved arc, `whole` of which would be all. */
+/* The level at which the front has passed `rest` of a curved arc, whose whole is `whole`. */
 static fret_real curved_front(const fret_swing *c, const arc *p, int which, fret_real rest, fret_real whole) {
     passing l = {c, p, which, 0, rest};
     return way_at(&p->way, which,
@@ -137,14 +137,14 @@ void fret_swing_loads(const way *w, way *out) {
     }
 }
 
-/* When the load on the way of a curved arc is N. */
+/* The s at which the load on a curved arc is N. */
 static fret_real time_of(const arc *p, fret_real N) {
     way loads;
     fret_swing_loads(&p->way, &loads);
     return way_when(&loads, M, N, p->lo, p->hi);
 }
 
-/* int sigma dy of the part of an arc that lies outside the depth y, where the load is N. */
+/* int sigma dy over the part of an arc outside the depth y, where the load is N. */
 static fret_real outside(const fret_swing *c, const arc *p, fret_real y, fret_real N) {
     const fret_real N0 = (p->first[M] + p->first[P]) / 2, N1 = (p->last[M] + p->last[P]) / 2;
     if (!(N1 > N && N1 > N0))
@@ -174,25 +174,25 @@ fret_real fret_swing_displacement(const fret_swing *c, fret_real x) {
 
 /* ---- the state --------------------------------------------------------------------------------- */
 
-/* What both ends of an arc are known to where the forces that it was made by are rounded. */
+/* The rounding of the ends of an arc, which come from rounded forces. */
 static fret_real rounding(const fret_swing *c) {
     return 16 * DBL_EPSILON * c->scale;
 }
 
-/* A zone of slip, straight along one coordinate. */
+/* True for a slip zone: straight along one coordinate. */
 static bool is_zone(const fret_swing *c, const arc *p, int which) {
     return !p->curved && fabsl(p->last[1 - which] - p->first[1 - which]) <= rounding(c) &&
            p->last[which] - p->first[which] > rounding(c);
 }
 
-/* Inwards from an arc, past those that are as small as rounding. */
+/* Skips arcs, inwards, that are as small as rounding. */
 static const arc *past_rounding(const fret_swing *c, const arc *from) {
     while (from > c->arcs && from->last[M] - from->first[M] + from->last[P] - from->first[P] <= rounding(c))
         from--;
     return from;
 }
 
-/* The arc that tells the radius of stick, as of a memory. */
+/* The arc that determines the stick radius, as in diagram_body.h. */
 static const arc *outermost(const fret_swing *c) {
     const arc *top = &c->arcs[c->count - 1], *zone = past_rounding(c, top), *next = zone;
     const int which = is_zone(c, zone, P) ? P : M;
@@ -244,7 +244,7 @@ fret_real fret_swing_last_loss(const fret_swing *c) {
 
 enum { SAMPLES = 640 };
 
-/* A straight layer of the memory between two places. */
+/* Appends a straight layer to the memory, between two points. */
 static void put_layer(fret_memory *m, const fret_real from[2], const fret_real to[2]) {
     const fret_real N0 = (from[M] + from[P]) / 2, N1 = (to[M] + to[P]) / 2, load = N1 - N0;
     if (!(load > 0))
@@ -281,7 +281,7 @@ fret_status fret_swing_memory(const fret_swing *c, fret_memory *m) {
     }
     m->edge.y[DEPTH] = m->dz = c->dz;
     m->edge.y[LOAD] = c->FN;
-    m->told = (double)c->FN == c->FN ? LOAD : DEPTH;
+    m->imposed = (double)c->FN == c->FN ? LOAD : DEPTH;
     m->slid = now.dx - m->mu_eta * m->edge.t[DEPTH];
     m->direction = c->direction;
     m->dx = now.dx;
