@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The closed forms of a power law for blocks of loads, in loops that compilers turn into vectors; what these
- * cannot do goes to the functions of cycle.h and normal.h. Pure. */
+/* Closed forms of power laws for blocks of loads, in loops that compilers vectorise; other loads go to the
+ * functions of cycle.h and normal.h. Pure. */
 #include "arrays/arrays.h"
 
 #include <float.h>
@@ -13,12 +13,12 @@
 
 enum { BLOCK = 64, SERIES = 15 };
 
-/* All that does not depend on the load, of a power law. Pairs: high and low part. */
+/* What does not depend on the load, for a power law. Pairs are high and low parts. */
 typedef struct law {
-    double inverse[2], exponent;  /* of mu F_N; of the normal contact of m, F_N(r0) = m 2^exponent */
-    double radius, depth;         /* of the contact, and delta_x,max; r0 and its depth [m] */
-    double radius_power[2], q[2]; /* 1/(n+k+1), n/(n+k+1) */
-    double alpha, sigma, rho, shallow, deep; /* (1+q)/2, 2q/(1+q), r/(1+q), r = 1-q; exponents */
+    double inverse[2], exponent;             /* 1/(mu F_N), or 1/m for presses, F_N(r0) = m 2^exponent */
+    double radius, depth;                    /* a and delta_x,max [m], or for presses r0 and its depth [m] */
+    double radius_power[2], q[2];            /* 1/(n+k+1), n/(n+k+1) */
+    double alpha, sigma, rho, shallow, deep; /* (1+q)/2, 2q/(1+q), r/(1+q), r = 1-q; see loss */
     double scale, cubic;                     /* 4 mu F_N delta_x,max; that times q r */
     double series[SERIES];                   /* in alpha^2 L^2, L = -log(1-t) */
     bool soft;                               /* q < 1/3 */
@@ -35,8 +35,8 @@ static bool tame(double x) {
     return x > 0x1p-900 && x < 0x1p900;
 }
 
-/* (1 + rho^2 + ... + rho^2j)/(2j+3)!, the coefficients of (sinh(x)/x - sinh(rho x)/(rho x))/((1-rho^2) x^2)
- * in x^2. */
+/* (1 + rho^2 + ... + rho^2j)/(2j+3)!, the coefficients of x^2j in
+ *   (sinh(x)/x - sinh(rho x)/(rho x))/((1-rho^2) x^2). */
 static void make_series(double rho, double out[SERIES]) {
     double sum = 0, factorial = 1; /* (2j+1)! */
     for (int j = 0; j < SERIES; j++) {
@@ -46,7 +46,7 @@ static void make_series(double rho, double out[SERIES]) {
     }
 }
 
-/* The powers of load that radius and depth go with: n/(n+k+1) is returned. */
+/* Sets the exponents of radius and depth as powers of the load. Returns n/(n+k+1). */
 static dd set_powers(const fret_normal *normal, law *w) {
     const double n = fret_normal_gap(normal)->power[0].n;
     const dd s = dd_add_d(dd_add_d(dd_from(fret_normal_foundation(normal)->k), 1), n),
@@ -95,8 +95,8 @@ static bool law_of_press(const fret_normal *normal, law *w) {
 
 /* ---- a load ------------------------------------------------------------------------------------ */
 
-/* Of each load a logarithm in two parts, log(1-t) or log(F/F(r0)); t = |F|/(mu F_N) and s = 1-t. By itself: a
- * processor overlaps the turns of a short loop better than those of a long one. */
+/* For each load a logarithm in two parts, log(1-t) or log(F/F(r0)), and t = |F|/(mu F_N), s = 1-t. In a loop
+ * of its own: a processor overlaps the iterations of a short loop better. */
 typedef struct block {
     double high[BLOCK], low[BLOCK], t[BLOCK], s[BLOCK];
 } block;
@@ -109,7 +109,7 @@ FRET_INLINE void take_fractions(const law *w, const double *restrict F, block *r
                      s0 = 1.0 - h.high, s_rest = ((1.0 - s0) - h.high) - rest, s = s0 + s_rest,
                      sl = (s0 - s) + s_rest;
         const reduced r = reduce(s);
-        const bool near = r.e == 0.0; /* 1-t near 1 has lost digits of t */
+        const bool near = r.e == 0.0; /* near s = 1, s has lost digits of t */
         const two log = log_of(choose(near, -t, r.m - 1.0), choose(near, -tl, sl * r.factor), r.e);
         b->high[i] = log.high;
         b->low[i] = log.low;
@@ -118,7 +118,7 @@ FRET_INLINE void take_fractions(const law *w, const double *restrict F, block *r
     }
 }
 
-/* Before mu F_N as it is, at it but for rounding as at gross slip, beyond it NaN. */
+/* `before` below mu F_N, `at` at mu F_N up to rounding, NaN beyond. */
 FRET_INLINE double within(double s, double before, double at) {
     return choose(s >= -DBL_EPSILON, choose(s > DBL_EPSILON, before, at), (double)NAN);
 }
@@ -131,7 +131,7 @@ FRET_INLINE double within(double s, double before, double at) {
 FRET_INLINE void loss(const law *w, const double *restrict F, double *restrict out,
                       double *restrict nothing) {
     const double *const c = w->series;
-    uint64_t any = 0; /* loads are in order most often, and few next to gross slip */
+    uint64_t any = 0; /* loads are mostly sorted: few blocks come near gross slip */
     block b;
     take_fractions(w, F, &b);
     for (int i = 0; i < BLOCK; i++) {
@@ -168,13 +168,13 @@ FRET_INLINE void loading(const law *w, const double *restrict F, double *restric
     }
 }
 
-/* NaN where the exact function is to decide. */
+/* x, or NaN where the exact function must decide. */
 FRET_INLINE double pressed(double F, double x) {
     const bool known = (x >= DBL_MIN) & (x <= DBL_MAX) & (F >= DBL_MIN) & (F <= DBL_MAX);
     return choose(F == 0.0, 0, choose(known, x, (double)NAN));
 }
 
-/* r0 (F/F(r0))^(1/(n+k+1)), and its depth */
+/* a = r0 (F/F(r0))^(1/(n+k+1)), and delta_z likewise */
 FRET_INLINE void press(const law *w, const double *restrict F, double *restrict a, double *restrict dz) {
     block b;
     for (int i = 0; i < BLOCK; i++) {
@@ -211,8 +211,8 @@ FRET_INLINE void press(const law *w, const double *restrict F, double *restrict 
     LOOP(set, target, press)                                                                                 \
     static loop *const set[] = {set##_loss, set##_loading, set##_press};
 
-/* The results of a block, 0 where there is but one for a load; NaN where the exact function is to decide: is
- * there such a load? */
+/* Computes the results of a block, with 0 for a second result that does not exist and NaN where the exact
+ * function must decide. True: there are such loads. */
 typedef bool loop(const law *of, const double *F, double *first, double *second);
 
 SET(plain, )
@@ -229,7 +229,7 @@ static loop *loop_for(fret_arrays_question question, bool anywhere) {
     return plain[question];
 }
 
-/* The same of one load by the functions of cycle.h and normal.h. */
+/* The results for one load, by the functions of cycle.h and normal.h. */
 static fret_status exactly(fret_arrays_question question, const void *of, double F, fret_real out[2]) {
     fret_loading f = {0};
     fret_press p = {0};
@@ -242,7 +242,7 @@ static fret_status exactly(fret_arrays_question question, const void *of, double
     return st;
 }
 
-/* Block by block by the loop, where there is one; what it leaves to the exact function by that. */
+/* Block by block, by the loop for a power law; other shapes, and loads that it leaves out, by `exactly`. */
 fret_status fret_arrays_ask(fret_arrays_question question, const void *of, const double F[],
                             double *const to[2], size_t count, bool anywhere) {
     const bool presses = question == FRET_PRESSES;
@@ -250,7 +250,7 @@ fret_status fret_arrays_ask(fret_arrays_question question, const void *of, const
     fret_real one[2] = {0, 0};
     law w;
     fret_status st = {FRET_OK, NULL, 0, 0};
-    if (!presses) /* are mu and F_N good? */
+    if (!presses) /* checks mu and F_N */
         st = exactly(FRET_LOADINGS, of, 0, one);
     const bool closed = !st.code && (presses ? law_of_press(of, &w) : law_of_contact(of, &w));
     for (size_t i = 0; i < count && !st.code; i += BLOCK) {
@@ -263,7 +263,7 @@ fret_status fret_arrays_ask(fret_arrays_question question, const void *of, const
                 out[0][j] = (double)one[0];
                 out[1][j] = (double)one[1];
                 if (st.code)
-                    n = j; /* results before it are good */
+                    n = j; /* results before it are valid */
             }
         for (int which = 0; which < 2; which++)
             if (to[which])

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What fret/arrays.h does, by loops for every processor too: for tests. Not installed. */
+/* The functions of fret/arrays.h as one, which can also force the plain loops, for tests. Not installed. */
 #ifndef FRET_ARRAYS_ARRAYS_H
 #define FRET_ARRAYS_ARRAYS_H
 
@@ -9,7 +9,8 @@
 
 typedef enum fret_arrays_question { FRET_LOSSES, FRET_LOADINGS, FRET_PRESSES } fret_arrays_question;
 
-/* of: a fret_pressed, for presses a fret_normal. to: as many results as the question has, or NULL. */
+/* Answers `question` for `count` loads F. of: a fret_pressed, or a fret_normal for FRET_PRESSES. to: one or
+ * two arrays of results, or NULL. anywhere: use the loops that run on any processor. */
 fret_status fret_arrays_ask(fret_arrays_question question, const void *of, const double F[],
                             double *const to[2], size_t count, bool anywhere);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Logarithms, exponentials and powers in double that compilers turn into vectors: + - * / and whole words
- * alone, no libm, no branch, no fused multiply-add, so that all instruction sets give the same bits. Not
+/* Logarithms, exponentials and powers in double, in a form that compilers vectorise: + - * / and integer
+ * operations, no libm, no branch, no fused multiply-add, so that all instruction sets give the same bits. Not
  * installed. */
 #ifndef FRET_ARRAYS_POWER_H
 #define FRET_ARRAYS_POWER_H
@@ -8,17 +8,17 @@
 #include "number/bits.h"
 
 #define ONE 0x3ff0000000000000u
-#define INTEGER 0x1.8p52              /* added to |x| < 2^51, rounds it and leaves it in the low bits */
+#define INTEGER 0x1.8p52              /* added to |x| < 2^51, rounds x and leaves it in the low bits */
 #define LN2_HIGH 0x1.62e42fefa3800p-1 /* 42 bits: its product with an exponent is exact */
 #define LN2_LOW 0x1.ef35793c76730p-45
 
-/* a where it holds, else b: by words, since a branch would end the vector. */
+/* holds ? a : b, by bits, since a branch would prevent vectors. */
 FRET_INLINE double choose(bool holds, double a, double b) {
     const uint64_t mask = -(uint64_t)holds;
     return fret_from_bits((fret_bits(a) & mask) | (fret_bits(b) & ~mask));
 }
 
-/* The leading 26 bits: products of two such numbers are exact. */
+/* The leading 26 bits: the product of two such numbers is exact. */
 FRET_INLINE double head(double x) {
     return fret_from_bits(fret_bits(x) & 0xfffffffff8000000u);
 }
@@ -46,9 +46,8 @@ FRET_INLINE reduced reduce(double x) {
                      fret_from_bits(ONE - exponent)};
 }
 
-/* e ln 2 + log(1+f+low), sqrt(1/2) <= 1+f <= sqrt(2), |low| <= ulp(f), to 2^-66: with z = f/(2+f),
- * log(1+f) = 2 atanh z = 2z + 2 z^3 (1/3 + z^2 P), each factor cut so that the product of the leading halves
- * is exact. */
+/* e ln 2 + log(1+f+low), sqrt(1/2) <= 1+f <= sqrt(2), |low| <= ulp(f), to 2^-66: with z = f/(2+f), log(1+f) =
+ * 2 atanh z = 2z + 2 z^3 (1/3 + z^2 P), each factor cut so that products of leading halves are exact. */
 FRET_INLINE two log_of(double f, double low, double e) {
     const double d = 2.0 + f, z = f / d, zh = head(z), dh = head(d), dl = (f - (dh - 2.0)) + low,
                  zl = (((f - zh * dh) - zh * dl) + low) * (0.5 - 0.5 * z), /* 1/(2+f) = (1-z)/2 */
@@ -67,7 +66,7 @@ FRET_INLINE two log_of(double f, double low, double e) {
     return (two){high, (total - high) + rest};
 }
 
-/* exp(x+low) = 2^k (1+p), |x| < 1420, |low| <= ulp(x); k is a number. */
+/* exp(x+low) = 2^k (1+p), |x| < 1420, |low| <= ulp(x); k is an integer. */
 typedef struct exponential {
     double k, p;
 } exponential;
