@@ -93,9 +93,8 @@ void fret_slips_clear(fret_slips *slips);
 size_t fret_slips_count(const fret_slips *slips);
 /* Counts the phases from number `first` on `times` more times, for periods that repeat. */
 void fret_slips_repeat(fret_slips *slips, size_t first, double times);
-/* From here on steps and swings of the contact are recorded in slips, which it borrows; NULL: no longer.
- * Copies of the contact are not recorded, and a copy into it keeps its record. Error: FRET_OUTSIDE
- * (FRET_DOUBLE). */
+/* Records the following steps and swings of the contact in slips, which it borrows; NULL: no longer. Copies
+ * of the contact are not recorded, and a copy into it keeps its record. Error: FRET_OUTSIDE (FRET_DOUBLE). */
 fret_status fret_contact_watch(fret_contact *contact, fret_slips *slips);
 
 /* A swinging load: F_x = FA cos s, F_N = FN + FNA cos(s + phase), s = 0 .. 2 pi. */
@@ -105,11 +104,11 @@ typedef struct fret_sine {
 } fret_sine;
 
 /* Follows the part of a period between the times `from`, which must be the present load, and `to` (0 <= from
- * < to <= 1), along the sine itself, event by event, without chords. Parts end as the whole period does, to
- * rounding. W agrees with 64-digit references to 1e-15 for a power law, to 1e-13 for other shapes and after
- * steps that end within a thousandth of gross slip. Errors: FRET_OUTSIDE, the contact unchanged: FRET_DOUBLE,
- * a table (fret_normal_swings), a load that opens the contact, reaches gross slip or starts elsewhere.
- * FRET_NO_MEMORY, FRET_INTERRUPTED: the contact can then only be reset, copied to or freed. */
+ * < to <= 1), along the sine itself, event by event, without chords. Successive parts end in the state of the
+ * whole, to rounding. W agrees with 64-digit references to 1e-15 for a power law, to 1e-13 for other shapes
+ * and after steps that end within a thousandth of gross slip. Errors: FRET_OUTSIDE, the contact unchanged:
+ * FRET_DOUBLE, a table (fret_normal_swings), a load that opens the contact, reaches gross slip or starts
+ * elsewhere. FRET_NO_MEMORY, FRET_INTERRUPTED: the contact can then only be reset, copied to or freed. */
 fret_status fret_contact_swing(fret_contact *contact, const fret_sine *sine, double from, double to);
 
 /* True if the memory curve has arcs, which swinging loads leave (a curved contact). */
@@ -151,8 +150,7 @@ bool fret_contact_segment(const fret_contact *contact, size_t i, fret_segment *o
  * of mu eta delta_z; if curved, 1e-13. */
 fret_real fret_contact_displacement(const fret_contact *contact, fret_real x);
 
-/* The friction bound on that displacement, B = mu eta (delta_z - g(x)) [m], |u1D| <= B; 0 outside the
- * contact. */
+/* The friction bound on |u1D(x)|, B = mu eta (delta_z - g(x)) [m]; 0 outside the contact. */
 fret_real fret_contact_bound(const fret_contact *contact, fret_real x);
 
 /* Force of the springs times their present slip, W1D = -2 int_0^a c_T |u| |delta_x - u| dx [J], <= 0 (22),
@@ -165,8 +163,7 @@ fret_real fret_contact_slip_work(const fret_contact *contact);
  * friction and exactness. pack sets `count` to the length needed and fails with FRET_OUTSIDE (limit: that
  * length) if `room` is smaller; a curved contact is packed as its chords. unpack fails with FRET_OUTSIDE, the
  * contact unchanged, if the array is no such history. FRET_NO_MEMORY. Both together take 0.15 us for
- * FRET_DOUBLE, 0.3 us for FRET_EXACT, more with many slices: one contact can serve all histories of a
- * code. */
+ * FRET_DOUBLE, 0.3 us for FRET_EXACT, more with many slices: one contact can serve all histories. */
 fret_status fret_contact_pack(const fret_contact *contact, double out[], size_t room, size_t *count);
 fret_status fret_contact_unpack(fret_contact *contact, const double from[], size_t count);
 

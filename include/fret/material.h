@@ -8,7 +8,8 @@
 
 FRET_BEGIN
 
-/* Equation numbers refer to Mathematics 2022, 10, 3641. */
+/* The elastic bodies and the foundation equivalent to them. Equation numbers here and in the other headers
+ * are those of Mathematics 2022, 10, 3641. */
 
 /* One half-space with E(z) = E0 (z/c0)^k; k and c0 are shared by both bodies. */
 typedef struct fret_body {

@@ -166,10 +166,11 @@ static void law_slips(DIAGRAM *d, coordinate by, NUMBER gain, const slip_front *
                       NUMBER travel);
 static void law_slips_all(DIAGRAM *d, NUMBER e, const place *from, const place *to);
 
-/* The loss of a phase of slip: edge and front move linearly from a to b, the front by `travel`. */
+/* The loss of a phase of slip: edge and front move linearly from a to b, the front by `travel`. at: their
+ * places at both ends, outwards; w: the distances between these; start, end: psi at the two in the middle;
+ * middle: its coefficients between places. */
 NOINLINE NUMBER phase_loss(const DIAGRAM *d, coordinate by, slip_front *a, slip_front *b, NUMBER travel) {
-    const NUMBER h0 = lesser(a->thick, a->edge.y),
-                 h1 = lesser(b->thick, b->edge.y), /* whatever rounding says */
+    const NUMBER h0 = lesser(a->thick, a->edge.y), h1 = lesser(b->thick, b->edge.y), /* against rounding */
         growth = b->edge.y - a->edge.y, size = size_of(growth);
     const place *at[4] = {&b->at, &a->at, &a->edge, &b->edge};
     NUMBER w[3] = {travel, h0, size}, start = travel * (h0 + (h1 - travel)) / 2, end = travel * size / 2,

@@ -501,7 +501,9 @@ static void multiply(fret_cell *c, int i, const fret_real *a, const fret_real *b
     }
 }
 
-/* At the centre, where s is small and terms may differ by any factor: series by series, term by term. */
+/* The series of a cell from y' = dy/ds: with k = (K-K0)/s^mu and y' = P1 + s^(q-1) Q1,
+ *   G = int (K-K0) dy,   M = int (y-y0) dK = (y-y0)(K-K0) - G,   L = int M dy,   MP, MQ: the series of M.
+ * At the centre, where s is small and terms may differ by any factor, this goes term by term. */
 static void complete_centre(fret_cell *c) {
     enum { N = FRET_CELL_TERMS };
     const fret_real q = c->q, mu = c->mu, k[N] = {fret_pow(c->width, c->m)};

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The law of a shape without a closed form, in cells, for unit stiffness. Made once, then only read. Not
- * installed. */
+/* The law of a shape without a closed form: cells for unit stiffness, only read once made. Not installed. */
 #ifndef FRET_LAW_CELLS_H
 #define FRET_LAW_CELLS_H
 

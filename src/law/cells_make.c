@@ -57,8 +57,7 @@ static fret_real kink_at(const maker *mk, fret_real e) {
                     : fret_gap_profile(mk->gap, &mk->all->rule, e).g;
 }
 
-/* The beginning of a cell: `at` in x^2 beyond the radius x0. kink: there is a kink; first: and nothing
- * else. */
+/* The beginning of a cell, `at` in x^2 beyond the radius x0; kink: at a kink, first: with nothing else. */
 typedef struct beginning {
     fret_real x0, at;
     bool kink, first;
@@ -129,8 +128,7 @@ static bool grows(maker *mk, const fret_cell *c) {
     return true;
 }
 
-/* Makes cells from the radius x0 on, over `whole` in x^2, at first `width` wide: halved until polynomials
- * fit. */
+/* Makes cells from x0 on, over `whole` in x^2, at first `width` wide: halved until the polynomials fit. */
 static bool add_cells(maker *mk, fret_real x0, fret_real whole, fret_real width, bool kink, bool first) {
     static const fret_real NARROW = 1.0L / 64, WHOLE = 1.2L;
     const fret_real least = NARROW * fminl(width, whole);

@@ -244,8 +244,7 @@ static void far_rounded(const fret_gap *gap, const fret_rule *rule, fret_real x0
 
 /* One row per shape. Without a function: start 0, end infinity, tip 2 (f ~ r^2), no series. */
 typedef struct shape {
-    fret_real (*f)(const fret_gap *,
-                   fret_real r); /* f and profile: beyond the start; NULL if the gap ends there */
+    fret_real (*f)(const fret_gap *, fret_real r); /* f, profile: beyond the start; or NULL */
     fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real e);
     fret_real (*start)(const fret_gap *), (*end)(const fret_gap *), (*tip)(const fret_gap *);
     int (*series)(const fret_gap *, const fret_rule *, fret_real a, fret_term *);

@@ -108,8 +108,8 @@ static size_t reach_of(const struct fret_table *t, size_t i, size_t last, double
     return near;
 }
 
-/* Thins the rows and returns how many remain; only counts them unless `keep`. Keeps the end of the flat
- * part. */
+/* Thins the rows and returns how many remain; only counts them unless `keep`. The flat end keeps its
+ * radius. */
 static size_t thin_out(struct fret_table *t, double within, double most, bool keep) {
     size_t left = 1;
     for (size_t i = 0; i + 1 < t->count && !stopped(t); left++) {

@@ -36,8 +36,7 @@ static fret_real radius_of(const fret_transform *t, size_t row) {
     return t->start + fret_table_distance(t->table, row);
 }
 
-/* By the 8-point Gauss rule in parts of each row: at least four parts a block, since a block may begin at the
- * centre. */
+/* By the 8-point Gauss rule in parts of each row, at least four a block, which may begin at the centre. */
 static void make_moments(const fret_transform *t, block *b) {
     const size_t rows = b->last - b->first;
     const int parts = rows >= 4 ? 1 : rows > 1 ? 2 : 4;
@@ -127,8 +126,7 @@ static fret_real far_sum(const fret_transform *t, const block *b, fret_real D, f
     return sum * fret_pow(D / X, t->m - 1);
 }
 
-/* The integral for f' = c0 + c1 t + c2 t^2, t from a place at the distance v = (x-r)/x from x, by the
- * kernel's moments. */
+/* The integral for f' = c0 + c1 t + c2 t^2, t from a place at v = (x-r)/x from x, by the kernel's moments. */
 static fret_real near_sum(const fret_real c[3], fret_real v, fret_real x, const fret_real moment[3]) {
     const fret_real c1 = c[1] * x, c2 = c[2] * x * x;
     return x * ((c[0] + v * (c1 + v * c2)) * moment[0] - (c1 + 2 * v * c2) * moment[1] + c2 * moment[2]);

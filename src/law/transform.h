@@ -12,8 +12,7 @@ fret_status fret_transform_make(const struct fret_table *table, const fret_rule 
                                 fret_transform **out);
 void fret_transform_free(fret_transform *transform);
 
-/* g at the distance e beyond the row `from`, if the gap goes on from the row `last` <= from by the cubic of
- * that row. */
+/* g at the distance e beyond the row `from`, if the gap goes on from the row `last` <= from by its cubic. */
 fret_real fret_transform_at(const fret_transform *transform, size_t last, size_t from, fret_real e);
 /* The part of g, at the distance e beyond a row, that the jump of f'' at that row adds. */
 fret_real fret_transform_jump(const fret_transform *transform, size_t row, fret_real e);
