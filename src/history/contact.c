@@ -186,32 +186,27 @@ fret_real fret_contact_slip_work(const fret_contact *c) {
 
 /* ---- keeping ----------------------------------------------------------------------------------- */
 
-static fret_status pack_memory(const fret_memory *m, double out[], size_t room, size_t *count) {
-    *count = fret_memory_packed(m);
-    if (*count > room)
-        return fret_fail(FRET_OUTSIDE, "room", (double)room, (double)*count);
-    fret_memory_pack(m, out);
-    return fret_ok();
-}
-
 fret_status fret_contact_pack(const fret_contact *c, double out[], size_t room, size_t *count) {
+    const fret_memory *m = c->memory;
+    fret_memory *chords = NULL;
+    fret_status st = fret_ok();
     if (c->curved) {
-        fret_memory *chords = NULL;
-        fret_status st = fret_memory_make(c->normal, c->mu, &chords);
+        st = fret_memory_make(c->normal, c->mu, &chords);
         if (!st.code)
             st = fret_swing_memory(c->swing, chords);
-        if (!st.code)
-            st = pack_memory(chords, out, room, count);
-        fret_memory_free(chords);
-        return st;
+        m = chords;
     }
-    if (c->memory)
-        return pack_memory(c->memory, out, room, count);
-    *count = fret_diagram_packed(c->diagram);
-    if (*count > room)
-        return fret_fail(FRET_OUTSIDE, "room", (double)room, (double)*count);
-    fret_diagram_pack(c->diagram, out);
-    return fret_ok();
+    if (!st.code) {
+        *count = c->diagram ? fret_diagram_packed(c->diagram) : fret_memory_packed(m);
+        if (*count > room)
+            st = fret_fail(FRET_OUTSIDE, "room", (double)room, (double)*count);
+        else if (c->diagram)
+            fret_diagram_pack(c->diagram, out);
+        else
+            fret_memory_pack(m, out);
+    }
+    fret_memory_free(chords);
+    return st;
 }
 
 fret_status fret_contact_unpack(fret_contact *c, const double from[], size_t count) {

@@ -122,8 +122,7 @@ fret_status fret_loading_by_displacement(const fret_pressed *c, double dx, fret_
     return fret_unless_stopped(c->normal, fret_ok());
 }
 
-/* The loss w(t) by a series of positive terms for -ln s < 3.5, else by (27), arranged for either size of
- * q. */
+/* The loss w(t): for -ln s < 3.5 a series of positive terms, else (27), arranged for either size of q. */
 static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
     const fret_real q = dd_value(q_wide), r = dd_value(r_wide), t = f->t_wide, s = dd_value(f->s);
     if (t <= 0)

@@ -407,7 +407,7 @@ static fret_status go_straight(fret_swing *c, const fret_press *p, fret_real loa
     return go_between(c, &w, 0, 1);
 }
 
-/* At constant F_N to delta_x; what exceeds delta_x,max is gross slip. */
+/* At constant F_N to delta_x; what remains once all springs slip is gross slip. */
 static fret_status slide(fret_swing *c, double dx) {
     if (!isfinite(dx))
         return fret_fail(FRET_NOT_FINITE, "dx", dx, 0);

@@ -435,10 +435,6 @@ bool fret_gap_closed(const fret_gap *gap) {
     return shape_of(gap)->closed;
 }
 
-fret_gap fret_gap_of_table(const struct fret_table *table) {
-    return (fret_gap){.kind = FRET_GAP_TABLE, .table = table};
-}
-
 fret_gap fret_gap_of_worn(const struct fret_worn *worn) {
     return (fret_gap){.kind = FRET_GAP_WORN, .worn = worn};
 }

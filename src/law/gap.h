@@ -52,8 +52,7 @@ int fret_gap_series(const fret_gap *gap, const fret_rule *rule, fret_real a, fre
 /* The same for a flat-ended gap beyond the radius x0 >= 4 b; kappa is 0. */
 int fret_gap_far(const fret_gap *gap, const fret_rule *rule, fret_real x0, fret_term term[FRET_MOST_TERMS]);
 
-/* A gap that consists of a table, or of wear; it borrows that. */
-fret_gap fret_gap_of_table(const struct fret_table *table);
+/* The gap that wear has left; it borrows worn. */
 fret_gap fret_gap_of_worn(const struct fret_worn *worn);
 
 /* True if two gaps that have been checked are the same. */
