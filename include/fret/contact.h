@@ -69,11 +69,11 @@ typedef struct fret_step {
     double tangential; /* delta_x or F_x */
 } fret_step;
 
-/* Performs one straight step. On an error the contact is unchanged. Errors: FRET_GROSS_SLIP (|F_x| above mu
- * F_N by a relative 2.2e-16; limit mu F_N), FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW (FRET_DOUBLE: F_N,
- * delta_z or their product leaves 1e-290 .. 1e290), FRET_TABLE_SHORT, FRET_NOT_MONOTONE, FRET_NO_MEMORY,
- * FRET_OUTSIDE (a curved contact cannot step to delta_x while F_N or delta_z changes: call
- * fret_contact_chords first). FRET_INTERRUPTED: see fret_normal_stop. */
+/* Performs one straight step. On an error the contact is unchanged, except by FRET_INTERRUPTED
+ * (fret_normal_stop). Errors: FRET_GROSS_SLIP (|F_x| above mu F_N by a relative 2.2e-16; limit mu F_N),
+ * FRET_NEGATIVE, FRET_NOT_FINITE, FRET_OVERFLOW (FRET_DOUBLE: F_N, delta_z or their product leaves 1e-290 ..
+ * 1e290), FRET_TABLE_SHORT, FRET_NOT_MONOTONE, FRET_NO_MEMORY, FRET_OUTSIDE (a curved contact cannot step to
+ * delta_x while F_N or delta_z changes: call fret_contact_chords first). */
 fret_status fret_contact_step(fret_contact *contact, const fret_step *step);
 
 /* Switches the computation of dissipated energy, half of the time of a step, on (as at first) or off for the

@@ -38,8 +38,8 @@ void fret_normal_free(fret_normal *normal);
 
 /* Long work on this contact, and on all that borrows it, ends when the flag is set: functions with a status
  * return FRET_INTERRUPTED. Results computed while it is set, by those or by functions without a status, must
- * not be used. A fret_contact or springs whose step was interrupted can only be reset, copied to or freed.
- * The flag must outlive the contact; NULL, the default: nothing stops. */
+ * not be used. After an interrupted step a fret_contact can only be reset, copied to or freed, springs can
+ * only be freed. The flag must outlive the contact; NULL, the default: nothing stops. */
 void fret_normal_stop(fret_normal *normal, fret_stop stop);
 
 /* Relative error of depth that the polynomials leave, estimated from their last terms; NaN: a power law. */
