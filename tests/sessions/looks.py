@@ -79,6 +79,9 @@ def springs(tests):
     text, (stick, slip, band) = script(tests, "springs", "plot springs", SCENE + "step Fx=20 N\n")
     stuck, slid = [p for p in stick if p], [p for p in slip if p]
     tests.check("springs: both are there", len(stuck) > 10 and len(slid) > 10, text[-500:])
+    runs = [sum(bool(p) and not (i and s[i - 1]) for i, p in enumerate(s)) for s in (stick, slip)]
+    tests.check("springs: one line sticks, one slips on either side, and they meet", runs == [1, 2] and
+                {stuck[0], stuck[-1]} < set(slid), "%s %s" % (runs, stuck[-1]))
     rest = [p for p in slid if abs(p[0]) * 1e-6 > A * (1 + 1e-9)]
     tests.check("springs: none slips out of contact", not rest, str(rest[:3]))
     reversed_slip = A * (1 - (36 - 20) / 80) ** (1 / 3)
