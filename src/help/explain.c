@@ -117,13 +117,11 @@ static void put_paths(const page *p) {
 
 /* ---- the model --------------------------------------------------------------------------------- */
 
-/* Is it a result that is extrapolated to infinitely many chords per period of a sine? */
+/* Is it a result that is extrapolated to infinitely many chords per period of a sine: one that follows from
+ * the state, other than c and kt? */
 static bool is_extrapolated(const quantity *q, bool call) {
-    static const char *const names[] = {"Fx", "dx", "W", "U", "dW"};
-    for (size_t i = 0; !call && i < sizeof names / sizeof *names; i++)
-        if (!strcmp(q->name, names[i]))
-            return true;
-    return false;
+    return !call && (q->closed || q->of == OF_STATE) && q->at_state != offsetof(fret_state, c) &&
+           q->at_state != offsetof(fret_state, kt);
 }
 
 /* Gets the value of e at the instant that `run` has reached, or the limit of `levels` runs there. */

@@ -153,7 +153,7 @@ static const quantity quantities[] = {
     {.name = "Vwear", .by = MODEL_BLOCKS, .title = "worn volume so far", .keywords = "wear Archard", .d = VOLUME, .unit = "um^3",
      GETTER(get_Vwear), .reads = READS_WORN, .load = true, .formulas = {{"2 pi int hwear r dr = alpha_w times the work of Nw cycles", NULL, 0}}},
     {.name = "dVwear", .title = "volume worn by the last closed cycle", .keywords = "wear rate Archard", .d = VOLUME, .unit = "um^3",
-     GETTER(get_dVwear), .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dW", NULL, 0}}},
+     GETTER(get_dVwear), .closed = scene_closed_loss, .reads = READS_WORN, .load = true, .formulas = {{"alpha_w dW", NULL, 0}}},
     {.name = "dWd", .title = "energy per cycle by displacement amplitude", .keywords = "hysteresis dissipation gross slip", .d = ENERGY,
      .of = OF_FUNCTION, CALLED(CALL_LOSS, dxA, LENGTH), .reads = READS_TANGENTIAL, .load = true,
      .formulas = {{"dW(FA(dxA)); beyond dxmax gross slip adds 4 mu F_N (dxA-dxmax)", "(26)", 0}}},
