@@ -176,8 +176,13 @@ static const char *model_name(size_t i) {
     return i < MODELS ? models[i].name : NULL;
 }
 
+/* NULL: `set model` cannot ask for it. */
+static const clause *chosen_model(size_t i) {
+    return grammar_clause(setting_form(setting_find("model")), models[i].name);
+}
+
 static entry model_entry(size_t i) {
-    return (entry){.command = models[i].chosen ? "set model " : NULL,
+    return (entry){.command = chosen_model(i) ? "set model " : NULL,
                    .name = models[i].name,
                    .kind = "a model: ",
                    .summary = models[i].title,
@@ -185,9 +190,9 @@ static entry model_entry(size_t i) {
 }
 
 static void model_help(FILE *to, size_t i) {
-    if (models[i].chosen)
-        fprintf(to, "set model %s%s\n  answers by: %s\n\n", models[i].name, models[i].count ? " N" : "",
-                models[i].title);
+    const clause *c = chosen_model(i);
+    if (c)
+        fprintf(to, "set model %s%s\n  answers by: %s\n\n", c->name, c->holes ? " N" : "", models[i].title);
     else
         fprintf(to, "%s\n\n", models[i].title);
     fputs(model_text(i), to);

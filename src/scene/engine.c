@@ -8,15 +8,11 @@
 #include "number/root.h"
 
 const model_row models[MODELS] = {
-    [MODEL_CLOSED] = {.name = "closed", .title = "closed form", .chosen = true},
-    [MODEL_MEMORY] = {.name = "memory", .title = "memory diagram", .chosen = true, .steps = true},
+    [MODEL_CLOSED] = {.name = "closed", .title = "closed form"},
+    [MODEL_MEMORY] = {.name = "memory", .title = "memory diagram", .steps = true},
     [MODEL_QUADRATURE] = {.name = "quadrature", .title = "quadrature"},
     [MODEL_PIECES] = {.name = "polynomials", .title = "polynomials"},
-    [MODEL_SPRINGS] = {.name = "springs",
-                       .title = "springs",
-                       .count = "the number of springs",
-                       .chosen = true,
-                       .steps = true},
+    [MODEL_SPRINGS] = {.name = "springs", .title = "springs", .steps = true},
     [MODEL_BLOCKS] = {.name = "blocks", .title = "blocks of cycles"},
 };
 

@@ -27,8 +27,6 @@ typedef enum model_id {
 typedef struct model_row {
     const char *name;  /* the word of `set model`, also used in answers */
     const char *title; /* shown by explain */
-    const char *count; /* meaning of its number, as in `springs N`; NULL: it takes none */
-    bool chosen;       /* can be chosen by `set model` */
     bool steps;        /* can step along any load; else it has a formula only */
 } model_row;
 

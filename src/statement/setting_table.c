@@ -83,7 +83,7 @@ static bool set_model(shell *sh, lexer *lx, const said *all) {
 static void show_model(const shell *sh, FILE *to) {
     const scene *s = &sh->calc.scene;
     fputs(s->model == MODEL_AUTO ? "auto" : models[s->model].name, to);
-    if (s->model != MODEL_AUTO && models[s->model].count)
+    if (s->springs)
         fprintf(to, " %u", s->springs);
 }
 
