@@ -242,7 +242,8 @@ static void far_rounded(const fret_gap *gap, const fret_rule *rule, fret_real x0
     add_far_cone(gap, rule, x0, -gap->b / (fret_real)gap->R, factor);
 }
 
-/* One row per shape. Without a function: start 0, end infinity, tip 2 (f ~ r^2), no series. */
+/* One row per shape. Without a function: start 0, end infinity, tip 2 (f ~ r^2), no series. A gap that starts
+ * at 0 and is neither powers nor sampled needs an end: cells are cut up to there. */
 typedef struct shape {
     fret_real (*f)(const fret_gap *, fret_real r); /* f, profile: beyond the start; or NULL */
     fret_profile (*profile)(const fret_gap *, const fret_rule *, fret_real e);
