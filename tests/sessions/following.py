@@ -2,6 +2,7 @@
 """Tests inputs bound to definitions: values are the same to the last digits whether what the input depends on is changed in a table,
 by `at`, by `with`, or by a statement."""
 import random
+import re
 
 import harness
 
@@ -21,7 +22,24 @@ def values(done):
     return told or [[row[name] for name in ASKED] for row in lines if "event" not in row]
 
 
+def shapes(tests):
+    """A parameter that changes leaves nothing of the gap before, whatever the row of the geometry."""
+    asked, changes = "a, dz, kn, p(a/2), uz(2*a)", 0
+    for line in re.findall(r"^    geometry (.*)", tests.run("-c", "help geometry").stdout, re.M):
+        shape = re.sub(r"\[[^]|]*\| ([^]]*)\]", r"\1", line).split(" | ")[0]  # with h and r0: A belongs to its n
+        for name, number, unit in re.findall(r"(\w+)=([\d.e]+)((?: [^\s=]+(?= |$))?)", shape):
+            more = "%s=%r%s" % (name, 1.25 * float(number), unit)
+            scene = "material steel k=0.3 c0=1 mm; geometry %s; press FN=100 N; " + asked
+            fresh = tests.run("--format=json", "-c", scene % shape.replace("%s=%s%s" % (name, number, unit), more))
+            done = tests.run("--format=json", "-c", scene % shape + "; %s; %s" % (more, asked))
+            changes += 1
+            tests.check("%s of geometry %s" % (more, shape), len(values(fresh)) == 5 and values(done)[5:] == values(fresh) != values(done)[:5],
+                        tests.report(fresh) + tests.report(done))
+    tests.check("geometries have parameters", changes > 12, str(changes))
+
+
 def run(tests):
+    shapes(tests)
     rng = random.Random(7)
 
     def one(geometry, follows, name, to, grading):
