@@ -38,7 +38,7 @@ static const figure figures[] = {
      .roles = "cbb"},
     {.name = "springs",
      .title = "springs between their bounds",
-     .summary = "u1D(x) between its bounds, stick and slip told apart",
+     .summary = "u1D(x) between its bounds, stick and slip marked",
      .statement = "u1D(x), mu*eta*w1D(x), -mu*eta*w1D(x) for x = -1.25*a .. 1.25*a",
      .roles = "sbb"},
     {.name = "slip",
@@ -55,7 +55,7 @@ static const figure figures[] = {
      .marks = "ca"},
     {.name = "profile",
      .title = "worn profile",
-     .summary = "the gap f(r) as it is worn, and as it was",
+     .summary = "the gap f(r), worn and unworn",
      .statement = "f(r), f(r)-hwear(r) for r = 0 m .. 1.5*a",
      .roles = "ct",
      .marks = "ca"},
@@ -80,18 +80,18 @@ static const figure figures[] = {
      .when = lacks_c0},
     {.name = "regimes",
      .title = "running conditions",
-     .summary = "stick (of flat ends alone), partial and gross slip: for dxA = .. for FN = ..",
+     .summary = "stick (flat ends only), partial and gross slip: for dxA = .. for FN = ..",
      .takes = "RANGE LOOK [frames N:1000] [to FILE]",
      .build = figure_regimes},
     {.name = "fit",
-     .title = "measured, and fitted",
-     .summary = "the last fit: points, curve, and below what is left over",
+     .title = "measured loop and fit",
+     .summary = "the last fit: points and curve, residuals below",
      .takes = "LOOK [frames N:1000] [to FILE]",
      .build = figure_fit,
      .below = figure_fit_residuals},
     {.name = "accuracy",
      .title = "error against time",
-     .summary = "of every model, for this scene",
+     .summary = "error and time of every model, for this scene",
      .takes = "[FA=20 N | dxA=0.5 um] [within SECONDS:3600] LOOK [frames N:1000] [to FILE]",
      .build = figure_accuracy},
 };
@@ -259,8 +259,9 @@ static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const
     }
     if (amplitude[0] == amplitude[1] || !said_of(all, "for", 1) || said_of(all, "for", 2) ||
         said_of(all, "with", 0) || said_of(all, "along", 0) || said_of(all, "steps", 0))
-        return calc_fail(lx->error, 0, 0,
-                         "regimes go for dxA = LO .. HI for NAME = LO .. HI, such as for FN = 1 N .. 9 N");
+        return calc_fail(
+            lx->error, 0, 0,
+            "regimes needs two ranges: for dxA = LO .. HI for NAME = LO .. HI (for FN = 1 N .. 9 N)");
     for (size_t i = 0; i < 2; i++) {
         sweep *s = &r[i].sweep;
         if (!range_read_name(sh, lx, all, i, !amplitude[i], &r[i]) ||

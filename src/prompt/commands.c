@@ -85,11 +85,11 @@ const command commands[] = {
          "[E0_2:=70 GPa | G0_2:=26 GPa] [nu_2:=0.33]",
      .summary = "the elastic bodies",
      .help = "Sets E(z) = E0 (z/c0)^k and Poisson's ratio of both bodies. Without k the\n"
-             "material is homogeneous and c0 is not needed. Arguments behind a name of\n"
-             "the list above change it (`material steel nu=0.28`); `help NAME` tells the\n"
-             "source. The shear modulus G0 (or G) may stand in place of E0, and for k = 0 so\n"
-             "may E* of both bodies, 1/Estar = sum (1-nu^2)/E0 (Johnson, Contact Mechanics,\n"
-             "4.2): of that alone, without nu, the normal contact follows.\n\n"
+             "material is homogeneous and c0 is not needed. Arguments after a name from the\n"
+             "list above override it (`material steel nu=0.28`); `help NAME` gives its source.\n"
+             "The shear modulus G0 (or G) may replace E0; for k = 0 so may E* of both bodies,\n"
+             "1/Estar = sum (1-nu^2)/E0 (Johnson, Contact Mechanics, 4.2), which is all that\n"
+             "normal contact needs, not even nu.\n\n"
              "    fret> material E0=210 GPa nu=0.3 k=0.5 c0=1 mm\n"
              "    fret> E(0.25 mm), eta\n"
              "    E(0.25 mm) = 105 GPa\n"
@@ -102,11 +102,11 @@ const command commands[] = {
      .changes = true,
      .takes =
          "[BODY] [E0:=70 GPa | G0:=26 GPa | G:=26 GPa] [nu:=0.33] [E0_2:=70 GPa | G0_2:=26 GPa] [nu_2:=0.33]",
-     .summary = "the other body, where it differs",
+     .summary = "the second body, if it differs from the first",
      .help =
-         "The second body shares k and c0 with the first; by default it is the same.\n"
-         "Bodies that are not elastically similar couple normal and tangential contact,\n"
-         "which is left out here: a warning says so where something tangential is asked.\n"
+         "The second body has the k and c0 of the first; by default it is the same. If the\n"
+         "bodies are elastically dissimilar, normal and tangential contact are coupled.\n"
+         "The coupling is neglected here, and a warning says so with tangential results.\n"
          "`help material` lists materials.\n\n"
          "    fret> material steel; second rigid; friction 0.3\n"
          "    fret> geometry sphere R=10 mm; press FN=100 N; a\n"
@@ -132,8 +132,8 @@ const command commands[] = {
      .changes = true,
      .takes = "MU",
      .summary = "the coefficient of friction",
-     .help = "Sets mu, Coulomb's coefficient. `mu = 0.4` does the same. What is only pressed\n"
-             "needs none, and 0 holds no Fx.\n\n"
+     .help = "Sets mu, Coulomb's coefficient. `mu = 0.4` does the same. Normal contact needs\n"
+             "no mu; with mu = 0 no Fx can be carried.\n\n"
              "    fret> friction 0.4\n"
              "    fret> mu\n"
              "    mu = 0.4\n"},
@@ -143,9 +143,9 @@ const command commands[] = {
      .changes = true,
      .takes = "stress:=50 MPa | none",
      .summary = "a bulk stress along x in the first body",
-     .help = "Adds sB to sxx in the first body, z >= 0, and so to mises and its like. It is an\n"
-             "input: `sB = 50 MPa` does the same. What it does to the contact, a shift of the\n"
-             "stick zone, is left out.\n\n"
+     .help = "Adds sB to sxx in the first body, z >= 0, and so changes mises, tresca, sigma1\n"
+             "and sigma3. It is an input: `sB = 50 MPa` does the same. Its effect on the\n"
+             "contact, a shift of the stick zone, is neglected.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
              "    fret> bulk stress=50 MPa\n"
              "    warning: a bulk stress also shifts the stick zone, which is left out: in the plane case "
@@ -159,20 +159,20 @@ const command commands[] = {
      .keywords = "Archard energy law worn depth volume scar profile Fouvry Popov debris cycles lifetime",
      .changes = true,
      .takes = "alpha:=1e4 um^3/J | K=1e-4 H=2 GPa | cycles N:1000000000 | limit | none",
-     .summary = "a wear law, and what cycles of fretting leave of the gap",
-     .help = "Of each place friction's work per area takes a depth, alpha_w dWdA(r) (Fouvry\n"
-             "et al., Wear 255, 2003); Archard's V = K F_N s/H has alpha_w = K/(mu H), which\n"
-             "then follows mu. dhwear(r), dVwear are what the last cycle wears. `wear cycles\n"
-             "N` adds N to Nw: the gap, and all that follows, is then as that many of the\n"
-             "last cycle leave it, under what press and cycle hold: FN or dz, FA or dxA. Nw\n"
-             "is an input like another, swept and solved for, and 0 again after another press\n"
-             "or cycle. hwear(r), Vwear are depth and volume so far, to some 0.1 % of the\n"
-             "largest (0.5 % of cones near gross slip at k < -0.8, and with FN and dxA held),\n"
-             "but for steep edges. At a, which moves on, hwear is 0 whatever Nw is: ask at a\n"
-             "place within, as in `solve Nw for hwear(0.95*a) = 10 nm`.\n"
-             "Both bodies wear together, and debris is gone. `wear limit` is the end of it,\n"
-             "unless FN and dxA are held: within c nothing wears, outside pressure is gone\n"
-             "(Popov, Sci. Rep. 4, 3749, 2014).\n\n"
+     .summary = "a wear law, and the gap after many cycles of fretting",
+     .help = "The worn depth at r is alpha_w times friction's work per area dWdA(r) (Fouvry et\n"
+             "al., Wear 255, 2003). Archard's V = K F_N s/H means alpha_w = K/(mu H), which\n"
+             "then changes with mu. dhwear(r) and dVwear are worn by the last cycle. `wear\n"
+             "cycles N` adds N to Nw: the gap and all results are then those after Nw cycles\n"
+             "like the last one, with what press and cycle hold: FN or dz, FA or dxA. Nw is an\n"
+             "input, to be swept and solved for; another press or cycle sets it to 0. hwear(r)\n"
+             "and Vwear are worn so far, to about 0.1 % of the largest (0.5 % for cones near\n"
+             "gross slip at k < -0.8, and with FN and dxA held), except at steep edges. At a,\n"
+             "which moves outward, hwear is 0 for any Nw: ask at a place inside, as in `solve\n"
+             "Nw for hwear(0.95*a) = 10 nm`.\n"
+             "Both bodies wear together, and debris is gone. `wear limit` is the final state,\n"
+             "unless FN and dxA are held: no wear within c, no pressure outside it (Popov,\n"
+             "Sci. Rep. 4, 3749, 2014).\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> cycle FA=20 N; wear K=1e-4 H=2 GPa\n"
              "    fret> alpha_w, dVwear, dVwear/(alpha_w*dW)\n"
@@ -190,11 +190,11 @@ const command commands[] = {
      .keywords = "compliance machine stiffness series tribometer offset reading",
      .changes = true,
      .takes = "stiffness:=80 N/um | none [d0:=1 um] [F0:=1 N]",
-     .summary = "a spring between contact and machine",
-     .help = "What a machine moves or measures is drig = dx + Fx/K_rig, and what it reads may\n"
-             "be off: drig + d0 and Fx + F0. `step drig=...` and `cycle drigA=...` go by the\n"
-             "machine's displacement; the loop of Fx over drig has the same area dW. K_rig, d0\n"
-             "and F0 are inputs; `rig none` takes them off.\n\n"
+     .summary = "a spring in series between contact and machine",
+     .help = "A machine moves or measures drig = dx + Fx/K_rig; its readings may have offsets:\n"
+             "drig + d0 and Fx + F0. `step drig=...` and `cycle drigA=...` prescribe drig. The\n"
+             "loop of Fx over drig has the same area dW as that over dx. K_rig, d0 and F0 are\n"
+             "inputs; `rig none` removes them.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> rig stiffness=80 N/um; step Fx=20 N; dx, drig\n"
              "    dx = 625.995 nm\n"
@@ -208,9 +208,9 @@ const command commands[] = {
      .changes = true,
      .takes = "FN=100 N | dz=1 um | a=0.2 mm | p0=1 GPa | pmean=0.5 GPa",
      .summary = "press the bodies together: starts a load program",
-     .help = "By force, indentation depth, contact radius, largest or mean pressure: that is\n"
-             "an input from then on, the others are results. What was stepped before is\n"
-             "forgotten.\n\n"
+     .help = "By force, indentation depth, contact radius, largest or mean pressure: the one\n"
+             "given becomes an input, the others are results. Earlier steps and cycles are\n"
+             "dropped.\n\n"
              "    fret> material steel; geometry sphere R=10 mm\n"
              "    fret> press a=0.2 mm\n"
              "    fret> FN, dz\n"
@@ -227,11 +227,11 @@ const command commands[] = {
      .keywords = "tangential load",
      .takes = "[Fx+=20 N | dx+=0.5 um | drig+=1 um] [FN+=120 N | dz+=1 um] [steps N:1000000]",
      .summary = "a straight step of the load",
-     .help = "A tangential target, a normal target, or both for a straight ramp; += adds to\n"
-             "what is there now. A normal step alone holds dx. Both together go straight in FN\n"
-             "and Fx, or to a dx straight in dz and dx. Force cannot go beyond mu*FN;\n"
-             "displacement can, and then the contact slides. To a drig (help rig) it goes as\n"
-             "to the dx that ends there. `steps` records points on the way for `history`.\n\n"
+     .help = "Goes to a tangential target, a normal target, or both; += adds to the present\n"
+             "value. A normal target alone keeps dx. Both together go straight in FN and Fx,\n"
+             "or, with a dx, straight in dz and dx. Fx is limited to mu*FN; dx is not, and\n"
+             "beyond that limit the contact slides. For a drig (help rig) the target is the dx\n"
+             "that belongs to it. `steps` records points on the way for `history`.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N\n"
              "    fret> step Fx=20 N; step Fx+=-10 N\n"
@@ -245,11 +245,11 @@ const command commands[] = {
      .changes = true,
      .takes = "FA:=20 N | dxA:=0.5 um | drigA:=1 um [times N:1000000] [steps N:1000000] [FNA:=30 N] "
               "[phase:=90 deg]",
-     .summary = "close tangential cycles",
-     .help = "Goes to +FA, then through whole cycles +FA, -FA, +FA; dW is the energy that\n"
-             "the last one dissipated. With FNA the normal force swings too,\n"
-             "FN + FNA sin(w t + phase) against FA sin(w t): the sine itself, whatever the\n"
-             "`steps`, which are points to record for `history`.\n\n"
+     .summary = "oscillate the tangential force or displacement",
+     .help = "Loads to +FA, then runs whole cycles +FA, -FA, +FA; dW is the energy dissipated\n"
+             "in the last one. With FNA the normal force oscillates too: FN + FNA sin(w t +\n"
+             "phase) with FA sin(w t). That is the exact sine; `steps` only sets how many\n"
+             "points are recorded for `history`.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N\n"
              "    fret> cycle FA=20 N\n"
@@ -262,13 +262,12 @@ const command commands[] = {
      .changes = true,
      .takes = "FILE.csv [using NAME = COLUMN, ...]",
      .summary = "load along a table of FN,Fx or dz,dx",
-     .help = "The header gives the columns and their units, or `using`. Of dx,Fx the first\n"
-             "drives and Fx is compared. Every row is a straight step; one that cannot be\n"
-             "carried leaves the scene as before the command. Where nothing is pressed yet\n"
-             "the first row presses, and must have Fx or dx = 0. A file of `history to` has\n"
-             "both pairs: the forces drive, but dx where it is held or the contact slides, and\n"
-             "how far Fx and dx are from here is told where they do not agree. `help files`\n"
-             "tells what else such a file may hold.\n\n"
+     .help = "The header or `using` names the columns and their units (help files). With dx\n"
+             "and Fx, dx drives and Fx is compared. Each row is a straight step; if one is\n"
+             "impossible the scene stays as before the command. If nothing is pressed yet the\n"
+             "first row presses, and must have Fx or dx = 0. A file of `history to` has both\n"
+             "pairs: the forces drive, or dx where it is held or the contact slides; a\n"
+             "difference between the file's Fx, dx and the computed ones is reported.\n\n"
              "    $ cat load.csv\n"
              "    FN [N],Fx [N]\n"
              "    100,0\n"
@@ -296,9 +295,9 @@ const command commands[] = {
      .returns = true,
      .keywords = "back",
      .takes = "",
-     .summary = "take back the last change of the scene",
-     .help = "Of the inputs, the load or a name; again for the one before. A script run by\n"
-             "`source`, a lesson, or a file that was followed, is one change.\n\n"
+     .summary = "undo the last change of the scene",
+     .help = "Of the inputs, the load or a variable; repeat it to go further back. A script\n"
+             "run by `source`, a lesson, or a file that was followed counts as one change.\n\n"
              "    fret> friction 0.4; friction 0.3\n"
              "    fret> undo\n"
              "    fret> mu\n"
@@ -309,8 +308,8 @@ const command commands[] = {
      .keywords = "loop hysteresis csv export",
      .takes = "[to FILE]",
      .summary = "the recorded load history as a table",
-     .help = "One row for every press and step, and for the points that `steps` asked for,\n"
-             "with a rig drig too. `help files` tells the forms of FILE.\n\n"
+     .help = "One row for each press and step and each point recorded by `steps`, with drig if\n"
+             "there is a rig. `help files` lists the kinds of FILE.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N; step Fx=20 N; step Fx=-20 N\n"
              "    fret> history\n"
@@ -323,13 +322,13 @@ const command commands[] = {
      .keywords = "sweep csv export",
      .takes = "EXPR, ... RANGE [using NAME = COLUMN, ...] [to FILE]",
      .summary = "a table over a range",
-     .help = "NAME is an input (k, FN, mu, ...) or a free name; the scene stays as it is.\n"
-             "A list, `for FN = 1 N, 2 N, 5 N`, may stand for LO .. HI, here and in figures.\n"
-             "Two ranges make a matrix, as CSV and JSON a row for each pair. `along program`,\n"
-             "`along cycle` and `along cycle FA=...` go along a load. `at FILE` goes over the\n"
-             "rows of a file: its columns are inputs and names, and one that is called as an\n"
-             "expression (`p` as p(r)), or the only one of its dimension, is compared with it.\n"
-             "fret --part I/N does a share of the rows.\n\n"
+     .help = "NAME is an input (k, FN, mu, ...) or a free name; the scene stays as it is. A\n"
+             "list, `for FN = 1 N, 2 N, 5 N`, may replace LO .. HI, here and in figures. Two\n"
+             "ranges make a matrix; in CSV and JSON a row for each pair. `along program`,\n"
+             "`along cycle` and `along cycle FA=...` go along a load. `at FILE` takes inputs\n"
+             "and names from the rows of a file; a column named like an expression (`p` for\n"
+             "p(r)), or the only one of its dimension, is compared with it. fret --part I/N\n"
+             "computes a share of the rows (help parts).\n\n"
              "    $ cat depth.csv\n"
              "    FN [N],depth [um]\n"
              "    20,1.21\n"
@@ -355,17 +354,17 @@ const command commands[] = {
      .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [to FILE.png|svg|pdf|tex|html|gif|gp]",
      .summary = "figures, in the terminal or to a file",
      .print = figures_list,
-     .help = "A FIGURE of the list above stands alone or with another RANGE; a | puts one\n"
-             "beside it. `map EXPR for A = LO .. HI for B = LO .. HI` draws contours. A comma\n"
-             "parts curves over expressions of their own: `Fx against dx, FN against dz`.\n"
-             "Without steps there are more points where the curve bends. LOAD is program,\n"
-             "cycle, or one that is only tried: `step ...`, `cycle FA=...`. AXES are x, y or\n"
-             "xy, TEXT stands in quotation marks, `key off` hides the key, and `over` adds\n"
-             "measured points; `over FILE residuals` shows what they have more than the curve.\n"
-             "FILE.gp is the gnuplot script itself. `set plot 80x24` fixes the size in the\n"
-             "terminal, `set plot terminal` how it is drawn there: dumb in plain characters,\n"
-             "block in braille (auto takes it where it can), sixel as a picture.\n"
-             "fret --part I/N writes a share of the points of a map, as rows.\n\n"
+     .help = "A FIGURE of the list above needs no RANGE, but may have one; | puts the next one\n"
+             "beside it. `map EXPR for A = LO .. HI for B = LO .. HI` draws contours. Commas\n"
+             "separate curves, also over different abscissas: `Fx against dx, FN against dz`.\n"
+             "Without `steps` points are denser where a curve bends. LOAD is program, cycle,\n"
+             "or a load tried on a copy: `step ...`, `cycle FA=...`. AXES are x, y or xy, TEXT\n"
+             "is in quotation marks, `key off` hides the key. `over FILE.csv` adds measured\n"
+             "points; with `residuals` it shows measured minus computed. FILE.gp is the\n"
+             "gnuplot script itself. `set plot 80x24` fixes the size in the terminal, `set\n"
+             "plot terminal` how it is drawn there: dumb by plain characters, block by braille\n"
+             "(auto takes it if possible), sixel as a picture. fret --part I/N computes a\n"
+             "share of the points of a map, as rows.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4\n"
              "    fret> press FN=100 N; cycle FA=38 N\n"
              "    fret> plot loop | springs to both.svg\n"
@@ -387,12 +386,12 @@ const command commands[] = {
      .reads = true,
      .keywords = "animation video movie gif springs",
      .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [frames N:1000] [to FILE.gif]",
-     .summary = "figures in motion along a load",
-     .help = "Figures as of `plot`. Those `along` a load, all along the same one, are drawn up\n"
-             "to a moving instant; `springs`, `pressure`, `traction` and what else goes over\n"
-             "a place show the state then, as `animate springs along cycle FA=30 N` does. The\n"
-             "load is the program where none is said. An input may go over a range instead:\n"
-             "`animate profile for Nw = 0 .. 1e4`. Ctrl-C stops.\n\n"
+     .summary = "moving figures along a load",
+     .help = "Figures as in `plot`. Curves `along` a load, the same one for all, are drawn up\n"
+             "to a moving instant; figures over a position, such as `springs` and `pressure`,\n"
+             "show the state at that instant: `animate springs along cycle FA=30 N`. Without a\n"
+             "load it is the program. An input may run over a range instead: `animate profile\n"
+             "for Nw = 0 .. 1e4`. Ctrl-C stops.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> cycle FA=30 N\n"
              "    fret> animate springs | loop frames 8 to cycle.gif\n"
@@ -401,13 +400,13 @@ const command commands[] = {
      .run = do_explain,
      .keywords = "formula equation Mindlin",
      .takes = "EXPR [conditioning]",
-     .summary = "formula, source, numbers put in, model used, error",
+     .summary = "formula, source, numbers, model and error of a value",
      .help = "The formula with its equation number (Mathematics 2022, 10, 3641), the inputs\n"
-             "that the value depends on, how it was computed, and the error of the numbers\n"
-             "alone. With `conditioning`, too: by which part of itself the last binary digit\n"
-             "of each input, of the press and of the last load moves the value, and the ratio\n"
-             "of the two. Large numbers, as close to gross slip, mean that the value cannot be\n"
-             "better than its inputs, whatever the model.\n\n"
+             "that the value depends on, how it was computed, and its numerical error. With\n"
+             "`conditioning`, also the relative size of the last binary digit of each input,\n"
+             "of the press and of the last load, the relative change of the value by it, and\n"
+             "the ratio of the two. If that is large, as close to gross slip, the value is\n"
+             "less certain than its inputs, with any model.\n\n"
              "    fret> material E0=210 GPa nu=0.3\n"
              "    fret> explain eta conditioning\n"
              "    eta: stiffness ratio\n"
@@ -424,15 +423,15 @@ const command commands[] = {
      .keywords = "error speed",
      .takes = "[FA=20 N | dxA=0.5 um] [within SECONDS:3600]",
      .summary = "error against time of every model, for this scene",
-     .help = "A table of the models that can answer for dW: value, relative error, time of a\n"
-             "cycle without setting up. Errors refer to quadrature in extended precision; `<`\n"
-             "marks one that is below what it can tell. Without an argument the amplitude is\n"
-             "that of the last cycle, else of Fx now, else half of mu*FN. Where FN swings or\n"
-             "has changed, the load program is run as it is and errors refer to a refined\n"
-             "memory diagram. Springs with `midpoint` weights x^k h converge with order 1+k\n"
-             "where k < 0. The end says what `set model auto` picks, and which springs come\n"
-             "close. Larger models are left out where all would take more than 3 seconds;\n"
-             "`within 20` allows more, `within 0.3` less. `plot accuracy` draws the table.\n\n"
+     .help = "Lists the models that can compute dW: value, relative error, time of a cycle\n"
+             "without setting up. The reference is quadrature in long double; `<` marks an\n"
+             "error below that of the reference. Without an argument the amplitude is that of\n"
+             "the last cycle, else the present Fx, else half of mu*FN. Where FN swings or has\n"
+             "changed, the load program itself is run and the reference is a refined memory\n"
+             "diagram. Springs with `midpoint` weights x^k h converge with order 1+k for k <\n"
+             "0. The last lines say what `set model auto` takes, and which springs come close.\n"
+             "Larger models are skipped if all would take more than 3 seconds; `within 20`\n"
+             "allows 20 seconds. `plot accuracy` draws the table.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> set digits 5; accuracy FA=20 N within 0.001\n"
              "    FA = 20 N at FN = 100 N\n"
@@ -453,10 +452,10 @@ const command commands[] = {
      .keywords = "root equation inverse backwards find",
      .takes = "NAME for EXPR = EXPR [from LO to HI]",
      .summary = "the value of an input that makes an equation hold",
-     .help = "NAME is an input or a variable of yours; the scene stays as it is. Without a\n"
-             "range it looks over the whole range of k and nu, and three decades on either\n"
-             "side of the present value of others. It says where there is no root, where\n"
-             "there are several, where the two sides only touch, and where the scene ends.\n\n"
+     .help = "NAME is an input or a variable of yours; the scene stays as it is. Without\n"
+             "`from` the search covers all of k and nu, and three decades on either side of\n"
+             "the present value of others. It reports if there is no root, if there are\n"
+             "several, if the sides only touch, and where the scene becomes impossible.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> solve FN for a = 0.2 mm\n"
              "    FN = 123.077 N\n"
@@ -469,7 +468,7 @@ const command commands[] = {
      .takes = "EXPR over NAME = LO .. HI, ...",
      .summary = "where an expression is largest",
      .help = "One to three inputs or free names, each in its range; the scene stays as it is.\n"
-             "A note says where the best is an end of a range, or where the scene ends.\n\n"
+             "A note says if the optimum is at an end of a range, or of the possible scenes.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> maximize dWd(0.5 um) over FN = 1 N .. 100 N\n"
              "    FN = 10.4367 N\n"
@@ -490,23 +489,22 @@ const command commands[] = {
      .keywords = "least squares regression identify parameter measured data inverse calibrate",
      .takes = "INPUT, ... [for EXPR = EXPR to FILE.csv | along FILE.csv] [noise] [dx=10 nm] [Fx=0.5 N] "
               "[by WORD] [using NAME = COLUMN, ...]",
-     .summary = "inputs from measured data, with how sure they are",
-     .help = "Starts from the present values, one start of many; the scene stays as it is.\n"
-             "With `for` each row is an equation whose columns are names: depth = dz(force).\n"
-             "With `along` the file is a measured loop: driven by dx (and FN or dz, where\n"
-             "there is such a column), Fx compared; with a rig in the scene by drig, readings\n"
-             "with offsets d0 and F0. Where dx has noise too, its turning points are\n"
-             "unknowns, and distances are across the curve in units of both noises: noise\n"
-             "dx=10 nm Fx=0.5 N gives them, else they are estimated from row to row. by\n"
-             "cycle: a row each, with the energy of the rows and whether the flanks slide.\n"
-             "Answers are values with their standard errors, correlations and the rms of the\n"
-             "residuals; data that do not determine a name, or cannot tell two apart, are an\n"
-             "error that names them. Where the errors down and up differ, as of mu where\n"
-             "little slides, they go to where the least sum of squares with the name held\n"
-             "there has grown by one variance: mu = 0.76 (-0.3, +1.7). A note says where the\n"
-             "residuals of a loop are no noise but go together, by a drift or an offset: fit\n"
-             "d0 and F0, or take that off the file. A row before contact, FN(dz) of dz < 0,\n"
-             "is one without load. `plot fit` draws the last fit, and what is left over.\n\n"
+     .summary = "inputs from measured data, with standard errors",
+     .help = "Starts from the present values, among others; the scene stays as it is. `for`:\n"
+             "each row is an equation whose columns are names, as in depth = dz(force).\n"
+             "`along`: the file is a measured loop. dx drives (and FN or dz, if there is such\n"
+             "a column), Fx is compared; with a rig in the scene drig drives, and readings\n"
+             "have offsets d0 and F0. If dx has noise too, its turning points are unknowns,\n"
+             "and distances are across the curve in units of both noises: `noise dx=10 nm\n"
+             "Fx=0.5 N` gives them, else they are estimated from the scatter of rows. `by\n"
+             "cycle` fits each cycle: a row each, with the energy of the rows and whether the\n"
+             "flanks slide. Answers are values with standard errors, correlations and the rms\n"
+             "of the residuals. Names that the data do not determine, or cannot tell apart,\n"
+             "are an error. Unequal errors, mu = 0.76 (-0.3, +1.7), as where little slips, go\n"
+             "to where the least sum of squares with mu held has grown by one variance. A note\n"
+             "says if residuals of a loop are correlated, by a drift or an offset: fit d0 and\n"
+             "F0, or take that off the file. A row before contact, FN(dz) of dz < 0, has no\n"
+             "load. `plot fit` draws the last fit and its residuals.\n\n"
              "    $ cat depth.csv\n"
              "    force [N],depth [um]\n"
              "    20,1.21\n"
@@ -521,15 +519,15 @@ const command commands[] = {
      .run = do_loop,
      .keywords = "measured hysteresis csv energy stiffness gross slip sliding rig file cycle",
      .takes = "FILE.csv [using NAME = COLUMN, ...] [to FILE]",
-     .summary = "what a measured loop says by itself, cycle by cycle",
-     .help = "Of each cycle of dx, Fx, between turning points above the noise: the energy dW\n"
-             "that its rows enclose (of M rows (2*pi/M)^2/6 too little), the amplitudes dxA\n"
-             "and FA, the centre dx0, Fx0, the secant stiffness FA/dxA, the stiffness of\n"
-             "unloading behind the turning points, the slope of the flanks before them as a\n"
-             "part of that (below 0.05 they slide), and the energy ratio dW/(4*FA*dxA). Where\n"
-             "the centre drifts from cycle to cycle by more than noise, dW is without that;\n"
-             "of one cycle it may be wrong by drift_dx*FA and drift_Fx*dxA. No scene is\n"
-             "needed. `to FILE` writes a table. `help files` tells what is read.\n\n"
+     .summary = "energy, amplitudes and stiffness of a measured loop, cycle by cycle",
+     .help = "For each cycle between turning points of dx larger than noise: the energy dW\n"
+             "that its rows enclose (M rows make it too small by (2*pi/M)^2/6), the amplitudes\n"
+             "dxA and FA, the centre dx0, Fx0, the secant stiffness FA/dxA, the unloading\n"
+             "stiffness after the turning points, the slope of the flanks before them relative\n"
+             "to that (below 0.05 they slide), and the energy ratio dW/(4*FA*dxA). If the\n"
+             "centre drifts from cycle to cycle by more than noise, dW is corrected for it; of\n"
+             "one cycle it may be wrong by drift_dx*FA and drift_Fx*dxA. No scene is needed.\n"
+             "`to FILE` writes a table. `help files` says what can be read.\n\n"
              "    $ cat rig.csv\n"
              "    Weg (um);Kraft (N)\n"
              "    -2;-30\n"
@@ -563,12 +561,12 @@ const command commands[] = {
      .keywords = "error deviation Monte Carlo tolerance variance confidence sensitivity",
      .takes =
          "EXPR, ... with INPUT +- DEVIATION, ... [samples N:10000000] [seed N:1000000000] [from FILE.csv]",
-     .summary = "how sure a value is, and which input that comes from",
-     .help = "Standard deviations of independent inputs; 5 % is a part of the value. The\n"
-             "answer is first order, from derivatives, with the share of each input in the\n"
-             "variance. A Monte Carlo of normal samples stands beside it where it says\n"
-             "something else. With fret --part I/N only the samples of that share are drawn,\n"
-             "as rows; the same question `from` a file of all shares sums them.\n\n"
+     .summary = "standard deviation of results, and the share of each input in it",
+     .help = "Takes standard deviations of independent inputs; 5 % is relative to the value.\n"
+             "The answer is first order, from derivatives, with the share of each input in the\n"
+             "variance. If a Monte Carlo of normal samples differs, it is given as well. fret\n"
+             "--part I/N draws only its share of the samples, as rows; the same statement with\n"
+             "`from FILE.csv` evaluates those of all shares (help parts).\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> uncertainty dWd(0.5 um), a with mu +- 0.02, E0 +- 5 %\n"
              "    dWd(0.5 um) = 948.431 nJ +- 84 nJ\n"
@@ -582,12 +580,12 @@ const command commands[] = {
      .takes = "MODEL ...",
      .summary = "the contact for a dynamics code: Jenkins elements, its first harmonic, or its loop",
      .help = "Jenkins elements are chosen to minimise the worst error of the energy per cycle\n"
-             "over all amplitudes, at this normal force; with FA, over those up to it, and one\n"
-             "of the N is the spring of what then still sticks. The answer is that error, and\n"
-             "its part of the energy at gross slip (at FA). FILE.h is a C table to compile in.\n"
-             "Under delta_x = dxA cos(theta) the first harmonic of the force is Kp dxA\n"
-             "cos(theta) - Kpp dxA sin(theta), Kpp = dWd(dxA)/(pi dxA^2). The loop is that of\n"
-             "the last cycle, whose normal force may swing.\n\n"
+             "over all amplitudes, at the present FN; with FA, over those up to FA, and one of\n"
+             "the N elements is a spring for what still sticks at FA. The answer is that\n"
+             "error, also relative to the energy at gross slip (at FA). FILE.h is a C table to\n"
+             "compile. Under delta_x = dxA cos(theta) the first harmonic of the force is Kp\n"
+             "dxA cos(theta) - Kpp dxA sin(theta), Kpp = dWd(dxA)/(pi dxA^2). The loop is that\n"
+             "of the last cycle, in which FN may swing.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> export jenkins 4 to damper.h\n"
              "    wrote damper.h (733 B)\n"
@@ -602,9 +600,9 @@ const command commands[] = {
      .group = "the session",
      .keywords = "save",
      .takes = "[PART]",
-     .summary = "what is set",
-     .help = "PART is scene, the commands that make it again, to the last digit; or settings,\n"
-             "units, commands, variables or demos.\n\n"
+     .summary = "show the scene, settings, variables, ...",
+     .help = "PART is scene (also without PART), the commands that make it again, to the last\n"
+             "digit; or settings, units, commands, variables or demos.\n\n"
              "    fret> material steel; geometry sphere R=10 mm\n"
              "    fret> show\n"
              "    material E0=210 GPa nu=0.3\n"
@@ -613,9 +611,9 @@ const command commands[] = {
      .run = do_set,
      .keywords = "options",
      .takes = "[SETTING ...]",
-     .summary = "settings",
-     .help = "One setting a statement. Of the models auto takes the closed form where there is\n"
-             "one, else the memory diagram; springs are an approximation.\n\n"
+     .summary = "change a setting, or show all",
+     .help = "One setting a statement. The model auto takes the closed form if there is one,\n"
+             "else the memory diagram; springs are an approximation.\n\n"
              "    fret> set digits 12; pi\n"
              "    pi = 3.14159265359\n"},
     {.name = "source",
@@ -638,10 +636,10 @@ const command commands[] = {
      .run = do_save,
      .keywords = "write keep export scene history",
      .takes = "FILE | history FILE",
-     .summary = "write the scene as commands; or what has been typed",
-     .help = "The file makes the scene again, to the last bit: `source FILE`, or fret FILE. It\n"
-             "begins with the version that wrote it.\n"
-             "`save history` writes the lines typed in this session, as they were typed.\n\n"
+     .summary = "write the scene as commands, or the lines typed",
+     .help = "The file recreates the scene, to the last bit: `source FILE`, or fret FILE. It\n"
+             "begins with the version that wrote it. `save history` writes the lines typed in\n"
+             "this session.\n\n"
              "    fret> material steel; friction 0.3; save steel.fret\n"
              "    wrote steel.fret (53 B)\n"
              "    fret> reset all; source steel.fret\n"
@@ -652,10 +650,10 @@ const command commands[] = {
      .run = do_record,
      .keywords = "transcript log protocol test save",
      .takes = "FILE | off",
-     .summary = "keep what is typed and answered as a transcript, or a page",
-     .help = "A transcript begins with the version, the scene and the settings as they are.\n"
-             "`replay FILE`, or fret --replay FILE, runs it and compares the answers. One that\n"
-             "ends in .html is a page to read and print, its figures in it.\n\n"
+     .summary = "write statements and answers to a transcript, or to a page",
+     .help = "A transcript begins with the version, the present scene and settings. `replay\n"
+             "FILE`, or fret --replay FILE, runs it and compares the answers. A FILE that ends\n"
+             "in .html is a page to read and print, with its figures.\n\n"
              "    fret> record session.txt\n"
              "    fret> friction 0.3; 2*mu\n"
              "    2*mu = 0.6\n"
@@ -665,11 +663,10 @@ const command commands[] = {
      .run = do_replay,
      .keywords = "transcript test compare record",
      .takes = "FILE",
-     .summary = "run a transcript and compare what comes out",
-     .help = "In a session of its own: the scene stays. Lines after `fret> ` are run, what\n"
-             "follows each must come out again, numbers within their printed digits.\n"
-             "Differences are shown: - is the transcript, + is now. A session copied from a\n"
-             "terminal is a transcript, too.\n\n"
+     .summary = "run a transcript and compare its answers",
+     .help = "In a session of its own: the scene stays. Lines after `fret> ` are run, and the\n"
+             "answers must agree, numbers within their printed digits. Differences are shown:\n"
+             "- is the transcript, + is now. Text copied from a terminal is a transcript, too.\n\n"
              "    $ cat check.txt\n"
              "        fret> friction 0.4\n"
              "        fret> mu, 1/3\n"
@@ -681,9 +678,9 @@ const command commands[] = {
      .run = do_compare,
      .keywords = "side by side two scenes live",
      .takes = "INPUT = VALUES | off",
-     .summary = "two scenes on the screen of live, moved by the same hand",
-     .help = "`live` shows the scene with one value of INPUT, and beside it with the other.\n"
-             "What is done there is done to both. The scene keeps its own value.\n\n"
+     .summary = "two values of an input side by side in live",
+     .help = "`live` shows the scene with the first value of INPUT and beside it with the\n"
+             "second; each key acts on both. The scene keeps its own value.\n\n"
              "    fret> compare k = -0.5, 0.5\n"
              "    note: live shows both; compare off ends it\n"
              "    fret> compare off\n"},
@@ -691,12 +688,12 @@ const command commands[] = {
      .run = do_live,
      .keywords = "full-screen teach demonstration tui animate",
      .takes = "[FILE]",
-     .summary = "press, push and pull by hand, everything drawn: the full-screen mode",
+     .summary = "the full-screen mode: press, push and pull by hand, everything drawn",
      .print = live_keys,
-     .help = "The mouse drags the point of the loop. What is done there are statements: undo\n"
-             "takes them back. FILE is a script to step through, space by space; without a\n"
-             "terminal it plays, and the last screen is printed. A transcript has after the\n"
-             "keys right, space and q:\n\n"
+     .help = "The mouse drags the point of the loop. All you do there is a statement, and\n"
+             "`undo` takes it back. FILE is a script to step through with space; without a\n"
+             "terminal it plays, and the last screen is printed. After the keys right, space\n"
+             "and q a transcript has:\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> live\n"
              "    fret> step Fx+=2 N\n"
@@ -708,12 +705,12 @@ const command commands[] = {
      .keywords = "tour lesson teach figure paper",
      .takes = "[LESSON | FILE] [to FILE.html]",
      .summary = "play a lesson, or a tour of the program",
-     .help = "A lesson asks, then shows each statement and its answer. At the prompt a key\n"
-             "leads on, `b` back, `q` out; in a script it plays through. It begins without a\n"
-             "scene; its own stays, to go on with, and `undo` brings back the one before.\n"
-             "`show demos` lists the lessons in their order. A name with a `.` or a `/` is a\n"
-             "file of your own (`help lessons`), none the tour. FILE.html is a handout: a page\n"
-             "with the figures, room for answers, and the answers at its end.\n\n"
+     .help = "A lesson asks, then shows each statement and its answer. At the prompt any key\n"
+             "goes on, `b` back, `q` leaves; in a script it plays through. It begins without a\n"
+             "scene and leaves its own; `undo` brings back yours. `show demos` lists the\n"
+             "lessons in their order; without a name the tour plays. A name with a `.` or a\n"
+             "`/` is a file of your own (`help lessons`). FILE.html is a handout: a page with\n"
+             "the figures, room for answers, and the answers at its end.\n\n"
              "    $ fret -c 'demo sticking' | head -n 4\n"
              "    Stick and slip: Cattaneo and Mindlin push the sphere sideways\n"
              "    \n"
@@ -723,11 +720,11 @@ const command commands[] = {
      .run = do_ask,
      .keywords = "exercise question quiz guess answer hint teach lesson",
      .takes = "TEXT [= EXPR within DEVIATION | of CHOICES = N:9] [hint TEXT]",
-     .summary = "a question to who learns, and its answer",
-     .help = "At the prompt, and in a lesson, guesses may be typed, and how far off each is is\n"
-             "told: `?` asks for the hint, Enter for the answer. `within 5 %` is a part of the\n"
-             "answer, `within 2 um` an amount. Without a terminal the answer is shown. `help\n"
-             "lessons` tells how a lesson is written.\n\n"
+     .summary = "ask the learner a question, and show its answer",
+     .help = "At the prompt and in a lesson guesses may be typed; each is told how far off it\n"
+             "is. `?` shows the hint, Enter the answer. `within 5 %` is relative to the\n"
+             "answer, `within 2 um` absolute. Without a terminal the answer is shown at once.\n"
+             "`help lessons` says how a lesson is written.\n\n"
              "    fret> ask \"c/a at half of gross slip?\" = (1-0.5)^(1/3) within 5 %\n"
              "    c/a at half of gross slip?\n"
              "    (1-0.5)^(1/3) = 0.793701\n"
@@ -739,7 +736,7 @@ const command commands[] = {
     {.name = "help",
      .run = do_help,
      .takes = "[TOPIC]*",
-     .summary = "this help, or that on a command, a quantity or a topic",
+     .summary = "this help, or help on a command, a quantity or a topic",
      .help = "    fret> help kappa\n"
              "    kappa: shape factor\n"
              "        kappa = (n/2) B(n/2,(k+1)/2)  (8)\n"},
@@ -755,7 +752,7 @@ const command commands[] = {
      .run = do_apropos,
      .keywords = "search",
      .takes = "WORD ...",
-     .summary = "find commands and quantities by a word, or several",
+     .summary = "find commands and quantities by one or more words",
      .help = "Several words must all be there, in any order.\n\n"
              "    fret> apropos stick\n"
              "    c           stick radius\n"

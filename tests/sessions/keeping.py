@@ -41,8 +41,8 @@ fret> ?friction
 friction MU
   the coefficient of friction
 
-Sets mu, Coulomb's coefficient. `mu = 0.4` does the same. What is only pressed
-needs none, and 0 holds no Fx.
+Sets mu, Coulomb's coefficient. `mu = 0.4` does the same. Normal contact needs
+no mu; with mu = 0 no Fx can be carried.
 
     fret> friction 0.4
     fret> mu

@@ -121,7 +121,7 @@ def looks(tests):
     fails(tests, "plot loop title hello", 'expected title "TEXT"')
     fails(tests, "plot x for x = 0 .. 1 for y = 0 .. 1", "two ranges make a map")
     for more in ("with k = 0, 0.5", "steps 9", "along cycle"):
-        fails(tests, "plot regimes for dxA = 1 um .. 2 um for FN = 1 N .. 9 N " + more, "regimes go for dxA")
+        fails(tests, "plot regimes for dxA = 1 um .. 2 um for FN = 1 N .. 9 N " + more, "regimes needs two ranges")
     fails(tests, "plot loop xrange 1 um .. 1 um", "the limits of the x axis are the same")
     fails(tests, "plot dissipation key", "expected key off")
 
@@ -512,7 +512,7 @@ def regimes(tests):
     law = 0.4 * 1.7 / 1.4 * 200 / (2 * 0.2e-3 * 210e9 / (2 * (1 - 0.3**2))) * 1e6  # mu eta F/(2 E* b)
     tests.check("a punch sticks up to gross slip", len(borders) == 3 and borders[0] == borders[2] and abs(borders[0][-1][0] - law) < 1e-6 * law and
                 all('"%s" at graph' % word in text for word in ("stick", "gross slip")) and "partial" not in text, str(borders)[:300])
-    fails(tests, "plot regimes", "regimes go for dxA = LO .. HI for NAME = LO .. HI")
+    fails(tests, "plot regimes", "regimes needs two ranges")
     fails(tests, "plot regimes for dxA = 2 um .. 1 um for FN = 1 N .. 2 N", "expected LO .. HI, LO below HI")
     fails(tests, "plot regimes for dxA = 1 um .. 2 um for dz = 1 um .. 2 um", "dz")
 
