@@ -33,7 +33,7 @@ static bool is_using_of(const said *all, const heard *h, const heard *file) {
 bool columns_placed(const said *all, calc_error *error) {
     for (const heard *h = all->list; h < all->list + all->count; h++)
         if (!strcmp(h->of->name, "using") && !file_before(all, h))
-            return calc_fail(error, h->at, h->len, "using stands behind at FILE.csv or over FILE.csv");
+            return calc_fail(error, h->at, h->len, "using follows at FILE.csv or over FILE.csv");
     return true;
 }
 
@@ -55,9 +55,9 @@ static csv_values *column_at(csv *c, lexer *lx) {
     if (!column)
         calc_fail(lx->error, at, len, "%.100s has no column %.60s: %s", c->path, name, layout);
     else if (column->given)
-        calc_fail(lx->error, at, len, "column %.60s is %.60s already", name, column->name);
+        calc_fail(lx->error, at, len, "column %.60s is already used as %.60s", name, column->name);
     else if (column->twice && lx->kind != T_NUMBER)
-        calc_fail(lx->error, at, len, "%.200s has two columns %.60s: say which by its number", c->path, name);
+        calc_fail(lx->error, at, len, "%.200s has two columns %.60s: give the number of one", c->path, name);
     else
         lex_seek(lx, at + len);
     return lx->error->raised ? NULL : column;

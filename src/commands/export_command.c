@@ -258,7 +258,8 @@ static bool export_jenkins(shell *sh, lexer *lx, said *all) {
     const heard *count = said_of(all, "", 0), *to = said_of(all, "to", 0), *FA = said_of(all, "FA", 0);
     const span *name = &to->hole[0];
     if (!count)
-        return calc_fail(lx->error, to->at, to->len, "expected how many elements before `to`: 1 to 1000");
+        return calc_fail(lx->error, to->at, to->len,
+                         "expected the number of elements before `to`: 1 to 1000");
     writer *write = form_of(lx, name);
     if (!write)
         return false;

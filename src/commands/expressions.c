@@ -115,7 +115,7 @@ static bool read_side(shell *sh, lexer *lx, expr *e) {
     lex_next(&next);
     const quantity *q = quantity_find(next.text + next.at, next.len);
     if (q && !expr_quantity(e, 0, &call, &at) && !expr_definition(&sh->calc, e, 0))
-        return lex_fail(lx, "%.*s is the same at any %s: `at` goes with the side before it",
+        return lex_fail(lx, "%.*s is the same at any %s: put `at` behind the side that does",
                         LEX_SHOWN(e->len), e->text + e->at, q->name);
     return expr_read_at(&sh->calc, lx, e);
 }

@@ -201,34 +201,37 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
                        instead ? ": " : "", instead ? instead : "");
         }
     format_value(&sh->set, (value){a->rms, a->d}, rms, sizeof rms);
-    answer_words(out, "rms = %s%s over %zu rows\n", rms, a->noisy ? " of the noise" : "", q->rows);
+    answer_words(out, "rms = %s%s over %zu rows\n", rms, a->noisy ? " times the noise" : "", q->rows);
     if (a->noisy) {
         char dx[CALC_VALUE_TEXT], Fx[CALC_VALUE_TEXT];
         calc_value_text(DIM_LENGTH, a->noise_dx, dx);
         calc_value_text(DIM_FORCE, a->noise_Fx, Fx);
-        answer_words(out, "noise of dx = %s, of Fx = %s; %zu turning point%s found with them\n", dx, Fx,
+        answer_words(out, "noise of dx = %s, of Fx = %s; %zu turning point%s fitted as well\n", dx, Fx,
                      a->turns, a->turns == 1 ? "" : "s");
     }
     for (size_t i = 0; i < q->count; i++)
         if (a->uneven[i] && (isinf(a->above[i]) || isinf(a->below[i])))
-            shell_note(sh, "the data bound %s from %s alone", q->name[i].text,
+            shell_note(sh, "the data give only a bound of %s from %s", q->name[i].text,
                        isinf(a->above[i]) ? "below" : "above");
         else if (a->uneven[i])
             shell_note(
                 sh,
-                "the errors of %s down and up differ: they go to where the least sum of squares with it "
-                "held there has grown by one variance",
+                "the errors of %s down and up differ: each goes to where the least sum of squares with it "
+                "fixed there is one variance larger",
                 q->name[i].text);
     for (size_t i = 0; i < q->count; i++)
         if (a->deviation[i] > fabs(a->value[i]))
             shell_note(sh, "the data hardly determine %s", q->name[i].text);
     if (a->drifts)
-        shell_note(sh,
-                   "residuals go together from row to row (correlation %.2f): a drift, an offset or a model "
-                   "that does not fit; the standard errors are too small",
-                   a->together);
+        shell_note(
+            sh,
+            "residuals are correlated from row to row (coefficient %.2f): a drift, an offset or a model "
+            "that does not fit; the standard errors are too small",
+            a->together);
     if (a->twice)
-        shell_note(sh, "the loop is closed and does not begin at rest: run twice, the second time compared");
+        shell_note(
+            sh,
+            "the loop is closed and does not begin at rest: it is run twice, and the second run compared");
     if (sh->set.timing)
         shell_say(sh, "fit: Levenberg and Marquardt's method, %u iterations, %u evaluations of %zu rows",
                   a->iterations, a->evaluations, q->rows);

@@ -47,7 +47,7 @@ void report_event(shell *sh, const char *event, const char *const *names) {
 /* Notes that a new load has set Nw to 0, if there was wear. */
 static void note_unworn(shell *sh, bool worn) {
     if (worn && !inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW)))
-        shell_note(sh, "Nw = 0 again: wear is that of the last cycle");
+        shell_note(sh, "Nw is 0 again: wear is that of the last cycle alone");
 }
 
 /* The targets of a step, and the amplitudes of a cycle. */
@@ -192,7 +192,7 @@ bool do_cycle(shell *sh, lexer *lx, said *all) {
     const bool ok = (scene_load(&sh->calc.scene, &step, &extra, lx->error) || heard_place(lx->error, last)) &&
                     (!live || scene_edit(&sh->calc.scene, bind_all, bound, lx->error));
     if (ok && said_of(all, "phase", 0) && !said_of(all, "FNA", 0))
-        shell_note(sh, "phase does nothing without FNA");
+        shell_note(sh, "phase has no effect without FNA");
     if (ok)
         report_event(sh, "cycle", names);
     note_unworn(sh, ok && worn);
@@ -337,7 +337,7 @@ static void report_compared(shell *sh, const char *name, dim d, double rms) {
     answer_number(&event, "rms", rms);
     answer_done(&event);
     calc_value_text(d, rms, text);
-    shell_note(sh, "%s of the file is %s (rms) from %s here", name, text, name);
+    shell_note(sh, "%s of the file differs from the computed %s by %s (rms)", name, name, text);
 }
 
 /* If the file has both pairs, reports only columns that do not agree: the file may be of another scene. */
@@ -395,5 +395,5 @@ bool do_reset(shell *sh, lexer *lx, said *all) {
 
 bool do_undo(shell *sh, lexer *lx, said *all) {
     (void)all;
-    return calc_undo(&sh->calc) || lex_fail(lx, "there is nothing to take back");
+    return calc_undo(&sh->calc) || lex_fail(lx, "there is nothing to undo");
 }

@@ -13,14 +13,15 @@ bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t st
     if (!range_read(sh, lx, all, 0, &out->a) || !range_options(sh, lx, all, 0, &out->a, steps_a))
         return false;
     if (out->a.sweep.along)
-        return lex_fail(lx, "a map goes for A = LO .. HI for B = LO .. HI");
+        return lex_fail(lx, "a map needs two ranges: for A = LO .. HI for B = LO .. HI");
     if (with)
         return calc_fail(lx->error, with->at, with->len,
                          "a map has no curves: `with` does not go with two ranges");
     if (!second)
         return lex_fail(lx, "expected for B = LO .. HI");
     if (third)
-        return calc_fail(lx->error, third->at, third->len, "a map goes for A = LO .. HI for B = LO .. HI");
+        return calc_fail(lx->error, third->at, third->len,
+                         "a map needs two ranges: for A = LO .. HI for B = LO .. HI");
     if (!range_read(sh, lx, all, 1, &out->b) || !range_options(sh, lx, all, 1, &out->b, steps_b))
         return false;
     if (!strcmp(out->a.sweep.var.text, out->b.sweep.var.text))

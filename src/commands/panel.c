@@ -178,10 +178,9 @@ static bool subtract(panel_job *job, const long double *values, long double *lef
     if (!c->with)
         c->with = rows_compared(job->measured, &axis, true, job->error);
     if (!c->with)
-        return job->error->raised
-                   ? false
-                   : calc_fail(job->error, 0, 0, "no column of %.200s is as %s, to be compared",
-                               job->measured->data.path, axis.name);
+        return job->error->raised ? false
+                                  : calc_fail(job->error, 0, 0, "%.200s has no column to compare with %s",
+                                              job->measured->data.path, axis.name);
     for (size_t i = 0; i < job->count; i++)
         left[i] = columns_differ(c, job->rows % job->measured->data.rows, values[i]);
     job->rows++;
@@ -268,7 +267,7 @@ static void name_marks(plot_panel *p) {
 /* Notes that points are left out on a logarithmic axis. */
 static void note_logarithms(shell *sh, const plot_panel *p) {
     if ((p->logx && looks_extent(p, true).lo <= 0) || (p->logy && looks_extent(p, false).lo <= 0))
-        shell_note(sh, "a logarithmic axis has no place for what is not above 0");
+        shell_note(sh, "a logarithmic axis leaves out what is not above 0");
 }
 
 /* The name of an axis: the expressions that share it, each once; empty if they do not fit. */
@@ -371,7 +370,7 @@ static bool move_by(panel_job *job, lexer *lx, said *all, size_t which) {
         return false;
     if (m->found && (m->over.sweep.along || m->over.sweep.var.in != r.sweep.var.in))
         return calc_fail(lx->error, by->at, by->len,
-                         "the figures of an animation go along one load, or one input");
+                         "all figures of an animation need the same load or the same input");
     m->found = true;
     m->over = r;
     return true;
@@ -389,7 +388,7 @@ static bool follow_load(motion *m, const range *r) {
         !m->found || !m->over.sweep.along ||
         (other->end - other->at == len && !memcmp(other->text + other->at, own->text + own->at, len));
     m->found = true;
-    return same || calc_fail(own->error, own->at, len, "the figures of an animation go along one load");
+    return same || calc_fail(own->error, own->at, len, "all figures of an animation need the same load");
 }
 
 /* ---- sweeps ------------------------------------------------------------------------------------ */

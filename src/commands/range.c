@@ -335,7 +335,7 @@ bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over,
         return false;
     const csv_values *x = looks_column(&out->data, &axis, true, lx->error);
     if (!x && !lx->error->raised)
-        calc_fail(lx->error, 0, 0, "no column of %.200s, or more than one, is as %s", out->data.path,
+        calc_fail(lx->error, 0, 0, "%.200s has no column for %s, or more than one", out->data.path,
                   axis.name);
     if (!x || !csv_settle(&out->data, lx->error))
         return heard_place(lx->error, file);

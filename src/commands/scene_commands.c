@@ -97,9 +97,9 @@ bool do_material(shell *sh, lexer *lx, said *all) {
     if (!modulus || !(has(&e, IN_NU) || has(&e, IN_ESTAR)))
         return lex_fail(lx, modulus ? "nu is missing" : "E0 is missing") || add_usage(lx->error, all->by);
     if (e.bound[IN_K] && !has(&e, IN_C0))
-        return lex_fail(lx, "c0 is missing: with a k that follows others the depth where E = E0 matters");
+        return lex_fail(lx, "c0 is missing: a k that may differ from 0 needs the depth c0 where E = E0");
     if (e.has[IN_K] && e.v[IN_K] != 0 && !has(&e, IN_C0))
-        return lex_fail(lx, "c0 is missing: with k = %g the depth where E = E0 matters", e.v[IN_K]);
+        return lex_fail(lx, "c0 is missing: k = %g needs the depth c0 where E = E0", e.v[IN_K]);
     return scene_edit(&sh->calc.scene, apply, &e, lx->error);
 }
 
@@ -165,7 +165,7 @@ bool do_rig(shell *sh, lexer *lx, said *all) {
     const heard *none = said_of(all, "none", 0);
     gather(&e, all);
     if (none ? all->count > 1 : !has(&e, IN_K_RIG))
-        return lex_fail(lx, none ? "where there is no rig there are no offsets" : "stiffness is missing") ||
+        return lex_fail(lx, none ? "without a rig there are no offsets" : "stiffness is missing") ||
                add_usage(lx->error, all->by);
     return scene_edit(&sh->calc.scene, apply, &e, lx->error);
 }

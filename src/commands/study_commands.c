@@ -68,9 +68,10 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
         answer_flag(&event, "jumps", true);
     answer_done(&event);
     if (a->touches)
-        shell_note(sh, "the two sides touch there without passing each other, which tells 8 digits at most");
+        shell_note(sh, "the two sides touch there without crossing: at most 8 digits are certain");
     if (a->jumps)
-        shell_note(sh, "elsewhere the two sides jump past each other; a root close to a jump may be hidden");
+        shell_note(sh,
+                   "elsewhere the two sides jump past each other; a root close to the jump may be missed");
     if (!sh->set.timing)
         return;
     calc_value_text(q->name.d, a->lo, lo);
@@ -131,7 +132,7 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
         knob_text(&q->name[i], a->x[i], there);
         inner = inner || a->end[i] == END_INNER;
         if (a->end[i] == END_SCENE && !edge)
-            shell_note(sh, "the scene ends at %s: %s", there, a->why.text);
+            shell_note(sh, "there is no value beyond %s: %s", there, a->why.text);
         edge |= a->end[i] == END_SCENE;
         if (a->end[i] == END_LOW || a->end[i] == END_HIGH)
             shell_note(sh, "no inner optimum in %s: %s is the %s end of its range", q->name[i].text, there,
@@ -345,7 +346,7 @@ static void remark_uncertain(shell *sh, answer *out, const uncertainty_question 
         char mean[CALC_VALUE_TEXT], spread[CALC_VALUE_TEXT];
         calc_value_text(u->d, u->mean, mean);
         calc_value_text(u->d, u->spread, spread);
-        shell_note(sh, "the Monte Carlo says something else of %s: mean %s, deviation %s", c->name, mean,
+        shell_note(sh, "the Monte Carlo result for %s differs: mean  %s, deviation %s", c->name, mean,
                    spread);
     }
     if (u->samples < q->samples)

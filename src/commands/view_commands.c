@@ -327,7 +327,7 @@ bool do_compare(shell *sh, lexer *lx, said *all) {
         lexer name = hole_lexer(lx, &by->hole[0]);
         ok = knob_known(&sh->calc, &name, &two.with) && range_read_values(sh, lx, &by->hole[1], &two) &&
              (two.curves == COMPARED ||
-              calc_fail(lx->error, by->hole[1].at, by->hole[1].len, "compare shows two values"));
+              calc_fail(lx->error, by->hole[1].at, by->hole[1].len, "compare needs two values"));
     }
     if (ok) {
         sh->compared = (side_by_side){.on = by != NULL, .by = two.with};

@@ -268,10 +268,10 @@ static void put_difference(const page *p, const expr *e, value v) {
     const long double off = fabsl(v.v - exact.v);
     format_value(&p->sh->set, (value){off, v.d}, text, sizeof text);
     if (off > 0 && exact.v != 0) {
-        answer_words(p->out, "    error: %.1Le of the value, beside the exact one\n", off / fabsl(exact.v));
+        answer_words(p->out, "    error: %.1Le of the value, against the exact one\n", off / fabsl(exact.v));
         say_error(p, (double)(off / fabsl(exact.v)), "value");
     } else {
-        answer_words(p->out, "    error: %s, beside the exact value\n", text);
+        answer_words(p->out, "    error: %s, against the exact value\n", text);
         answer_number(p->out, "absolute error", (double)off);
     }
 }

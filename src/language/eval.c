@@ -479,7 +479,7 @@ static bool two_readings(machine *m, const expr_node *n) {
     while (text[numbers - 1] == ' ')
         numbers--;
     m->error->strange = true;
-    return calc_fail(m->error, n->at, len, "%.*s has two readings: write (%.*s) %.*s, or %.*s(%.*s)",
+    return calc_fail(m->error, n->at, len, "%.*s is ambiguous: write (%.*s) %.*s, or %.*s(%.*s)",
                      LEX_SHOWN(len), text, LEX_SHOWN(numbers), text, LEX_SHOWN(len - (n->index - n->at)),
                      m->e->text + n->index, LEX_SHOWN(divisor), text, LEX_SHOWN(len - divisor),
                      text + divisor);

@@ -25,7 +25,7 @@ static bool evaluate(over *o, long double *v) {
     o->known = true;
     *v = now.v;
     return dim_equal(now.d, o->d) ||
-           calc_fail(o->error, 0, 0, "the expression has no dimension of its own: it changes on the way");
+           calc_fail(o->error, 0, 0, "the expression has no fixed dimension: it changes on the way");
 }
 
 /* Appends the place x to an error. */

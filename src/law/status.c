@@ -21,11 +21,11 @@ static const struct {
     [FRET_GROSS_SLIP] = {FRET_CAT_STATE, "exceeds the friction limit: gross slip"},
     [FRET_OUTSIDE] = {FRET_CAT_INPUT, "lies outside the range of the function"},
     [FRET_NOT_MONOTONE] = {FRET_CAT_INPUT, "is where g(x) begins to fall: the contact would not be a disc"},
-    [FRET_TABLE_SHORT] = {FRET_CAT_STATE, "cannot be carried: the gap ends too early"},
+    [FRET_TABLE_SHORT] = {FRET_CAT_STATE, "is too large: the contact would reach the end of the gap"},
     [FRET_BAD_TABLE] = {FRET_CAT_INPUT, "is out of order: radii must start at 0 and grow"},
     [FRET_OVERFLOW] = {FRET_CAT_NUMERIC, "a result is beyond the range of floating-point numbers"},
     [FRET_NO_MEMORY] = {FRET_CAT_SYSTEM, "out of memory"},
-    [FRET_SINGULAR] = {FRET_CAT_INPUT, "is a singular place: the field is infinite there"},
+    [FRET_SINGULAR] = {FRET_CAT_INPUT, "is a singularity: the field is infinite there"},
     [FRET_INTERRUPTED] = {FRET_CAT_SYSTEM, "interrupted"},
 };
 

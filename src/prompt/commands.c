@@ -113,10 +113,8 @@ const command commands[] = {
          "    a = 148.125 um\n"
          "    fret> dW(20 N)\n"
          "    dW(20 N) = 1.96943 uJ\n"
-         "    warning: the bodies are elastically dissimilar (mismatch 0.286): normal and tangential "
-         "contact are "
-         "coupled, and these results are an approximation, kn up to 2.9 % too small (help limits tells of "
-         "dW)\n"},
+         "    warning: the bodies are elastically dissimilar (mismatch 0.286): the coupling of normal and "
+         "tangential contact is neglected; kn is up to 2.9 % too small (dW: help limits)\n"},
     {.name = "geometry",
      .run = do_geometry,
      .keywords = "gap shape indenter sphere cone",
@@ -148,7 +146,7 @@ const command commands[] = {
              "contact, a shift of the stick zone, is neglected.\n\n"
              "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
              "    fret> bulk stress=50 MPa\n"
-             "    warning: a bulk stress also shifts the stick zone, which is left out: in the plane case "
+             "    warning: a bulk stress shifts the stick zone, which is neglected: in the plane case "
              "by a*sB/(4*mu*p0) (Nowell, Hills 1987)\n"
              "    fret> sxx(a, 0 m, 0 m)/p0 at sB = 0 Pa\n"
              "    sxx(a, 0 m, 0 m)/p0 = 0.133333\n"

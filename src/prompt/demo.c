@@ -274,7 +274,7 @@ static bool open_page(const lexer *lx, const heard *to, target *t) {
     char name[FILE_NAME];
     hole_file(lx, &to->hole[0], name);
     if (!file_ends(name, ".html"))
-        return calc_fail(lx->error, to->hole[0].at, to->hole[0].len, "a lesson goes to a page: FILE.html");
+        return calc_fail(lx->error, to->hole[0].at, to->hole[0].len, "a handout goes to a page: FILE.html");
     return target_file(lx, &to->hole[0], t);
 }
 

@@ -59,7 +59,7 @@ static bool read_choices(exercise *x, const lexer *lx, const heard *of) {
     if (!at_end(&own))
         return false;
     if (x->choices < 2)
-        return calc_fail(lx->error, of->hole[0].at, of->hole[0].len, "a choice is of two or more");
+        return calc_fail(lx->error, of->hole[0].at, of->hole[0].len, "expected two or more choices");
     return x->right <= x->choices ||
            calc_fail(lx->error, of->hole[1].at, of->hole[1].len, "there are %u choices", x->choices);
 }
@@ -73,7 +73,7 @@ static bool read_within(exercise *x, const lexer *lx, const span *part) {
     const bool percent = own.text[own.last - 1] == '%';
     if (percent && x->value.v == 0)
         return calc_fail(lx->error, part->at, part->len,
-                         "the answer is 0, which has no part: say how far off a guess may be");
+                         "the answer is 0: give `within` as an amount, not in %%");
     if (percent)
         v = (value){v.v * fabsl(x->value.v), x->value.d};
     x->within = v.v;

@@ -53,7 +53,7 @@ static bool check_line(reading *r, const char *text, size_t len, size_t number) 
         unsigned code;
         n = character_at(text + i, len - i, &code);
         if (!n || !character_shows(code))
-            calc_raise(mistake, i, 1, "a character that does not show");
+            calc_raise(mistake, i, 1, "a character that cannot be shown");
     }
     return !mistake->raised || !tell_mistake(r, text, number, mistake);
 }
@@ -82,7 +82,7 @@ static bool check_statements(reading *r, const char *text, size_t number) {
     if (r->trial->quit)
         calc_raise(mistake, 0, len, "a lesson does not end the session");
     else if (ok && meant)
-        calc_raise(mistake, 0, len, "this is not refused");
+        calc_raise(mistake, 0, len, "this is not refused, as `# refused` says");
     r->trial->quit = false;
     return !mistake->raised || tell_mistake(r, text, number, mistake);
 }

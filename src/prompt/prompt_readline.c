@@ -277,7 +277,7 @@ static void open_history(shell *sh) {
     else if (code)
         shell_say(sh, "no history is kept: cannot write %s: %s", path, strerror(code));
     else if ((st.st_mode & 077) != 0 && st.st_nlink == 1 && fchmod(fd, 0600) != 0)
-        shell_say(sh, "others can read %s", path);
+        shell_say(sh, "other users can read %s", path);
     if (fd >= 0 && !strange)
         read_lines(fd, path, st.st_size);
     if (fd >= 0 && (strange || code)) {

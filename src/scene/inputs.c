@@ -309,7 +309,7 @@ static bool get_modulus(const inputs *in, bool second, long double *E0, calc_err
         return calc_missing(error, (int)E);
     const bool of_both = !second && !in->set[G] && in->set[IN_ESTAR];
     if (of_both && in->v[IN_K] != 0)
-        return calc_fail(error, 0, 0, "Estar is of homogeneous bodies, k = 0: of graded ones give E0");
+        return calc_fail(error, 0, 0, "Estar is for homogeneous bodies, k = 0: for graded ones give E0");
     if (!get_ratio(in, second, &nu, error))
         return false;
     if (!of_both) {

@@ -146,7 +146,7 @@ bool foundation_of(scene *s, bool only_normal, fret_foundation *out, calc_error 
 bool get_kappa(scene *s, long double *out, calc_error *error) {
     long double n = 0, k = 0;
     if (s->in.geometry && !geometry_is_power(s->in.geometry))
-        return calc_fail(error, 0, 0, "kappa is the factor of a gap of a single power, not of geometry %s",
+        return calc_fail(error, 0, 0, "kappa is defined for a gap of a single power, not for geometry %s",
                          s->in.geometry->name);
     if (!scene_get(s, IN_N, &n, error) || !scene_get(s, IN_K, &k, error))
         return false;
@@ -165,7 +165,7 @@ bool get_W1D(scene *s, long double *out, calc_error *error) {
         !scene_straight(s, &contact, error))
         return false;
     if (reach->normal_varies)
-        return calc_fail(error, 0, 0, "W1D is defined at constant FN; W is what has been dissipated");
+        return calc_fail(error, 0, 0, "W1D is defined at constant FN; W is the energy dissipated");
     s->used |= USED(MODEL_MEMORY);
     *out = fret_contact_slip_work(contact);
     return true;

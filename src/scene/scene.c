@@ -286,7 +286,7 @@ bool scene_friction(scene *s, double *mu, calc_error *error) {
         return false;
     *mu = (double)v;
     if (!(*mu > 0))
-        return calc_fail(error, 0, 0, "mu = 0: a contact without friction holds no Fx (friction 0.4)");
+        return calc_fail(error, 0, 0, "mu = 0: without friction no Fx can be carried (friction 0.4)");
     return inputs_know_nu(&s->in) || calc_missing(error, IN_NU);
 }
 

@@ -40,7 +40,7 @@ static bool held_press(scene *s, fret_wear_held *out, calc_error *error) {
     long double v = 0;
     out->by_depth = step->normal == BY_DISPLACEMENT;
     if (step->normal > BY_DISPLACEMENT)
-        return calc_fail(error, 0, 0, "wear holds FN or dz as it was pressed: press by one of them");
+        return calc_fail(error, 0, 0, "wear holds FN or dz: press by one of them (press FN=100 N)");
     for (size_t i = 1; i < cycle; i++)
         if (load_moves_normal(&step[i]))
             return calc_fail(error, 0, 0,
@@ -56,7 +56,7 @@ static bool held_cycle(scene *s, fret_wear_held *out, calc_error *error) {
     if (!scene_last_cycle(s, &cycle, error))
         return false;
     if (load_moves_normal(&cycle.step))
-        return calc_fail(error, 0, 0, "wear wants FN constant, and it swings in this cycle (FNA)");
+        return calc_fail(error, 0, 0, "wear needs a constant FN, but it swings in this cycle (FNA)");
     if (cycle.step.tangential == BY_RIG)
         return calc_fail(error, 0, 0,
                          "wear holds FA or dxA, and this cycle goes to a displacement at the rig");

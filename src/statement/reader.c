@@ -710,7 +710,7 @@ static bool has_blank_in_file(lexer *lx, const said *s) {
 
 bool said_end(lexer *lx, const said *s) {
     if (lx->kind == T_COMMA)
-        return lex_fail(lx, "unexpected ',': blanks part the arguments of %s", s->by->command);
+        return lex_fail(lx, "unexpected ',': blanks separate the arguments of %s", s->by->command);
     if (misspelt(lx, s) || half_named(lx, s) || has_blank_in_file(lx, s))
         return false;
     return at_end(lx) || (lx->kind != T_END && !s->count && *s->by->takes && add_usage(lx->error, s->by));

@@ -68,7 +68,7 @@ bool target_share(shell *sh, target *t, size_t rows, size_t *from, size_t *to, c
         return calc_fail(error, t->name.at, t->name.len,
                          "a share of the rows goes to standard output, to be put together with the others");
     if (t->format == FORMAT_TEXT)
-        return calc_fail(error, 0, 0, "a share of the rows is CSV or JSON: use --format=csv or json");
+        return calc_fail(error, 0, 0, "a share of the rows needs --format=csv or json");
     *from = row_after(p, rows, p->number - 1);
     *to = row_after(p, rows, p->number);
     p->met = t->shared = true;

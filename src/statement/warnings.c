@@ -34,13 +34,13 @@ void shell_warn_dissimilar(shell *sh) {
     const bool tangential =
         s->used & ASKED_TANGENTIAL || (scene_reach(s, &reach, error_quiet()) && reach->by);
     if (is_new(sh, DISSIMILAR, !f->similar && (sh->warned & DISSIMILAR || tangential))) {
-        char size[80] = "; how far off for k other than 0 is unknown";
+        char size[80] = "; for k other than 0 its effect is not known";
         if (f->k == 0)
-            snprintf(size, sizeof size, ", kn up to %.2g %% too small (help limits tells of dW)",
+            snprintf(size, sizeof size, "; kn is up to %.2g %% too small (dW: help limits)",
                      stiffening(f));
         shell_warning(sh,
-                      "the bodies are elastically dissimilar (mismatch %.3g): normal and tangential contact "
-                      "are coupled, and these results are an approximation%s",
+                      "the bodies are elastically dissimilar (mismatch %.3g): the coupling of normal and "
+                      "tangential contact is neglected%s",
                       (double)f->mismatch, size);
     }
 }
@@ -112,7 +112,7 @@ static void warn_bulk(shell *sh) {
     long double sB = 0;
     scene_get(&sh->calc.scene, IN_SB, &sB, error_quiet());
     if (is_new(sh, BULK, sB != 0))
-        shell_warning(sh, "a bulk stress also shifts the stick zone, which is left out: in the plane case by "
+        shell_warning(sh, "a bulk stress shifts the stick zone, which is neglected: in the plane case by "
                           "a*sB/(4*mu*p0) (Nowell, Hills 1987)");
 }
 
@@ -140,7 +140,7 @@ static void note_yield(shell *sh, bool again) {
             calc_amount(DIM_LENGTH, fabsl(at[i]) < 1e-4L * press->a ? 0 : at[i], 3, text[2 + i],
                         sizeof text[2 + i]);
         shell_note(sh,
-                   "mises = %s exceeds %s = %s at x = %s, z = %s: the body yields there, which is left out",
+                   "mises = %s exceeds %s = %s at x = %s, z = %s: the body yields there, which is neglected",
                    text[0], quantity_of_input(in)->name, text[1], text[2], text[3]);
     }
     s->used = used;

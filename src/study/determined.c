@@ -50,7 +50,7 @@ static bool cannot_tell(const residuals *r, const gsl_matrix *V, size_t v, calc_
     for (size_t i = 0; i < count; i++)
         list_word(list, sizeof list, i + 1 == count ? " and " : ", ", r->of->name[shown[i]].text);
     if (count > 1)
-        return calc_fail(error, 0, 0, "the data cannot tell %s apart: only a combination of them shows; %s",
+        return calc_fail(error, 0, 0, "the data cannot tell %s apart: they determine only a combination; %s",
                          list, instead_of(r, shown, count));
     /* one name against turning points, or turning points alone */
     return calc_fail(error, 0, 0,

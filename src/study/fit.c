@@ -296,7 +296,7 @@ static bool arrived(fitting *s, bool small, calc_error *error) {
     }
     const bool exact = r->unit * sqrt(v) < rounding * s->size;
     return (ok && (!small || exact || promised < v)) ||
-           calc_fail(error, 0, 0, "the fit does not settle: %s", gsl_strerror(GSL_EMAXITER));
+           calc_fail(error, 0, 0, "the fit does not converge: %s", gsl_strerror(GSL_EMAXITER));
 }
 
 /* Replaces GSL's driver, which an interrupt would not end. */

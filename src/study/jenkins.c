@@ -168,7 +168,7 @@ bool jenkins(const fret_pressed *contact, double amplitude, size_t count, const 
         note(&m, (fret_status){FRET_OVERFLOW, NULL, 0, 0});
     if (m.failed.code || !(m.end > TOO_SMALL * slip) || scale < DBL_MIN)
         return calc_status(error, m.failed) &&
-               calc_fail(error, 0, 0, "the load is too small: what slips can hardly be told from nothing");
+               calc_fail(error, 0, 0, "the load is too small: its slip is lost in rounding");
     while (!m.failed.code && !march_stopped(&m) && hi - lo > ENOUGH * hi) {
         m.e = lo > 0 ? sqrt(lo) * sqrt(hi) : hi / 16;
         if (suffices(&m, slipping, NULL))

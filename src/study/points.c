@@ -172,7 +172,7 @@ bool points_keeps(points *p, size_t i, dim of, dim *d, bool *known) {
     if (dim_equal(of, *d))
         return true;
     p->error->strange = true;
-    return calc_fail(p->error, e->at, e->len, "%.*s has no dimension of its own: it changes on the way",
+    return calc_fail(p->error, e->at, e->len, "%.*s has no fixed dimension: it changes on the way",
                      LEX_SHOWN(e->len), e->text + e->at);
 }
 

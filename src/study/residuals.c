@@ -228,7 +228,7 @@ static void no_slope(const residuals *r, size_t i) {
     char at[KNOB_TEXT] = "a turning point";
     if (i < r->of->count)
         knob_text(&r->of->name[i], residuals_unknown(r, i), at);
-    calc_fail(r->p.error, 0, 0, "no value close beside %s, for the derivative: %s", at, r->p.none.text);
+    calc_fail(r->p.error, 0, 0, "no value close to %s, for the derivative: %s", at, r->p.none.text);
 }
 
 /* r->above becomes the central differences about q; one-sided at the limit of the scene. */

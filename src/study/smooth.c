@@ -158,7 +158,7 @@ static bool improve(candidate *t, const rows *all, bool begin, file_stop stop, c
         gsl_matrix_memcpy(t->factor, t->normal);
         gsl_vector_memcpy(t->whole, t->right);
         if (gsl_linalg_cholesky_decomp1(t->factor)) /* unreached: each piece has four different r */
-            return calc_fail(error, 0, 0, "%zu different r cannot carry %zu pieces: take fewer",
+            return calc_fail(error, 0, 0, "%zu different r are too few for %zu pieces: take fewer",
                              all->distinct, t->pieces);
     }
     gsl_linalg_cholesky_svx(t->factor, t->right);
@@ -485,7 +485,7 @@ static bool choose(candidate *t, const rows *all, smoothing how, file_stop stop,
     if (how.by != SMOOTH_PIECES)
         return choose_pieces(t, all, how, stop, error);
     if (how.pieces > most)
-        return calc_fail(error, 0, 0, "%zu different r carry up to %zu pieces", all->distinct, most);
+        return calc_fail(error, 0, 0, "%zu different r allow at most %zu pieces", all->distinct, most);
     return attempt(t, all, how.pieces, stop, error) && rises(t, all, error);
 }
 

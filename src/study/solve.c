@@ -93,8 +93,7 @@ static bool choose_range(search *s, calc_error *error) {
             if (now == 0 && k->is_input && k->in == IN_NW)
                 now = 1e4; /* the scan then covers 10 to 1e7 */
             if (now == 0)
-                return calc_fail(error, 0, 0, "%s has no value that tells how far to search%s", k->text,
-                                 advice);
+                return calc_fail(error, 0, 0, "%s is 0, which gives no range to search%s", k->text, advice);
             s->lo = now / 1e3;
             s->hi = now * 1e3;
         }
@@ -324,7 +323,7 @@ static bool no_root(search *s, calc_error *error) {
               from, to, best.f < 0 ? "below" : "above", off + (best.f < 0), there);
     if (s->edged) {
         knob_text(k, s->edge.x, there);
-        calc_append(s->of->c, error, ", and the scene ends at %s: %s", there, s->why.text);
+        calc_append(s->of->c, error, ", and there is no value beyond %s: %s", there, s->why.text);
     }
     return false;
 }

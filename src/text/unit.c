@@ -244,7 +244,7 @@ static bool power_of_power(lexer *lx, size_t word, size_t at, double n) {
     if (lx->kind != T_NUMBER)
         return lex_fail(lx, "the exponent of a unit must be a number");
     return calc_fail(lx->error, word, lx->at + lx->len - word,
-                     "a unit with two exponents has two readings: write (1 %.*s)^%g, or %.*s^%g", (int)len,
+                     "a unit with two exponents is ambiguous: write (1 %.*s)^%g, or %.*s^%g", (int)len,
                      lx->text + word, lx->number, (int)name, lx->text + word,
                      copysign(pow(fabs(n), lx->number), n));
 }

@@ -88,7 +88,7 @@ def failing(tests):
     # the history, opened after a start-up file that arms the faults
     config, found = started(tests, "arming", "source arm\n"), []
     for call, code, says in (("fstat", errno.EIO, "no history is kept: .*history is no plain file"), ("newfstatat", errno.EIO, "no history is kept: .*history is no plain file"),
-                             ("fchmod", errno.EPERM, "others can read .*history"),
+                             ("fchmod", errno.EPERM, "other users can read .*history"),
                              ("openat", errno.EACCES, "no history is kept: cannot write .*history: Permission denied"), ("openat", errno.EROFS, "no history is kept: cannot write .*history: Read-only"), ("read", errno.EIO, "^ *$")):
         state, kept = history_of(tests, "kept-%s-%d" % (call, code), "123 + 1\n", 0o644)
         path, s = session(call, 3 if call == "read" else 1, code, XDG_STATE_HOME=state, XDG_CONFIG_HOME=config)

@@ -62,7 +62,7 @@ TOLD = (
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "qx(0.1 mm)", ("    error: below 1e-12 of the largest value",), ()),
     (PRESSED + "geometry exact-sphere R=10 mm\n", "a", ("    error: below 1e-13 of the value",), ()),
     (SUM, "W", ("    error: below 1e-13 of the largest value so far",), ()),
-    (PRESSED + "set model springs 50\n", "W", ("    error: 0 J, beside the exact value",), ()),
+    (PRESSED + "set model springs 50\n", "W", ("    error: 0 J, against the exact value",), ()),
     # inputs that were given before, and that the geometry does not have
     (PRESSED + "c0 = 1 mm; geometry cone slope=0.1\n", "a", ("    slope = 0.1",), ("    c0 = ", "    R = ")),
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "dW(5 N) conditioning", ("    FN now = 110 N", "    FNA = 10 N", "    no effect: .*FA.*"), ("    FA = 9 N",)),
@@ -167,7 +167,7 @@ def springs(tests):
         done = tests.run("--format=json", "-c", scene + "%s; set model springs %d; %s" % (name, count, name))
         exact, got = harness.printed_values(done.stdout)
         page = tests.run("-c", scene + "set model springs %d; explain %s" % (count, name))
-        told = re.findall(r"^    error: (\S+) of the value, beside the exact one$", page.stdout, re.M)
+        told = re.findall(r"^    error: (\S+) of the value, against the exact one$", page.stdout, re.M)
         tests.check("the error of %d springs, %s of %s" % (count, name, load), got != exact and len(told) == 1 and
                     abs(float(told[0]) / abs(got / exact - 1) - 1) < 0.06, tests.report(done) + tests.report(page))
 

@@ -105,7 +105,7 @@ def drifting(tests):
         name = write(tests, "drift.csv", "dx [um],Fx [N]", rows)
         _, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + name)
         wrong = what.startswith("a")
-        tests.check("fit: residuals with " + what, event and ("residuals go together" in done.stderr) == wrong
+        tests.check("fit: residuals with " + what, event and ("residuals are correlated" in done.stderr) == wrong
                     and (what == "nothing" or (event["neighbours"] > 0.5) == wrong), tests.report(done))
 
 
@@ -213,9 +213,9 @@ def told_apart(tests):
     rows = [(d * 1e6 + noise.gauss(0, 0.005), f + noise.gauss(0, 0.3)) for d, f in zip(path, loop(0.5, 200e9, path))]
     name = write(tests, "apart.csv", "dx [um],Fx [N]", rows)
     for names, want in (("mu, E0, k", "the data hardly tell E0 and k apart: depths at loads decades apart tell k"),
-                        ("mu, E0, c0", "E0 and c0 apart: only a combination of them shows; a contact shows E0/c0^k alone"),
-                        ("mu, E0, nu", "E0 and nu apart: only a combination of them shows; give nu"),
-                        ("mu, E0, R", "E0 and R apart: only a combination of them shows; measure the shape")):
+                        ("mu, E0, c0", "E0 and c0 apart: they determine only a combination; a contact shows E0/c0^k alone"),
+                        ("mu, E0, nu", "E0 and nu apart: they determine only a combination; give nu"),
+                        ("mu, E0, R", "E0 and R apart: they determine only a combination; measure the shape")):
         done = tests.run("-c", "material E0=150 GPa nu=0.3 k=0.05 c0=1 mm; geometry paraboloid R=10 mm; friction 0.4; press FN=100 N; fit %s along %s" % (names, name))
         tests.check("fit: one loop, " + names, want in done.stderr, tests.report(done))
 
@@ -584,13 +584,13 @@ def refusals(tests):
             ("s = 1; q = 2; fit s, q for y = s*q*u to {exact}", "the data cannot tell s and q apart"),
             ("s = 1; q = 2; t = 3; fit s, q, t for y + u^2 = s*q*u + s*t*u^2 to {exact}", "the data cannot tell s, q and t apart"),
             ("s = 1; fit s for y = s*u + sqrt(-(s - 1)^2) to {exact}",
-             "no value close beside s = 1, for the derivative: the square root of a negative number is not real"),
+             "no value close to s = 1, for the derivative: the square root of a negative number is not real"),
             # the minimum is a kink, which derivatives do not show
-            ("s = 1; fit s for y = 15 + max(s - 1, (1 - s)/10) to {exact}", "the fit does not settle"),
+            ("s = 1; fit s for y = 15 + max(s - 1, (1 - s)/10) to {exact}", "the fit does not converge"),
             # the largest number of names
             ("; ".join(["s = 1", "w = 22.5 deg"] + ["x%d = 1" % i for i in range(1, 8)]) + "; fit s, x1, x2, x3, x4, x5, x6, x7 "
              "for y = 15 + max(s - 1, (1 - s)/10) + x1*sin(u*w) + x2*cos(u*w) + x3*sin(2*u*w) + x4*cos(2*u*w) + x5*sin(3*u*w) "
-             "+ x6*cos(3*u*w) + x7*sin(4*u*w) to {waves}", "the fit does not settle"),
+             "+ x6*cos(3*u*w) + x7*sin(4*u*w) to {waves}", "the fit does not converge"),
             ("s = 1; fit s for y = u + 0*s to {exact}", "the data do not determine s: nothing in them depends on it"),
             ("s = -1; fit s for y = log(-s^2*u) to {zero}", "log is not defined there (row 1 of the data)"),
             ("s = 1; fit s for y = s*u/(u - 2) to {exact}", "division by zero (row 2 of the data)"),
@@ -789,7 +789,7 @@ def uneven(tests):
         tests.check("fit: interval %d, errors %.3g and %.3g" % (seed, want[0], want[1]), ok, "%s\n%s" % (want, tests.report(done)))
         text = tests.run("-c", script)
         if math.isinf(want[1]):
-            tests.check("fit: bounded from below", re.match(r"q = \S+ \(-\S+, \+inf\)\n", text.stdout) and "the data bound q from below alone" in text.stderr
+            tests.check("fit: bounded from below", re.match(r"q = \S+ \(-\S+, \+inf\)\n", text.stdout) and "the data give only a bound of q from below" in text.stderr
                         and event["upper"]["q"] is None, tests.report(text))
             data = tests.run("--format=csv", "-c", script).stdout.splitlines()
             tests.check("fit: its columns", data[0].startswith("q,q deviation,q lower,q upper") and data[1].split(",")[3] == "", str(data))

@@ -50,11 +50,11 @@ REFUSED = {
     "loop no-header.dat": "no-header.dat has no column dx: it has no line of names above its rows; say which it is: using dx=NUMBER UNIT\n",
     "loop no-header.dat using dx=1, Fx=2 N": "column dx is a number: it needs the unit of a length in the header, or here: using dx=COLUMN UNIT\n",
     "loop no-header.dat using dx=1 um, Fx=3 N": "no-header.dat has no column 3: it has no line of names above its rows\n",
-    "loop no-header.dat using dx=1 um, Fx=1 N": "column 1 is dx already\n",
+    "loop no-header.dat using dx=1 um, Fx=1 N": "column 1 is already used as dx\n",
     "loop no-header.dat using dx=1 lightyear": "unknown unit 'lightyear'; try: help units\n",
     "loop no-header.dat using dx": "expected = after dx\n",
     "loop names-twice.csv": "names-twice.csv has two columns Fx: rename one, or say which by its number: using Fx=2\n",
-    "loop names-twice.csv using Fx=Fx": "names-twice.csv has two columns Fx: say which by its number\n",
+    "loop names-twice.csv using Fx=Fx": "names-twice.csv has two columns Fx: give the number of one\n",
     "loop names-with-blanks.txt using Fx=Load": 'names-with-blanks.txt has no column Load: its columns are Time, Lateral Displacement, Load On Sample, '
                                                 'by line 1, "Time (s)\tLateral Displacement (um)\tLoad On Sample (kN)"\n',
     "loop two-forces.csv": "two-forces.csv has no column Fx, and a force is each of Normalkraft, Querkraft: say which it is: using Fx=COLUMN\n",
@@ -72,13 +72,13 @@ REFUSED = {
     "loop plain.csv to plain.xyz": "cannot tell the form of a table from 'plain.xyz': use .csv, .json, .txt or .dat\n",
     SCENE + "follow force-turned.csv": "force-turned.csv: Fx falls where dx grows: one of them has the other sign in the file\n",
     "material steel; geometry sphere R=10 mm; friction 0.4; follow plain.csv": "there is no load yet: press first (press FN=100 N)\n",
-    SCENE + "step Fx=1 N; plot loop using Fx=Fx to x.gp": "using stands behind at FILE.csv or over FILE.csv\n",
+    SCENE + "step Fx=1 N; plot loop using Fx=Fx to x.gp": "using follows at FILE.csv or over FILE.csv\n",
     "geometry file profile-both-sides.csv": "is below f(0) = 0: f is the gap and grows outward; the sign or the apex may be the cause\n",
     "geometry file profile-apex.csv smooth": "which is no noise: f is the gap and grows outward; the sign or the apex may be the cause\n",
 }
 # statements, their output and messages
 READ = (
-    (SCENE + "follow plain.csv; dx, Fx", "dx = 2 um\nFx = 40 N\n", "note: Fx of the file is 10.7737 N (rms) from Fx here\n"),
+    (SCENE + "follow plain.csv; dx, Fx", "dx = 2 um\nFx = 40 N\n", "note: Fx of the file differs from the computed Fx by 10.7737 N (rms)\n"),
     (SCENE + "follow pull-is-negative.csv; FN, Fx, W", "FN = 120 N\nFx = -15 N\nW = 328.223 nJ\n",
      "note: pull-is-negative.csv: 3 rows from line 2, FN is negative throughout, which is compression here: its sign is turned\n"),
     (SCENE + "fit mu along two-forces.csv using Fx=Querkraft", None, 'note: two-forces.csv: 11 rows from line 2, dx from "Weg [um]", Fx from "Querkraft [N]"\n'),
@@ -142,7 +142,7 @@ def words(tests):
     done = tests.run("-c", "loop " + path)
     with tests.file("dx [m],Fx [N]\n" + 20 * "1e-7,3\n", ".csv") as hold:
         held = tests.run("-c", SCENE + "follow " + hold)
-    tests.check("followed: one place for 20 rows", held.returncode == 0 and "note: Fx of the file is" in held.stderr, tests.report(held))
+    tests.check("followed: one place for 20 rows", held.returncode == 0 and "note: Fx of the file differs" in held.stderr, tests.report(held))
     tests.check("refused: a picture", done.returncode == 1 and "picture.png:3: this is no text, or UTF-16 without its mark: save it as UTF-8\n" in
                 done.stderr, tests.report(done))
     for statement, message in REFUSED.items():

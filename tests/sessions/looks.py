@@ -104,7 +104,7 @@ def looks(tests):
     for plot, lost in (("plot sin(x) for x = 1 .. 10 log y", True), ("plot x for x = 0 .. 1 log x", True),
                        ("plot sin(x) for x = 1 .. 10 log x", False), ("plot exp(x) for x = -1 .. 1 log y", False)):
         done = tests.run("-c", plot + " to " + os.path.join(tests.dir, "lost.gp"))
-        tests.check("what a logarithmic axis loses: " + plot, ("no place for what is not above 0" in done.stderr) == lost,
+        tests.check("what a logarithmic axis loses: " + plot, ("leaves out what is not above 0" in done.stderr) == lost,
                     tests.report(done))
     text, series = script(tests, "several", "plot loop | traction | x^2 for x = 0 .. 1 | E with k=-0.5,0.5")
     tests.check("several side by side", text.count("\nplot ") == 4 and "layout 1,4" in text, text[-1500:])
@@ -260,7 +260,7 @@ def maps(tests):
     tests.check("panels stand on one line", [len(set(re.findall("^set %s .*" % m, text, re.M)))
                                              for m in ("tmargin", "bmargin")] == [1, 1], text[-3000:])
     fails(tests, "plot map a for k = 0 .. 0.5", "expected for B = LO .. HI")
-    fails(tests, "plot map a along program", "a map goes for A = LO .. HI for B = LO .. HI")
+    fails(tests, "plot map a along program", "a map needs two ranges: for A = LO .. HI for B = LO .. HI")
     done = tests.run("-c", SCENE + "table x*y, x+y for x = 1 .. 3 steps 2 for y = 1 .. 2 steps 1")
     tests.check("a matrix", [line.split() for line in done.stdout.splitlines()] ==
                 [["x*y"], ["x", "y", "=", "1", "y", "=", "2"], ["1", "1", "2"], ["2", "2", "4"], ["3", "3", "6"], [],
@@ -318,7 +318,7 @@ def moving(tests):
         done = tests.run("-c", pressed + "animate %s frames 3 to %s\nFx" % (load, path))
         tests.check("figures over a place, along a load: " + load, done.returncode == 0 and frames_of(path) in (2, 3) and
                     done.stdout.endswith("Fx = 0 N\n"), tests.report(done))
-    fails(tests, "animate springs along cycle FA=9 N | loop along cycle FA=8 N", "the figures of an animation go along one load", pressed)
+    fails(tests, "animate springs along cycle FA=9 N | loop along cycle FA=8 N", "all figures of an animation need the same load", pressed)
     fails(tests, "animate springs along FA=9 N", "along what? program, cycle, step ... or cycle ...", pressed)
     fails(tests, "plot springs along cycle FA=9 N", "springs goes over x, not along a load: animate springs along ... shows it move", pressed)
     still, moved = (tests.run("-c", pressed + "%sanimate springs %sframes 3" % (before, along)).stdout
@@ -334,10 +334,10 @@ def moving(tests):
     fails(tests, "plot x for x = 0 .. 1 | x for y = 0 .. 1", "unknown name 'x'")
     done = tests.run("-c", SCENE + "animate loop | y for y = 0 .. 1 with mu = 0.4, 0.5 | y for y = 0 .. 1 with z = 1, 2 frames 3 to " + path)
     tests.check("what does not move", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
-    fails(tests, "animate Fx against dx along cycle FA=10 N | Fx along cycle FA=20 N", "the figures of an animation go along one load")
+    fails(tests, "animate Fx against dx along cycle FA=10 N | Fx along cycle FA=20 N", "all figures of an animation need the same load")
     done = tests.run("-c", SCENE + "animate Fx against dx along cycle FA=10 N | Fx along cycle FA=10 N frames 3 to " + path)
     tests.check("one load, said twice", done.returncode == 0 and frames_of(path) in (2, 3), tests.report(done))
-    fails(tests, "animate loop | W1D along cycle", "the figures of an animation go along one load")
+    fails(tests, "animate loop | W1D along cycle", "all figures of an animation need the same load")
     for figures in ("p(r) for r = 0 mm .. 0.2 mm for FN = 10 N .. 100 N", "p(r) for r = 0 mm .. 0.2 mm title \"t\" for FN = 10 N .. 100 N | springs for FN = 10 N .. 100 N",
                     "profile for R = 5 mm .. 10 mm"):
         done = tests.run("-c", pressed + "animate %s frames 3 to %s\nFN" % (figures, path))
@@ -345,7 +345,7 @@ def moving(tests):
     done = tests.run("-c", pressed + "animate p(r) for r = 0 mm .. 0.2 mm for FN = 10 N .. 100 N frames 3")
     tests.check("the title tells of the last", "FN = 100 N" in done.stdout, tests.report(done))
     fails(tests, "animate p(r) for r = 0 m .. a for FN = 1 N .. 2 N | p(r) for r = 0 m .. a for mu = 0.1 .. 0.2",
-          "the figures of an animation go along one load, or one input", pressed)
+          "all figures of an animation need the same load or the same input", pressed)
     fails(tests, "animate p(r) for r = 0 mm .. 1 mm for FN = 10 N .. -100 N frames 3", "FN = -45 N must be positive", pressed)
     fails(tests, "animate loop to x.png", "an animation goes to a .gif file or to the terminal")
     fails(tests, "animate loop frames 1", "an animation takes 2 frames or more")

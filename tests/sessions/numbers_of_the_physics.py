@@ -497,7 +497,7 @@ def stiffened(tests):
     for nu in (-0.3, 0.0, 0.1, 0.2, 1 / 3, 0.4, 0.45):
         part = 100 * ((1 - nu) * math.log(3 - 4 * nu) / (1 - 2 * nu) - 1)
         done = tests.run("-c", "material E0=1 GPa nu=%.17g; second rigid; geometry sphere R=10 mm; friction 0.4; press FN=1 N; step Fx=0.1 N" % nu)
-        tests.check("stiffened, nu = %g" % nu, "kn up to %.2g %% too small" % part in done.stderr, tests.report(done))
+        tests.check("stiffened, nu = %g" % nu, "kn is up to %.2g %% too small" % part in done.stderr, tests.report(done))
     done = tests.run("-c", "material E0=1 GPa nu=0.5; second rigid; geometry sphere R=10 mm; friction 0.4; press FN=1 N; step Fx=0.1 N")
     tests.check("stiffened, nu = 0.5", done.returncode == 0 and not done.stderr, tests.report(done))
 

@@ -276,7 +276,7 @@ WRONG = (
     (sphere, "smooth 3 N", "smooth takes a misfit (smooth 0.1 um) or a number of pieces (smooth 8)"),
     (sphere, "smooth 0", "smooth takes a misfit"), (sphere, "smooth 2.5", "smooth takes a misfit"),
     (sphere, "smooth -1 um", "smooth takes a misfit"), (sphere, "smooth 3 4", "unexpected '4'"),
-    (sphere, "smooth 51", "200 different r carry up to 50 pieces"),
+    (sphere, "smooth 51", "200 different r allow at most 50 pieces"),
     (sphere, "smooth 1 nm", "no profile of up to 50 pieces comes within 1 nm (rms): the nearest is 4"),
     (lambda r: 50 * r ** 2 - 30 * r ** 4, "smooth", "falls from r = 91"),
     (lambda r: 50 * r ** 2 - 30 * r ** 4, "smooth 6", " nm, which is no noise: leave out what lies beyond, or take fewer"),
