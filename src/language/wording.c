@@ -19,21 +19,21 @@ static const struct {
     {"load", "press, step, cycle and follow do it; `plot load` draws the path"},
     {"push", "step Fx=20 N pushes, cycle FA=20 N pushes to and fro"},
     {"unload", "step FN=... goes back to a smaller force"},
-    {"pressure", "p(r) tells it, p0 and pmean the largest and the mean, `plot pressure` draws it"},
-    {"traction", "qx(r) tells it, `plot traction` draws it"},
+    {"pressure", "p(r) is the local, p0 the largest, pmean the mean one; `plot pressure` draws it"},
+    {"traction", "it is qx(r); `plot traction` draws it"},
     {"E*", "the effective modulus, 1/E* = (1-nu^2)/E0 + (1-nu_2^2)/E0_2; try: help Estar"},
     {"E'", "in some books 2 E*, 2/E' = (1-nu^2)/E0 + (1-nu_2^2)/E0_2; try: help Estar"},
     {"stress",
      "p(r) and qx(r) on the surface; inside, k = 0, sxx(x, y, z), mises and others; try: help cracking"},
     {"cylinder",
-     "line contact is not axisymmetric, which this program does not do; its flat end is geometry flat b=..."},
-    {"torsion", "no twist is computed: the load is FN and Fx"},
-    {"print", "values are asked for by what they are called: a, dz in um"},
+     "line contact is not axisymmetric and cannot be computed; a flat end is geometry flat b=..."},
+    {"torsion", "torsion is not computed: the load is FN and Fx"},
+    {"print", "a value is printed by its name or expression: a, dz in um"},
     {"clear", "`reset` forgets the load, `reset all` the inputs too"},
     {"lessons", "`show demos` lists them, `help lessons` tells how to write one"},
-    {"redo", "undo has no way forward; the arrow keys bring statements back"},
-    {"adhesion", "none is computed; try: help limits"},
-    {"mismatch", "the warning on dissimilar bodies tells it; try: help limits"},
+    {"redo", "there is no redo; the arrow keys bring statements back"},
+    {"adhesion", "it is not computed; try: help limits"},
+    {"mismatch", "the warning on dissimilar bodies gives it; try: help limits"},
 };
 enum { LEADS = sizeof leads / sizeof *leads };
 
@@ -101,8 +101,8 @@ static void word_status(const calc *c, calc_error *error) {
         snprintf(text, size, "%s = %s %s (limit %s)", name, given, rule, limit);
     else if (st->code == FRET_NOT_MONOTONE && st->limit > 0)
         snprintf(text, size,
-                 "%s = %s %s; at %s it has risen again: noise and rounding of rows do that, and "
-                 "`geometry file FILE smooth` takes a profile through them",
+                 "%s = %s %s; at %s it has risen again, as by noise or rounding of rows: try "
+                 "`geometry file FILE smooth`",
                  name, given, rule, limit);
     else
         snprintf(text, size, "%s = %s %s", name, given, rule);

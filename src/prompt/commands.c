@@ -407,7 +407,7 @@ const command commands[] = {
              "less certain than its inputs, with any model.\n\n"
              "    fret> material E0=210 GPa nu=0.3\n"
              "    fret> explain eta conditioning\n"
-             "    eta: stiffness ratio\n"
+             "    eta: ratio of normal to tangential stiffness\n"
              "        eta = c_N/c_T  (4),(5)\n"
              "        nu = 0.3\n"
              "        model: closed form\n"

@@ -119,14 +119,14 @@ static const setting rows[] = {
      .initial = DIGITS},
     {.name = "report",
      .takes = "auto | off | on",
-     .summary = "what press, step and cycle tell of themselves; auto: at the prompt",
+     .summary = "whether press, step and cycle report; auto: at the prompt only",
      .example = "    fret> set report on\n"
                 "    fret> material steel; geometry sphere R=10 mm; press FN=100 N\n"
                 "      FN = 100 N, a = 186.626 um, dz = 3.48291 um\n",
      .at = offsetof(shell, set.report)},
     {.name = "timing",
      .takes = "off | on",
-     .summary = "the time of each statement, and the models that answered",
+     .summary = "print the time of each statement, and the models used",
      .example = "    fret> set timing on\n"
                 "    fret> pi\n"
                 "    pi = 3.14159\n"
@@ -134,12 +134,12 @@ static const setting rows[] = {
      .at = offsetof(shell, set.timing)},
     {.name = "pager",
      .takes = "auto | off | on",
-     .summary = "show text by $PAGER; auto: what the terminal is too low for",
+     .summary = "show text with $PAGER; auto: only text longer than the screen",
      .example = "    fret> set pager off\n",
      .at = offsetof(shell, set.pager)},
     {.name = "model",
      .takes = "auto | closed | memory | springs N:10000000",
-     .summary = "what answers for tangential loads; auto: the cheapest exact one",
+     .summary = "the model for tangential loads; auto: the cheapest exact one",
      .example = "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press "
                 "FN=100 N; cycle FA=20 N\n"
                 "    fret> dW\n"
@@ -160,8 +160,7 @@ static const setting rows[] = {
      .differs = has_plot},
     {.name = "cores",
      .takes = "N:64 | auto",
-     .summary =
-         "processes that long tables, maps, fits and samples are shared among; auto: one for each core",
+     .summary = "number of processes for long tables, maps, fits and samples; auto: one for each core",
      .example = "    fret> set cores 1\n",
      .at = offsetof(shell, calc.cores)},
 };

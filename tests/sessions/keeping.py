@@ -48,7 +48,7 @@ no mu; with mu = 0 no Fx can be carried.
     fret> mu
     mu = 0.4
 fret> explain eta conditioning
-eta: stiffness ratio
+eta: ratio of normal to tangential stiffness
     \u03b7 = c_N/c_T  (4),(5)
     nu = 0.3
     model: closed form
