@@ -352,8 +352,8 @@ static void overview(FILE *to) {
         list_word(names, sizeof names, ", ", topic_name(i));
     fputs("Topics: ", to);
     help_wrapped(to, names, 8, 8);
-    fputs("help NAME tells of any quantity, unit, geometry, setting or model, such as\n"
-          "`help dW`; apropos WORD finds them by what they are about.\n\n"
+    fputs("help NAME explains any quantity, unit, geometry, setting or model, such as\n"
+          "`help dW`; apropos WORD searches all help for a subject.\n\n"
           "Begin with `demo`, or:\n"
           "    material steel; geometry sphere R=10 mm; friction 0.4\n"
           "    press FN=100 N; cycle FA=20 N; dW\n",

@@ -12,10 +12,10 @@
 
 void help_units(FILE *to) {
     fputs("After a number, with or without a space (210 GPa, 0.3N/mm^2), and after `in`.\n"
-          "A unit belongs to all of the numbers before it (60*pi N, (1/3) N); behind a\n"
-          "division, as in 1/2 inch, that or 1/(2 inch) is meant: the one that fits where\n"
-          "it stands, and an error where both would.\n"
-          "Those marked * take the prefixes n u \xc2\xb5 m k M G; c goes with m alone.\n",
+          "A unit belongs to the whole product before it (60*pi N, (1/3) N). After a\n"
+          "division, 1/2 inch may be (1/2) inch or 1/(2 inch): the one whose dimension fits\n"
+          "is taken; if both fit, it is an error.\n"
+          "Units marked * take the prefixes n u \xc2\xb5 m k M G; c goes with m alone.\n",
           to);
     const char *name;
     for (size_t i = 0; (name = unit_name(i)); i++)
@@ -218,8 +218,8 @@ void help_topic(FILE *to, size_t i) {
 
 const char *model_text(size_t id) {
     static const char *const texts[MODELS] = {
-        [MODEL_CLOSED] = "Formulas of the paper, where the load program has one: a press and a tangential\n"
-                         "step, or cycles at constant FN.\n\n" EXAMPLE "cycle FA=20 N\n"
+        [MODEL_CLOSED] = "Formulas of the paper, for loads that have one: a press and a tangential step,\n"
+                         "or cycles at constant FN.\n\n" EXAMPLE "cycle FA=20 N\n"
                          "    fret> set model closed\n    fret> dW\n    dW = 1.90646 uJ\n",
         [MODEL_MEMORY] = "Follows any history exactly, without springs or step sizes: the state is a\n"
                          "polyline over the depth y = g(x). `help theory` tells more.\n\n" EXAMPLE
@@ -228,21 +228,21 @@ const char *model_text(size_t id) {
         [MODEL_QUADRATURE] =
             "Integrals over the contact, for local fields and for the stiffness of loops.\n\n" EXAMPLE
             "step Fx=20 N\n    fret> qx(0.1 mm)\n    qx(0.1 mm) = 141.911 MPa\n",
-        [MODEL_PIECES] = "The law FN(dz) of a gap without a formula is polynomials in the square of the\n"
-                         "radius, cell by cell, with the powers that a kink of the gap adds: a dozen cells\n"
-                         "for a shape, one or more for each row of a table. Made once, of a shape in 1 ms,\n"
-                         "of a table in 0.1 ms a row, and scaled for another R, b, slope or E0, to 1e-15:\n"
-                         "force, loss and slip take microseconds, and so does any step. Up to 2000 rows\n"
-                         "each is taken as it is; of more, as few as do within 1e-14 to 1e-6 of the gap.\n"
-                         "Local fields are sums over the same cells (`help exactness`).\n\n" EXAMPLE
+        [MODEL_PIECES] = "For a gap without a formula the law FN(dz) is made of polynomials in the square\n"
+                         "of the radius, cell by cell, and of powers at kinks of the gap: a dozen cells\n"
+                         "for a shape, one or more for each row of a table. It is made once, in 1 ms for a\n"
+                         "shape, 0.1 ms for a row of a table, to 1e-15, and scaled for another R, b, slope\n"
+                         "or E0; force, loss, slip and any step then take microseconds. Tables of up to\n"
+                         "2000 rows are taken as they are, longer ones with as few rows as stay within\n"
+                         "1e-14 to 1e-6 of the gap. Local fields are sums over the same cells.\n\n" EXAMPLE
                          "geometry exact-sphere R=10 mm\n    fret> cycle FA=20 N FNA=20 N phase=90 deg; dW\n"
                          "    dW = 2.53755 uJ\n",
         [MODEL_SPRINGS] = "N independent springs, stepped one by one: an approximation, for comparison.\n"
                           "`accuracy` tells its error against its time.\n\n" EXAMPLE "cycle FA=20 N\n"
                           "    fret> set model springs 100\n    fret> dW\n    dW = 1.90687 uJ\n",
-        [MODEL_BLOCKS] = "Wear of many cycles, in blocks: each wears by the slip and the pressure of the\n"
-                         "gap that those before leave, and is as long as an error of 1e-3 of volume and\n"
-                         "largest depth lets it be.\n\n" EXAMPLE "cycle FA=20 N\n"
+        [MODEL_BLOCKS] = "Wear of many cycles, in blocks: each wears by the slip and the pressure in the\n"
+                         "gap that those before leave. Blocks are as long as an error of 1e-3 of the\n"
+                         "volume and of the largest depth allows.\n\n" EXAMPLE "cycle FA=20 N\n"
                          "    fret> wear alpha=1e4 um^3/J; wear cycles 10000; Vwear\n"
                          "    Vwear = 192.42 um^3\n",
     };
