@@ -265,7 +265,7 @@ static bool export_jenkins(shell *sh, lexer *lx, said *all) {
         return false;
     if (FA && count->count < 2)
         return calc_fail(lx->error, FA->hole[0].at, FA->hole[0].len,
-                         "up to FA one of the elements only sticks: take 2 or more");
+                         "one of the elements is the spring of what sticks up to FA: take 2 or more");
     model m = {.count = count->count};
     trial *t = trial_open(&sh->calc, lx->error);
     const bool ok = t && make_model(t, FA, &m, lx->error) && write_model(sh, lx, name, write, &m);

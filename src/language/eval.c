@@ -74,7 +74,7 @@ static bool binary(machine *m, const expr_node *n, value *out) {
     case 'U':
     case '?':
         if (!dim_equal(a.d, DIM_NONE) || a.d.rad != 0)
-            return dim_wrong(m, l, a.d, "a unit follows numbers alone");
+            return dim_wrong(m, l, a.d, "a unit must follow a number");
         *out = n->op == '?' && m->unit_in_divisor ? (value){a.v / b.v, dim_power(b.d, -1)}
                                                   : (value){a.v * b.v, b.d};
         break;

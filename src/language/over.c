@@ -219,7 +219,7 @@ bool over_integral(over *o, long double *out, long double *error) {
            (off <= poor * size ||
             calc_fail(
                 o->error, 0, 0,
-                "the integral does not converge: what is integrated may be infinite, or swing without end"));
+                "the integral does not converge: the integrand may be infinite, or oscillate without end"));
 }
 
 /* ---- the largest and the smallest -------------------------------------------------------------- */

@@ -259,8 +259,7 @@ static bool parse_builtin(parser *p, size_t i, size_t *out) {
         return calc_fail(lx->error, node.at, strlen(function->name), "write %s", function->summary);
     if (lx->kind != T_OPEN)
         return lex_fail(lx, "expected ( after %s%s", function->name,
-                        node.at > 0 && lx->text[node.at - 1] == '/' ? ", a function: no unit is called so"
-                                                                    : "");
+                        node.at > 0 && lx->text[node.at - 1] == '/' ? ", a function and not a unit" : "");
     size_t *argument[2] = {&node.left, &node.right};
     const int count = function->f2 ? 2 : 1;
     for (int j = 0; j < count; j++) {
@@ -518,7 +517,7 @@ static bool parse_over(parser *p, size_t word, size_t *out) {
     const size_t begins = range.at;
     at->along = lex_is(&range, "along");
     if (at->along && lex_is(lx, "integral"))
-        return lex_fail(&range, "an integral goes over a name: %s", usage);
+        return lex_fail(&range, "an integral needs a range over a name: %s", usage);
     lex_next(lx);
     if (!(at->along ? parse_body_of(p, &at->body, p->bound) : parse_varied(p, &range, at)))
         return false;

@@ -36,8 +36,7 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
     if (!(INPUT_BIT(in) & INPUT_CYCLE))
         return true;
     if (!s->end.cycles)
-        return calc_fail(error, 0, 0,
-                         "there is no cycle that %s could belong to: run one first (cycle FA=20 N)", q->name);
+        return calc_fail(error, 0, 0, "%s needs a cycle: run one first (cycle FA=20 N)", q->name);
     const load_by by = cycle_by(&s->in);
     return cycle_input(by) == in || !(INPUT_BIT(in) & INPUT_AMPLITUDE) ||
            calc_fail(error, 0, 0, "the last cycle was given by %s: %s, not %s",
@@ -83,6 +82,5 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
         return calc_fail(lx->error, at, len, "%s is %s, not %s", name, want, got);
     const bool line = dim_equal(d, DIM_FORCE) && dim_equal(v.d, DIM_STIFFNESS);
     return calc_fail(lx->error, at, len, "%s is %s, not %s (%.*s)%s", name, want, got, LEX_SHOWN(len),
-                     lx->text + at,
-                     line ? ": line contact is not axisymmetric, which this program does not do" : "");
+                     lx->text + at, line ? ": line contact is not axisymmetric and cannot be computed" : "");
 }

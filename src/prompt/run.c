@@ -104,7 +104,7 @@ static bool assign(shell *sh, lexer *lx) {
     if (c) {
         char usage[GRAMMAR_USAGE];
         grammar_usage(command_form(c), usage);
-        return lex_fail(lx, "'%s' is a command, no variable: %s", c->name, usage);
+        return lex_fail(lx, "'%s' is a command, not a variable: %s", c->name, usage);
     }
     const bool ok = calc_assign(&sh->calc, lx);
     if (ok)

@@ -182,8 +182,9 @@ bool stress_at(scene *s, const value place[3], fret_stress *out, calc_error *err
     if (!scene_get(s, IN_K, &k, error) || !scene_get(s, IN_SB, &sB, error))
         return false;
     if (k != 0)
-        return calc_fail(error, 0, 0,
-                         "stress inside is known for homogeneous bodies alone, k = 0, not for k = %.6Lg", k);
+        return calc_fail(
+            error, 0, 0,
+            "stress in the body is computed for homogeneous bodies (k = 0) only, not for k = %.6Lg", k);
     if (second && s->in.second == SECOND_RIGID)
         return calc_fail(error, 0, 0, "z < 0 is in the second body, which is rigid: it has no stress");
     if (!scene_get(s, second ? IN_NU_2 : IN_NU, &nu, error) || !scene_stress_field(s, &field, error))

@@ -332,7 +332,7 @@ static bool get_Estar(const inputs *in, long double *out, calc_error *error) {
     long double E0 = 0, nu = 0, sum = 0;
     if (in->v[IN_K] != 0)
         return calc_fail(error, 0, 0,
-                         "Estar is of homogeneous bodies, k = 0: cN is the modulus of graded ones");
+                         "Estar is for homogeneous bodies, k = 0; cN is the modulus for graded ones");
     for (int i = 0; i < (in->second == SECOND_RIGID ? 1 : 2); i++) {
         if (!get_modulus(in, i, &E0, error) || !get_ratio(in, i, &nu, error))
             return false;

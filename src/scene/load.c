@@ -17,9 +17,8 @@ static bool friction_for_program(scene *s, const load_reach *reach, double *mu, 
 static bool rig_for_program(scene *s, double *K_rig, calc_error *error) {
     long double v = 0;
     if (!inputs_any(&s->in, INPUT_BIT(IN_K_RIG)))
-        return calc_fail(
-            error, 0, 0,
-            "the load goes to a displacement at the rig, and there is no rig (rig stiffness=80 N/um)");
+        return calc_fail(error, 0, 0,
+                         "the load is given by drig, but there is no rig (rig stiffness=80 N/um)");
     const bool ok = scene_get(s, IN_K_RIG, &v, error);
     *K_rig = (double)v;
     return ok;
@@ -157,7 +156,8 @@ static const double DEEPEST = 1e8;
 
 static bool append_step(scene *s, const load_step *step, const cycle_extra *extra, calc_error *error) {
     if (step->kind == LOAD_STEP && step->normal == BY_DISPLACEMENT && !(fabs(step->normal_value) < DEEPEST))
-        return calc_fail(error, 0, 0, "dz = %.6g m: a step goes less than 1e8 m deep", step->normal_value);
+        return calc_fail(error, 0, 0, "dz = %.6g m: a step must stay less than 1e8 m deep",
+                         step->normal_value);
     if (extra && s->end.cycles)
         program_freeze(s->program, program_last_cycle(s->program, s->end), s->end.cycles - 1, &s->in);
     if (!program_append(s->program, &s->end, step, extra))

@@ -202,7 +202,7 @@ static bool settle(scene *s, input in, calc_error *error) {
     if (amplitude && s->before && s->early && !error->circle) {
         error_clear(error);
         return calc_fail(error, 0, 0,
-                         "an amplitude that follows is known where its cycle begins, not before");
+                         "an amplitude set by := has a value only from the beginning of its cycle");
     }
     if (!ok || !input_check(in, (double)v.v, error))
         return false;

@@ -44,7 +44,8 @@ static bool held_press(scene *s, fret_wear_held *out, calc_error *error) {
     for (size_t i = 1; i < cycle; i++)
         if (load_moves_normal(&step[i]))
             return calc_fail(error, 0, 0,
-                             "wear wants FN constant up to its cycle, and step %zu moves it: press anew", i);
+                             "wear needs a constant FN up to its cycle, but step %zu changes it: press anew",
+                             i);
     if (!scene_get(s, press_input((load_by)step->normal), &v, error))
         return false;
     out->press = (double)v;
@@ -58,8 +59,7 @@ static bool held_cycle(scene *s, fret_wear_held *out, calc_error *error) {
     if (load_moves_normal(&cycle.step))
         return calc_fail(error, 0, 0, "wear needs a constant FN, but it swings in this cycle (FNA)");
     if (cycle.step.tangential == BY_RIG)
-        return calc_fail(error, 0, 0,
-                         "wear holds FA or dxA, and this cycle goes to a displacement at the rig");
+        return calc_fail(error, 0, 0, "wear holds FA or dxA, but this cycle was given by drigA");
     out->by_displacement = cycle.step.tangential == BY_DISPLACEMENT;
     out->amplitude = cycle.step.tangential_value;
     return true;
@@ -193,7 +193,7 @@ bool scene_wear_limit(scene *s, fret_wear **out, calc_error *error) {
     const fret_status st = fret_wear_limit(s->answers.normal, &held, out);
     if (st.code == FRET_GROSS_SLIP)
         return calc_fail(
-            error, 0, 0, "nothing sticks in the end, so that wear has no limit: %s < %.6g %s has one",
+            error, 0, 0, "nothing sticks in the end, so wear has no limit; it has one for %s < %.6g %s",
             held.by_displacement ? "dxA" : "FA", (double)st.limit * (held.by_displacement ? 1e6 : 1),
             held.by_displacement ? "um" : "N");
     return calc_status(error, st);

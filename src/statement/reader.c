@@ -474,7 +474,7 @@ static bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, uns
     value v;
     size_t at = lx->at;
     if (lx->kind == T_END)
-        return lex_fail(lx, "expected %s: a whole number from 1 to %u", what, limit);
+        return lex_fail(lx, "expected a whole number from 1 to %u after %s", limit, what);
     if (!expr_value(c, lx, &v))
         return false;
     if (!dim_equal(v.d, DIM_NONE) || !(v.v >= 1 && v.v <= limit) || v.v != (long double)(unsigned)v.v)

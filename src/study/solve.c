@@ -397,7 +397,7 @@ static bool several(search *s, calc_error *error) {
         list_word(list, sizeof list, ", ", i == LISTED ? "..." : text);
     }
     return calc_fail(error, s->of->sides->at, s->of->sides->len,
-                     "several roots, %s = %s: choose by from LO to HI", s->of->name.text, list);
+                     "several roots, %s = %s: choose one with from LO to HI", s->of->name.text, list);
 }
 
 static bool answer_root(search *s, solve_answer *out, calc_error *error) {
