@@ -189,7 +189,7 @@ def exercises(tests):
         if waits:
             s.child.send(" ")
     text = clean(text)
-    tests.check("a lesson with its guesses", text.count("guess: right") == 3 and "guess: no\n" in text and "guess: friction bears mu p" in text and
+    tests.check("a lesson with its guesses", text.count("guess: right") == 3 and "guess: no\n" in text and "guess: friction carries up to mu p" in text and
                 "guess: 94 % too large" in text and "guess: 68 % too large" in text and "ask " not in text.partition("\n")[2] and
                 "Next: demo sliding, Gross slip" in text and text.rfind("dx(36 N)/dx(18 N) = 2.38675") > text.rfind("guess:"), text)
     tests.check("the lesson's scene", s.say("Fx; undo; FN, Fx") == "Fx = 20 N\nFN = 100 N\nFx = 0 N", clean(s.child.before))

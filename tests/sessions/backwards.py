@@ -428,7 +428,7 @@ def poles(tests):
         tests.check("solve x for " + sides, len(got) == len(want) and all(abs(a - b) <= 1e-5 * abs(b) for a, b in zip(got, want)),
                     "%s\n%s" % (want, tests.report(done)))
     done = tests.run("-c", "solve x for sin(x) = 0 from 20 to 80")
-    tests.check("no more roots are listed than one can read", done.stderr.count("...: choose by") == 1 and done.stderr.count(", ") == 13,
+    tests.check("no more roots are listed than one can read", done.stderr.count("...: choose one with") == 1 and done.stderr.count(", ") == 13,
                 tests.report(done))
 
 
