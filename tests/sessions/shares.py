@@ -106,7 +106,7 @@ def refused(tests):
     for part in ("0/3", "4/3", "1", "1/", "/3", "1/3/5", "a/b", "-1/3", "1/-3", " 1/3", "1/ 3", "1/99999999999"):
         done = tests.run("--format=csv", "--part", part, "-c", "table q for q = 1 .. 2")
         tests.check("--part " + part, done.returncode == 2 and not done.stdout and "--part is I/N" in done.stderr, tests.report(done))
-    for words, script, says in ((("--format=text",), "table q for q = 1 .. 2", "CSV or JSON"),
+    for words, script, says in ((("--format=text",), "table q for q = 1 .. 2", "needs --format=csv or json"),
                                 (("--format=csv",), "table q for q = 1 .. 2 to rows.csv", "standard output"),
                                 (("--format=csv",), "table q for q = 1 .. 2; table q for q = 1 .. 2", "a second"),
                                 (("--format=csv",), "1 + 1", "there was no table"),
