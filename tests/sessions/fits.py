@@ -510,6 +510,13 @@ def loops_with_loads(tests):
                     tests.report(done) + tests.report(other))
         other = tests.run("-c", steel + "second aluminium; " + script)
         tests.check("fit: a loop of dissimilar bodies, " + what, other.stderr.count("elastically dissimilar") == 1, tests.report(other))
+    for phase in 0, 60:  # noise in both columns: the load belongs to the branch, and there to the displacement
+        name = os.path.join(tests.dir, "swinging-%d.csv" % phase)
+        values, event, done = answers(tests, steel + "press FN=100 N; cycle dxA=0.8 um FNA=30 N phase=%d deg times 5\n"
+                                      "table dx + 3 nm*sin(2e4*time^2), FN, Fx + 0.1 N*sin(3e4*time^2) along cycle steps 300 to %s\n"
+                                      "friction 0.3; press FN=100 N; fit mu, E0 along %s" % (phase, name, name))
+        tests.check("fit: a loop whose load swings, %d deg" % phase, event and abs(values["mu"] - 0.4) < 0.005 and
+                    abs(values["E0"] / 210e9 - 1) < 0.005, tests.report(done))
 
 
 def edges(tests):
