@@ -144,6 +144,12 @@ def hollows(tests):
     _, got = smooth(tests, rows, "1")
     tests.check("a piece is kept whose r f' grows", A + 3 * B < 0 < 4 * A + 9 * B and
                 close(got, [A * r ** 2 + B * r ** 3 for r in AT], 1e-9), "%g %g %s" % (A, B, got))
+    rows = profile(lambda r: 50 * r ** 2 - 23 * r ** 3, noise=2, n=40, seed=6)
+    (A, B, _), _, _ = householder([powers(r, [0, 1]) for r, _ in rows], [f for _, f in rows])
+    (C, _), _, _ = householder([[r ** 2 - r ** 3 / 3, 1] for r, _ in rows], [f for _, f in rows])
+    _, got = smooth(tests, rows, "1")  # f'' vanishes at the rim, where the nearest one is hollow
+    tests.check("a piece whose r f' falls becomes the nearest convex one", 4 * A + 9 * B < 0 and
+                close(got, [C * (r ** 2 - r ** 3 / 3) for r in AT], 1e-7), "%g %g %g %s" % (A, B, C, got))
 
 
 def noise(tests):
