@@ -512,6 +512,10 @@ def regimes(tests):
     law = 0.4 * 1.7 / 1.4 * 200 / (2 * 0.2e-3 * 210e9 / (2 * (1 - 0.3**2))) * 1e6  # mu eta F/(2 E* b)
     tests.check("a punch sticks up to gross slip", len(borders) == 3 and borders[0] == borders[2] and abs(borders[0][-1][0] - law) < 1e-6 * law and
                 all('"%s" at graph' % word in text for word in ("stick", "gross slip")) and "partial" not in text, str(borders)[:300])
+    at = [[[float(v) for v in spot] for spot in re.findall(r'slip" at graph ([0-9.]+),([0-9.]+)', script(
+        tests, "regimes" + flip, "plot regimes for dxA = 0 um .. 3 um for FN = 1 N .. 200 N" + flip)[0])] for flip in ("", " flip x", " flip y")]
+    tests.check("names go with flipped axes", len(at[0]) == 2 and all(abs(x + x1 - 1) < 2e-4 and y == y1 and x == x2 and abs(y + y2 - 1) < 2e-4
+                                                                      for (x, y), (x1, y1), (x2, y2) in zip(*at)), str(at))
     fails(tests, "plot regimes", "regimes needs two ranges")
     fails(tests, "plot regimes for dxA = 2 um .. 1 um for FN = 1 N .. 2 N", "expected LO .. HI, LO below HI")
     fails(tests, "plot regimes for dxA = 1 um .. 2 um for dz = 1 um .. 2 um", "dz")
