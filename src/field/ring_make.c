@@ -23,12 +23,13 @@ static bool add_ring(maker *mk, const fret_cell *c, fret_cell *own) {
     mk->failed |= !fret_array_room(&all->ring, &all->room, all->count + 1, sizeof *all->ring);
     if (mk->failed)
         return false;
-    const fret_real hi = fret_cell_radius(c, 1);
+    if (all->count > 0) /* to the last digit: where m is small it tells */
+        all->ring[all->count - 1].hi = c->x;
     all->ring[all->count++] =
         (ring){.cell = c,
                .own = own,
                .lo = c->x,
-               .hi = hi,
+               .hi = fret_cell_radius(c, 1),
                .scale = {fret_pow(c->width, all->m - 1), fret_pow(c->width, -all->m) / (2 * all->m)}};
     return true;
 }

@@ -540,6 +540,28 @@ static void below_flat(void) {
     }
 }
 
+/* Where cells of the law meet p has no spike, though near k = -1 a last digit of the radius to the power m is
+ * much. */
+static void joints(void) {
+    for (int i = 0; i < 6; i++) {
+        unit_scene s = unit_make_scene(2, i / 2 == 0 ? -0.5 : i / 2 == 1 ? -0.75 : -0.95);
+        s.gap = (fret_gap){
+            .kind = i % 2 ? FRET_GAP_EXACT_SPHERE : FRET_GAP_FLAT_ROUNDED, .b = 9.5934e-4, .R = 1.0637e-3};
+        const fret_normal *normal = unit_make_normal(&s);
+        const double a = i % 2 ? 0.94 * s.gap.R : 1.9 * s.gap.b;
+        int met = 0;
+        for (size_t j = 1; j < normal->cells->count && normal->cells->cell[j].x < a; j++, met++) {
+            const fret_real x = normal->cells->cell[j].x;
+            fret_real p[3];
+            for (int side = 0; side < 3; side++)
+                CHECK_OK(place_pressure(normal, a, x * (1 + (fret_real)(side - 1) * 1e-15L), &p[side]));
+            CHECK_REL(p[0], p[1], 1e-13L);
+            CHECK_REL(p[2], p[1], 1e-13L);
+        }
+        CHECK(met > 0);
+    }
+}
+
 int main(int argc, char **argv) {
     unit_start("field", argc, argv);
     CASE(reference());
@@ -556,5 +578,6 @@ int main(int argc, char **argv) {
     CASE(spared_tip());
     CASE(light());
     CASE(below_flat());
+    CASE(joints());
     return unit_finish();
 }
