@@ -135,7 +135,9 @@ static slice_end end_by_depth(const rings *all, size_t first, const slice *s) {
     fret_place at;
     if (!fret_cells_find(cells, BY_DEPTH, fminl(s->y, cells->most[BY_DEPTH]), &at) || at.i < first)
         return (slice_end){0, 0, false};
-    return cells->cell[at.i].powers ? end_by_radius(all, s->a) : (slice_end){at.i - first, at.s, false};
+    const fret_cell *c = &cells->cell[at.i];
+    const fret_real v = at.i > 0 ? fmaxl(fret_cell_place(c, s->a), 0) : at.s; /* by what `a` has of digits */
+    return c->powers ? end_by_radius(all, s->a) : (slice_end){at.i - first, v, false};
 }
 
 static slice_end end_in_steep(const rings *all, fret_real n, const slice *s) {

@@ -261,6 +261,39 @@ static void closed_cycle(int i, bool gross) {
     fret_contact_free(c);
 }
 
+/* Right beyond where cells of the law meet, of which the last digit of a radius is a large part. */
+static void beyond_joints(int shape, double k) {
+    const double mu = 0.5;
+    const fret_normal *n = normal_of(shape, k);
+    fret_contact *c = NULL;
+    fret_slips *s = NULL;
+    fret_work *work = NULL;
+    fret_field *field = NULL;
+    fret_press press;
+    CHECK_OK(fret_press_by_radius(n, shape == 5 ? 0.0094 : 4e-4, &press));
+    CHECK_OK(fret_slips_make(&s));
+    CHECK_OK(fret_contact_make(n, mu, FRET_EXACT, &c));
+    CHECK_OK(fret_contact_watch(c, s));
+    CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, (double)press.F, 0}));
+    CHECK_OK(
+        fret_contact_step(c, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_FX, 0, 0.999 * mu * (double)press.F}));
+    CHECK_OK(fret_work_make(n, mu, s, 0, fret_slips_count(s), &work));
+    CHECK_OK(fret_field_make(c, &field));
+    for (size_t i = 1; i < n->cells->count && n->cells->cell[i].x < press.a; i++)
+        for (int j = 1; j < 200; j++) {
+            const fret_real r = n->cells->cell[i].x * (1 + (fret_real)j * 0x1p-54L);
+            fret_real w = -1, p = 0, slip = -1;
+            CHECK_OK(fret_work_at(work, r, &w));
+            CHECK_OK(fret_field_slip(field, r, &slip));
+            CHECK_OK(fret_field_pressure(field, r, &p));
+            CHECK_REL(w, mu * p * slip, 1e-13L);
+        }
+    fret_field_free(field);
+    fret_work_free(work);
+    fret_slips_free(s);
+    fret_contact_free(c);
+}
+
 /* ---- refusals ---------------------------------------------------------------------------------- */
 
 static void ends(void) {
@@ -315,6 +348,8 @@ int main(int argc, char **argv) {
         CASE(closed_cycle(i, true));
     }
     CASE(ends());
+    for (int i = 0; i < 6; i++)
+        CASE(beyond_joints(4 + i % 2, i / 2 * 0.3 - 0.2));
     for (int i = 0; i < SHAPES; i++) {
         CASE(small_parts(i, false));
         if (i < 3)
