@@ -44,3 +44,22 @@ fret_real fret_root(fret_function *f, void *context, fret_real lo, fret_real hi,
         step = fabsl(next - now.x);
     }
 }
+
+typedef struct in_double {
+    double (*f)(double x, void *context);
+    void *context;
+    double at; /* the x evaluated last */
+} in_double;
+
+static fret_real value_in_double(fret_real x, fret_real *slope, void *context) {
+    in_double *d = context;
+    const bool again = (double)x == d->at; /* converged */
+    (void)slope;
+    d->at = (double)x;
+    return again ? 0 : d->f(d->at, d->context);
+}
+
+double fret_root_double(double (*f)(double x, void *context), void *context, double lo, double hi) {
+    in_double d = {f, context, NAN};
+    return (double)fret_root(value_in_double, &d, lo, hi, NAN);
+}

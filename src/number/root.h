@@ -12,5 +12,7 @@ typedef fret_real fret_function(fret_real x, fret_real *slope, void *context);
  * from `guess` if that lies between them, with Newton steps, or secant steps if the slope is unknown; bisects
  * if a step leaves the bracket or does not halve the step before the last. */
 fret_real fret_root(fret_function *f, void *context, fret_real lo, fret_real hi, fret_real guess);
+/* The same for f in double, from the middle and by secant steps, until the next x is the same double. */
+double fret_root_double(double (*f)(double x, void *context), void *context, double lo, double hi);
 
 #endif

@@ -51,40 +51,21 @@ static double loss_slope(march *m, double d) {
     return (double)(4 * (first.Fx - d * stiffness));
 }
 
-/* ---- zeros of increasing functions ------------------------------------------------------------- */
+/* ---- increasing functions of the amplitude, whose zeros are sought -------------------------------- */
 
-typedef double growing(march *m, double d);
-
-typedef struct sought {
-    march *m;
-    growing *f;
-    double at; /* the argument evaluated last */
-} sought;
-
-static fret_real value_there(fret_real x, fret_real *slope, void *context) {
-    sought *s = context;
-    const bool again = (double)x == s->at; /* the same double: converged */
-    (void)slope;
-    s->at = (double)x;
-    return again ? 0 : s->f(s->m, s->at);
-}
-
-/* The zero of an increasing f with f(lo) <= 0 <= f(hi). */
-static double zero_of(march *m, growing *f, double lo, double hi) {
-    sought s = {m, f, NAN};
-    return (double)fret_root(value_there, &s, lo, hi, NAN);
-}
-
-static double first_kink(march *m, double d) {
+static double first_kink(double d, void *context) {
+    march *m = context;
     return loss(m, d) - m->e;
 }
 
-/* 0 where the line from the kink to f+e at d is tangent there; increases with d. */
-static double tangent(march *m, double d) {
+/* 0 where the line from the kink to f+e at d is tangent there. */
+static double tangent(double d, void *context) {
+    march *m = context;
     return loss_slope(m, d) * (d - m->d) - (loss(m, d) + m->e - m->p);
 }
 
-static double next_kink(march *m, double d) {
+static double next_kink(double d, void *context) {
+    march *m = context;
     return loss(m, d) - m->e - (m->p + m->slope * (d - m->d));
 }
 
@@ -92,12 +73,12 @@ static double next_kink(march *m, double d) {
 
 /* Sets m->slope to the tangent from the latest kink; false: m->end comes before it touches. */
 static bool touch(march *m, double *at) {
-    if (tangent(m, m->end) < 0) {
+    if (tangent(m->end, m) < 0) {
         *at = m->end;
         m->slope = (loss(m, m->end) + m->e - m->p) / (m->end - m->d);
         return false;
     }
-    *at = zero_of(m, tangent, m->d, m->end);
+    *at = fret_root_double(tangent, m, m->d, m->end);
     m->slope = loss_slope(m, *at);
     return true;
 }
@@ -113,15 +94,15 @@ static bool slides(march *m) {
 
 /* The amplitude where the line that touches at `at` meets f-e again; beyond gross slip f is straight. */
 static double kink_after(march *m, double at) {
-    const double short_of = -next_kink(m, m->end);
+    const double short_of = -next_kink(m->end, m);
     return short_of > 0 ? m->end + short_of / (sliding_slope(m) - m->slope)
-                        : zero_of(m, next_kink, at, m->end);
+                        : fret_root_double(next_kink, m, at, m->end);
 }
 
 /* Do `count` kinks suffice for m->e? Writes the elements unless out is NULL. */
 static bool suffices(march *m, size_t count, jenkins_element *out) {
     double slope = 0;
-    m->d = zero_of(m, first_kink, 0, m->end);
+    m->d = fret_root_double(first_kink, m, 0, m->end);
     for (size_t i = 0;; i++) {
         m->pulse();
         const bool last = i + 1 == count;
@@ -133,7 +114,7 @@ static bool suffices(march *m, size_t count, jenkins_element *out) {
             m->slope = sliding_slope(m);
         } else {
             const bool touches = touch(m, &at);
-            done = !m->all && (!touches || next_kink(m, m->end) <= 0);
+            done = !m->all && (!touches || next_kink(m->end, m) <= 0);
         }
         if (out) {
             out[i].s = (m->slope - slope) / 4;

@@ -332,17 +332,13 @@ static bool no_root(search *s, calc_error *error) {
 
 typedef struct sought {
     search *s;
-    double at;    /* the place evaluated last */
     unsigned end; /* after this many evaluations return 0, which ends the method */
-    bool lost;    /* there is no value at that place */
+    bool lost;    /* there is no value at the place evaluated last */
 } sought;
 
-static fret_real difference_there(fret_real x, fret_real *slope, void *context) {
+static double difference_there(double x, void *context) {
     sought *t = context;
-    const bool again = (double)x == t->at || t->s->p.evaluations >= t->end; /* the same double: converged */
-    (void)slope;
-    t->at = (double)x;
-    const double f = again ? 0 : difference(t->s, t->at);
+    const double f = t->s->p.evaluations < t->end ? difference(t->s, x) : 0;
     t->lost = isnan(f);
     return t->lost ? 0 : f;
 }
@@ -350,11 +346,11 @@ static fret_real difference_there(fret_real x, fret_real *slope, void *context) 
 /* The root in bracket i, to the last digit. False: it holds a jump or a gap instead. */
 static bool find_root(search *s, unsigned i, double *x) {
     const place a = s->root[i], b = s->other[i];
-    sought t = {.s = s, .at = (double)NAN, .end = s->p.evaluations + METHOD};
+    sought t = {.s = s, .end = s->p.evaluations + METHOD};
     *x = a.x;
     if (a.x == b.x)
         return true;
-    *x = (double)fret_root(difference_there, &t, fmin(a.x, b.x), fmax(a.x, b.x), (double)NAN);
+    *x = fret_root_double(difference_there, &t, fmin(a.x, b.x), fmax(a.x, b.x));
     return !t.lost && !(fabs(difference(s, *x)) > 1e-3 * fmin(fabs(a.f), fabs(b.f)));
 }
 
