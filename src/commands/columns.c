@@ -170,8 +170,8 @@ bool columns_turn_pull(const csv *c, csv_values *FN) {
 
 bool columns_at_rig(shell *sh, csv *c) {
     long double K_rig;
-    return csv_has(c, "drig") ||
-           (!csv_has(c, "dx") && scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet()));
+    return csv_find(c, "drig") ||
+           (!csv_find(c, "dx") && scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet()));
 }
 
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
@@ -277,7 +277,7 @@ bool columns_missed(const shell *sh, const lexer *lx, csv *data) {
     calc_error wrong = ERROR_NONE, *error = lx->error;
     snprintf(name, sizeof name, "%.*s", (int)(error->len < sizeof name ? error->len : 0),
              lx->text + error->at);
-    if (csv_has(data, name) && !csv_column(data, name, &wrong)) {
+    if (csv_find(data, name) && !csv_column(data, name, &wrong)) {
         calc_place(&wrong, error->at, error->len);
         *error = wrong;
     } else if (!strncmp(error->text, "unknown name", 12)) {

@@ -40,7 +40,7 @@ static bool ambiguous(const shell *sh, csv *data, const expr *e, calc_error *err
     size_t at;
     for (size_t i = 0; (of = expr_quantity(e, i, &call, &at)); i++) {
         const bool is_input = quantity_is_input(of);
-        if (call || !csv_has(data, of->name) ||
+        if (call || !csv_find(data, of->name) ||
             (is_input && calc_takes(&sh->calc, quantity_input(of), error_quiet())))
             continue;
         calc_fail(error, e->at, e->len,
@@ -85,7 +85,7 @@ static bool read_loop(shell *sh, const lexer *lx, const said *all, const heard *
     calc_error *error = lx->error;
     if (!columns_read(lx, all, along, data))
         return false;
-    const bool force = csv_has(data, "FN"), depth = !force && csv_has(data, "dz");
+    const bool force = csv_find(data, "FN"), depth = !force && csv_find(data, "dz");
     q->loop.normal_by = depth ? BY_DISPLACEMENT : BY_FORCE;
     q->loop.rig = columns_at_rig(sh, data);
     csv_values *dx = columns_take(data, loop_column(q->loop.rig), DIM_LENGTH, error),
@@ -94,7 +94,7 @@ static bool read_loop(shell *sh, const lexer *lx, const said *all, const heard *
                          : depth ? columns_take(data, "dz", DIM_LENGTH, error)
                          : force ? columns_take(data, "FN", DIM_FORCE, error)
                                  : NULL;
-    if ((!csv_has(data, "dx") && !q->loop.rig) || !csv_has(data, "Fx"))
+    if ((!csv_find(data, "dx") && !q->loop.rig) || !csv_find(data, "Fx"))
         calc_append(&sh->calc, error, " (a loop needs dx and Fx, and may have FN or dz)");
     if (error->raised || !csv_settle(data, error))
         return heard_place(error, along);

@@ -279,15 +279,15 @@ static bool read_compared(shell *sh, csv *data, rows *w, calc_error *error) {
     w->rig = columns_at_rig(sh, data);
     w->dx = columns_take(data, loop_column(w->rig), DIM_LENGTH, error);
     w->Fx = w->dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL;
-    if (!(csv_has(data, "dx") || w->rig) || !csv_has(data, "Fx"))
+    if (!(csv_find(data, "dx") || w->rig) || !csv_find(data, "Fx"))
         calc_append(&sh->calc, error, " (FN,Fx or dz,dx are followed; dx,Fx or drig,Fx compared)");
     return w->Fx && (sh->calc.scene.end.steps || calc_missing(error, IN_FN));
 }
 
 /* Reads the columns, and decides what drives. */
 static bool read_rows(shell *sh, csv *data, rows *w, calc_error *error) {
-    const bool FN = csv_has(data, "FN"), Fx = csv_has(data, "Fx"), dz = csv_has(data, "dz"),
-               dx = csv_has(data, "dx");
+    const bool FN = csv_find(data, "FN"), Fx = csv_find(data, "Fx"), dz = csv_find(data, "dz"),
+               dx = csv_find(data, "dx");
     /* if one of a pair has its name, columns_take finds the other by dimension */
     const bool forces = FN && (Fx || !dx), places = dz && (dx || !(Fx || FN));
     *w = (rows){.data = data, .by = forces ? BY_FORCE : BY_DISPLACEMENT};

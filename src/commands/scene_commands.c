@@ -310,7 +310,7 @@ static bool profile_columns(csv *data, bool height, csv_values **r, csv_values *
     for (csv_values *v = data->column; v < data->column + data->columns; v++)
         if (v->has_unit && same_dim(v->d, DIM_LENGTH) && count++ < 2)
             length[count - 1] = v;
-    if (count == 2 && !csv_has(data, "r") && !csv_has(data, "f")) {
+    if (count == 2 && !csv_find(data, "r") && !csv_find(data, "f")) {
         csv_rename(data, length[0], "r");
         csv_rename(data, length[1], "f");
     }

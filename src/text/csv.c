@@ -15,6 +15,7 @@
 #include "text/unit.h"
 
 static const unit plain_unit = {{0, 0, 0, 0}, 0, 1};
+static const char separators[] = ";\t, "; /* ' ': blanks and tabs */
 
 void csv_free(csv *c) {
     for (size_t i = 0; i < c->columns; i++) {
@@ -152,12 +153,11 @@ static bool list_lines(finder *t, size_t len) {
 /* The separator that separates the most numbers and leaves the fewest words, judged by at most TRIED
  * lines. Numbers with thousands separators count only for `;` and tab, which cannot be such separators. */
 static char choose_separator(const finder *t) {
-    static const char kinds[] = ";\t, ";
     enum { TRIED = 1000 };
     char best = ' ';
     long most = 0;
     for (long least = 2; least > 0 && most == 0; least--) /* lines with two numbers; if there are none, one */
-        for (const char *kind = kinds; *kind; kind++) {
+        for (const char *kind = separators; *kind; kind++) {
             long score = 0;
             for (size_t i = 0; i < t->count; i += 1 + t->count / TRIED) {
                 table_line l = t->list[i];
@@ -286,12 +286,11 @@ static size_t read_titles(finder *t, char separator, const char *text, size_t le
 /* Reads titles and returns their count: by the separator of the rows or, if that gives too few, by one that
  * gives as many titles as a row has fields. With `exact`, any other count is 0. */
 static size_t names_in(finder *t, const table_line *l, unsigned fields, bool exact) {
-    static const char kinds[] = ";\t, ";
     const char *text = text_of(t, l), own = t->c->separator;
     size_t named = read_titles(t, own, text, l->at.len);
     const bool other =
         own == ' ' ? named != fields : named < count_bits(t->usual); /* too few, or `r , f` over `1 2` */
-    for (const char *kind = kinds; *kind && named != fields && other; kind++)
+    for (const char *kind = separators; *kind && named != fields && other; kind++)
         named = read_titles(t, *kind, text, l->at.len);
     if (named != fields)
         named = exact ? 0 : read_titles(t, own, text, l->at.len);
@@ -608,10 +607,6 @@ csv_values *csv_find(csv *c, const char *name) {
         if (!v->given && !strcmp(v->title, name))
             return v;
     return NULL;
-}
-
-bool csv_has(csv *c, const char *name) {
-    return csv_find(c, name) != NULL;
 }
 
 void csv_rename(csv *c, csv_values *column, const char *name) {

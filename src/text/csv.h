@@ -62,7 +62,6 @@ void csv_rename(csv *c, csv_values *column, const char *name);
 bool csv_load(csv *c, csv_values *column, calc_error *error);
 /* The only column of this name, loaded; NULL with an error that says what to write instead. */
 const csv_values *csv_column(csv *c, const char *name, calc_error *error);
-bool csv_has(csv *c, const char *name);
 /* Drops the rows where a loaded column has no value, and counts them. False with an error if none is left. */
 bool csv_settle(csv *c, calc_error *error);
 /* The names of the columns, "r, f, time"; the column's number where it has no name. */
