@@ -174,6 +174,12 @@ bool columns_at_rig(shell *sh, csv *c) {
            (!csv_find(c, "dx") && scene_get(&sh->calc.scene, IN_K_RIG, &K_rig, error_quiet()));
 }
 
+bool columns_of_loop(csv *c, bool rig, csv_values **dx, csv_values **Fx, calc_error *error) {
+    *dx = columns_take(c, loop_column(rig), DIM_LENGTH, error);
+    *Fx = *dx ? columns_take(c, "Fx", DIM_FORCE, error) : NULL;
+    return *Fx;
+}
+
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx) {
     double x = 0, F = 0, sum = 0, rounding = 0; /* covariance: noise would decide between neighbouring rows */
     for (size_t i = 0; i < c->rows; i++) {

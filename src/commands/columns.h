@@ -44,6 +44,8 @@ bool columns_at_rig(shell *sh, csv *c);
 static inline const char *loop_column(bool rig) {
     return rig ? "drig" : "dx";
 }
+/* Reads displacement and force of a loop by columns_take. False with the error. */
+bool columns_of_loop(csv *c, bool rig, csv_values **dx, csv_values **Fx, calc_error *error);
 /* Is F_x negatively correlated with d_x, so that one of them has the opposite sign? */
 bool columns_opposed(const csv *c, const csv_values *dx, const csv_values *Fx);
 /* Notes on reversed signs. */

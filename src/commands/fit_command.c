@@ -88,12 +88,10 @@ static bool read_loop(shell *sh, const lexer *lx, const said *all, const heard *
     const bool force = csv_find(data, "FN"), depth = !force && csv_find(data, "dz");
     q->loop.normal_by = depth ? BY_DISPLACEMENT : BY_FORCE;
     q->loop.rig = columns_at_rig(sh, data);
-    csv_values *dx = columns_take(data, loop_column(q->loop.rig), DIM_LENGTH, error),
-               *Fx = dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL,
-               *normal = !Fx     ? NULL
-                         : depth ? columns_take(data, "dz", DIM_LENGTH, error)
-                         : force ? columns_take(data, "FN", DIM_FORCE, error)
-                                 : NULL;
+    csv_values *dx, *Fx, *normal = NULL;
+    if (columns_of_loop(data, q->loop.rig, &dx, &Fx, error) && (depth || force))
+        normal =
+            depth ? columns_take(data, "dz", DIM_LENGTH, error) : columns_take(data, "FN", DIM_FORCE, error);
     if ((!csv_find(data, "dx") && !q->loop.rig) || !csv_find(data, "Fx"))
         calc_append(&sh->calc, error, " (a loop needs dx and Fx, and may have FN or dz)");
     if (error->raised || !csv_settle(data, error))

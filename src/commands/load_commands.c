@@ -277,11 +277,10 @@ static bool subtract_offset(shell *sh, input offset, csv_values *v, size_t n, ca
 /* Reads the columns where dx or drig drives at constant F_N and Fx is compared. */
 static bool read_compared(shell *sh, csv *data, rows *w, calc_error *error) {
     w->rig = columns_at_rig(sh, data);
-    w->dx = columns_take(data, loop_column(w->rig), DIM_LENGTH, error);
-    w->Fx = w->dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL;
+    const bool read = columns_of_loop(data, w->rig, &w->dx, &w->Fx, error);
     if (!(csv_find(data, "dx") || w->rig) || !csv_find(data, "Fx"))
         calc_append(&sh->calc, error, " (FN,Fx or dz,dx are followed; dx,Fx or drig,Fx compared)");
-    return w->Fx && (sh->calc.scene.end.steps || calc_missing(error, IN_FN));
+    return read && (sh->calc.scene.end.steps || calc_missing(error, IN_FN));
 }
 
 /* Reads the columns, and decides what drives. */

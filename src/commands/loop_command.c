@@ -85,26 +85,17 @@ static bool answer_loop(shell *sh, lexer *lx, said *all, const csv *data, const 
     return true;
 }
 
-static bool read_columns(csv *data, bool *turned, csv_values **dx, csv_values **Fx, calc_error *error) {
-    *dx = columns_take(data, "dx", DIM_LENGTH, error);
-    *Fx = *dx ? columns_take(data, "Fx", DIM_FORCE, error) : NULL;
-    if (!*Fx || !csv_settle(data, error))
-        return false;
-    *turned = columns_opposed(data, *dx, *Fx);
-    if (*turned)
-        columns_turn(data, *Fx);
-    return true;
-}
-
 bool do_loop(shell *sh, lexer *lx, said *all) {
     csv data;
     csv_values *dx, *Fx;
     loop_answer l = {.cycle = NULL};
-    bool turned;
     char more[128];
     bool ok = columns_read(lx, all, &all->list[0], &data) &&
-              read_columns(&data, &turned, &dx, &Fx, lx->error) &&
-              loop_find(dx->v, Fx->v, data.rows, &l, lx->error);
+              columns_of_loop(&data, false, &dx, &Fx, lx->error) && csv_settle(&data, lx->error);
+    const bool turned = ok && columns_opposed(&data, dx, Fx);
+    if (turned)
+        columns_turn(&data, Fx);
+    ok = ok && loop_find(dx->v, Fx->v, data.rows, &l, lx->error);
     if (ok) {
         snprintf(more, sizeof more, "%zu cycle%s%s", l.cycles, l.cycles == 1 ? "" : "s",
                  turned ? ", " TURNED_FX : "");
