@@ -5,6 +5,7 @@
 
 #include "live/state.h"
 #include "text/characters.h"
+#include "text/lines.h"
 
 bool script_open(live *l, const char *const *line, calc_error *error) {
     live_script *s = &l->script;
@@ -19,15 +20,11 @@ void script_close(live *l) {
     free(l->script.before);
 }
 
-static bool is_comment(const char *line) {
-    return *line == '#' || !*line;
-}
-
 /* Shows the comments before the next statement, which is not run yet. */
 static void take_note(live *l) {
     live_script *s = &l->script;
     l->note[0] = 0;
-    for (; s->at < s->count && is_comment(s->line[s->at]); s->at++) {
+    for (; s->at < s->count && line_is_remark(s->line[s->at]); s->at++) {
         const char *text = s->line[s->at] + strspn(s->line[s->at], "# ");
         char shown[LIVE_LINE];
         characters_shown(text, shown, sizeof shown);
@@ -47,7 +44,7 @@ void script_on(live *l) {
         live_update(l);
         return;
     }
-    if (is_comment(s->line[s->at])) {
+    if (line_is_remark(s->line[s->at])) {
         take_note(l);
         live_update(l);
         return;
@@ -68,7 +65,7 @@ void script_back(live *l) {
     live_script *s = &l->script;
     const calc *c = l->host->calc;
     size_t to = s->at;
-    while (to > 0 && is_comment(s->line[to - 1]))
+    while (to > 0 && line_is_remark(s->line[to - 1]))
         to--;
     if (to == 0) {
         live_tell(l, false, "the beginning of the script");

@@ -14,11 +14,8 @@
 #include "statement/record.h"
 #include "statement/scripts.h"
 #include "statement/target.h"
+#include "text/lines.h"
 #include "text/words.h"
-
-const char *script_name(size_t i) {
-    return scripts[i].name;
-}
 
 bool show_demos(shell *sh, FILE *to) {
     (void)sh;
@@ -78,10 +75,6 @@ typedef struct lesson {
     calc_error *error;
 } lesson;
 
-static bool is_comment(const char *line) {
-    return *line == '#' || !*line;
-}
-
 /* Is it an `ask` statement? It prints its question itself; its text, which holds the answer, is not shown. */
 static bool is_question(const char *line) {
     return line && !strncmp(line, "ask ", 4);
@@ -89,14 +82,14 @@ static bool is_question(const char *line) {
 
 /* Where the statements begin in the step at line i: a step is comments, then statements. */
 static size_t statements_of(const script *s, size_t i) {
-    while (s->line[i] && is_comment(s->line[i]))
+    while (s->line[i] && line_is_remark(s->line[i]))
         i++;
     return i;
 }
 
 static size_t end_of(const script *s, size_t i) {
     i = statements_of(s, i);
-    while (s->line[i] && !is_comment(s->line[i]))
+    while (s->line[i] && !line_is_remark(s->line[i]))
         i++;
     return i;
 }
@@ -122,7 +115,7 @@ static bool rewind_to(lesson *l, size_t to) {
     l->sh->waits = false;
     begin_lesson(l);
     for (size_t i = 0; i < to; i++)
-        if (!is_comment(l->s->line[i]))
+        if (!line_is_remark(l->s->line[i]))
             run_in_lesson(l, l->s->line[i]);
     l->sh->out = out;
     l->sh->err = err;

@@ -136,7 +136,7 @@ static bool take_line(reading *r, file_in *in) {
         return true;
     if (!r->out->title && (!take_title(r, line, number) || !r->transcript))
         return r->out->title != NULL;
-    return (*line == '#' || !*line || check_statements(r, line, number)) && add_line(r, line);
+    return (line_is_remark(line) || check_statements(r, line, number)) && add_line(r, line);
 }
 
 static bool read_lines(reading *r, file_in *in) {

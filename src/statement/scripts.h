@@ -14,6 +14,8 @@ typedef struct script {
 
 extern const script scripts[], topics[]; /* a row without a name ends them */
 
-const char *script_name(size_t i); /* NULL after the last */
+static inline const char *script_name(size_t i) { /* NULL after the last */
+    return scripts[i].name;
+}
 
 #endif

@@ -12,6 +12,11 @@
 const char *strip_prompt(const char *line, size_t *len);
 bool begins_with_prompt(const char *line, size_t len);
 
+/* Is a line of a script a remark, or empty, rather than statements? */
+static inline bool line_is_remark(const char *line) {
+    return *line == '#' || !*line;
+}
+
 /* Removes prompts from pasted lines. If one of several has a prompt, lines without are answers and removed
  * too, unless they continue a line; `continued`: the first one does. Returns how many lines were removed. */
 size_t paste_lines(char *text, bool continued);
