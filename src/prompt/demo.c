@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "prompt/lesson.h"
-#include "prompt/show.h"
 #include "statement/answer.h"
 #include "statement/command.h"
 #include "statement/progress.h"
@@ -16,13 +15,6 @@
 #include "statement/target.h"
 #include "text/lines.h"
 #include "text/words.h"
-
-bool show_demos(shell *sh, FILE *to) {
-    (void)sh;
-    for (const script *s = scripts; s->name; s++)
-        fprintf(to, "%-11s %s\n", s->name, s->title);
-    return true;
-}
 
 /* ---- keys -------------------------------------------------------------------------------------- */
 

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "commands/figures.h"
-#include "prompt/show.h"
 #include "statement/command.h"
 #include "statement/output.h"
 #include "statement/record.h"
@@ -352,7 +351,6 @@ int main(int argc, char **argv) {
         setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     command_use(commands, holes);
     shell_init(&sh, stdout, stderr);
-    sh.write_scene = scene_write;
     int status = read_options(argc, argv, &w, &sh);
     set_signals();
     if (status == EXIT_OK && !w.done)

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "prompt/show.h"
 #include "statement/output.h"
 #include "statement/record.h"
 #include "statement/text.h"
@@ -314,7 +313,6 @@ int shell_replay(const shell *sh, const char *path, double tolerance, calc_error
         return EXIT_ERROR;
     replay r = {.tolerance = tolerance, .path = path, .out = t.to};
     shell_init(&r.sh, sh->out, sh->out);
-    r.sh.write_scene = scene_write;
     r.sh.replaying = true;
     nesting++;
     file_keep(in.fd, true);

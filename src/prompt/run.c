@@ -9,6 +9,7 @@
 #include "commands/expressions.h"
 #include "commands/figures.h"
 #include "help/help.h"
+#include "prompt/show.h"
 #include "statement/command.h"
 #include "statement/progress.h"
 #include "statement/record.h"
@@ -17,7 +18,7 @@
 #include "text/lines.h"
 
 void shell_init(shell *sh, FILE *out, FILE *err) {
-    *sh = (shell){.out = out, .err = err, .set = settings_initial};
+    *sh = (shell){.out = out, .err = err, .set = settings_initial, .write_scene = scene_write};
     calc_init(&sh->calc, &shell_stop);
     sh->calc.keyword = argument_word;
     sh->calc.scene.pulse = progress_pulse;

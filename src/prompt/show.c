@@ -9,6 +9,7 @@
 #include "help/topics.h"
 #include "statement/command.h"
 #include "statement/output.h"
+#include "statement/scripts.h"
 #include "statement/setting_table.h"
 #include "statement/text.h"
 
@@ -365,6 +366,13 @@ static bool show_commands(shell *sh, FILE *to) {
         grammar_usage(command_form(c), usage);
         fprintf(to, "%s\n", usage);
     }
+    return true;
+}
+
+static bool show_demos(shell *sh, FILE *to) {
+    (void)sh;
+    for (const script *s = scripts; s->name; s++)
+        fprintf(to, "%-11s %s\n", s->name, s->title);
     return true;
 }
 

@@ -13,9 +13,9 @@ bool scene_write(shell *sh, FILE *to, bool whole);
 /* The i-th word that `show` takes; NULL after the last. */
 const char *show_name(size_t i);
 
-/* Writes what one of these words stands for; false: out of memory. show_demos is in demo.c. */
+/* Writes what one of these words stands for; false: out of memory. */
 typedef bool show_part(shell *sh, FILE *to);
-show_part show_settings, show_demos;
+show_part show_settings;
 /* The same onto the session's output, by the pager if it is long. False with the error. */
 bool show_text(shell *sh, show_part *part, calc_error *error);
 

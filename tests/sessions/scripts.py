@@ -512,6 +512,10 @@ def own_lessons(tests):
     for name, want in (("./none.txt", "No such file"), (".", "Is a directory"), ("pressing.x", "No such file")):
         done = tests.run("-c", "demo " + name)
         tests.check("a lesson at " + name, done.returncode == 1 and want in done.stderr, tests.report(done))
+    picture = os.path.join(tests.dir, "captioned.gp")
+    with tests.file("A picture\n%s\nset plot caption on\nplot pressure to %s\n" % (ball.split("\n")[3] + "; press FN=100 N", picture), ".txt") as path:
+        done = tests.run("-c", "demo " + path)
+        tests.check("a lesson that draws a picture with a caption", done.returncode == 0 and os.path.exists(picture), tests.report(done))
     circle = os.path.join(tests.dir, "circle.txt")
     with open(circle, "w", encoding="ascii") as f:
         f.write("A circle\ndemo %s\n" % circle)
