@@ -96,10 +96,8 @@ static void give_place(void *context, size_t i, long double x[]) {
     set_knobs(p->s, p->at[i].u, x);
 }
 
-static bool take_place(void *context, size_t i, const long double x[], const value v[],
-                       const calc_error *why) {
+static bool take_place(void *context, size_t i, const value v[], const calc_error *why) {
     places *p = context;
-    (void)x;
     p->at[i].f = take_value(p->s, v, why);
     return true;
 }

@@ -190,10 +190,9 @@ bool points_keep_sides(points *p, const value v[2], dim *d, bool *known) {
 
 /* ---- a run over many points -------------------------------------------------------------------- */
 
-static bool hand_over(points *p, const points_run *run, size_t i, const long double x[], const value v[],
-                      const calc_error *why) {
+static bool hand_over(points *p, const points_run *run, size_t i, const value v[], const calc_error *why) {
     p->done++;
-    return run->take(run->context, i, x, v, why) && !p->error->raised;
+    return run->take(run->context, i, v, why) && !p->error->raised;
 }
 
 static bool one_here(points *p, const points_run *run, size_t i, const long double x[]) {
@@ -204,7 +203,7 @@ static bool one_here(points *p, const points_run *run, size_t i, const long doub
         p->taken += clock_wall() - began;
         p->watched++;
     }
-    return hand_over(p, run, i, x, p->v, all ? NULL : p->error->raised ? p->error : &p->none);
+    return hand_over(p, run, i, p->v, all ? NULL : p->error->raised ? p->error : &p->none);
 }
 
 /* The input of a part: the knobs of its points. */
@@ -276,7 +275,7 @@ static bool take_portion(void *context, size_t part, const void *in, const void 
         const bool gap = lacks(v, p->n);
         if (gap)
             p->none = found->why[k];
-        if (!hand_over(p, sh->run, i + k, given->x + k * p->count, v, gap ? &p->none : NULL))
+        if (!hand_over(p, sh->run, i + k, v, gap ? &p->none : NULL))
             return false;
     }
     return true;

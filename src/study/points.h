@@ -89,7 +89,7 @@ typedef struct points_run {
     /* Fills in the values x of the knobs at point i. */
     void (*give)(void *context, size_t i, long double x[]);
     /* Receives the values at point i. why: the first error if one is NaN, else NULL. False ends the run. */
-    bool (*take)(void *context, size_t i, const long double x[], const value v[], const calc_error *why);
+    bool (*take)(void *context, size_t i, const value v[], const calc_error *why);
     void *context;
 } points_run;
 

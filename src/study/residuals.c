@@ -27,10 +27,8 @@ static void give_data(void *context, size_t row, long double x[]) {
         x[of->count + j] = of->column[j].v[row * step_of(r)];
 }
 
-static bool take_sides(void *context, size_t row, const long double x[], const value v[],
-                       const calc_error *why) {
+static bool take_sides(void *context, size_t row, const value v[], const calc_error *why) {
     residuals *r = context;
-    (void)x;
     r->bad_row = row * step_of(r);
     if (why || !points_keep_sides(&r->p, v, &r->d, &r->known))
         return false;

@@ -108,10 +108,8 @@ static void give_place(void *context, size_t i, long double x[]) {
     *x = s->at[i].x;
 }
 
-static bool take_place(void *context, size_t i, const long double x[], const value v[],
-                       const calc_error *why) {
+static bool take_place(void *context, size_t i, const value v[], const calc_error *why) {
     search *s = context;
-    (void)x;
     s->at[i].f = why ? (double)NAN : apart(s, v);
     return true;
 }

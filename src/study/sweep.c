@@ -136,11 +136,10 @@ static void give_swept(void *context, size_t row, long double x[]) {
         *x = place(st, row);
 }
 
-static bool take_swept(void *context, size_t row, const long double x[], const value v[],
-                       const calc_error *why) {
+static bool take_swept(void *context, size_t row, const value v[], const calc_error *why) {
     curve_run *st = context;
     const sweep_rows *at = st->s->at;
-    return take_row(st, row, at ? row_of(at, st->first + row) : x[st->s->curves > 0], v, why);
+    return take_row(st, row, at ? row_of(at, st->first + row) : place(st, row), v, why);
 }
 
 static bool run_all(curve_run *st) {

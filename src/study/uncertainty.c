@@ -154,11 +154,9 @@ static void count_sample(sampling *m, const value v[]) {
             take_sample(&m->answer->value[k], (double)v[k].v, &m->squares[k]);
 }
 
-static bool take_drawn(void *context, size_t i, const long double x[], const value v[],
-                       const calc_error *why) {
+static bool take_drawn(void *context, size_t i, const value v[], const calc_error *why) {
     sampling *m = context;
     const uncertainty_question *of = m->s->of;
-    (void)x;
     if (why && !m->answer->missing.raised)
         m->answer->missing = *why;
     count_sample(m, v);
