@@ -111,18 +111,15 @@ static void play_key(live *l) {
 static void wider(live *l, double sign) {
     const double by = live_nice(now(l)->slip > 0 ? now(l)->slip / parts : 1) * sign, FA = l->FA + by;
     l->FA = FA > 0.5 * fabs(by) ? FA : l->FA;
-    l->changed = true;
 }
 
 static void hurry(live *l, double by) {
     l->speed = fmin(fmax(l->speed * by, 0.0625), 8);
-    l->changed = true;
 }
 
 static void swing(live *l) {
     const double FN = number(l, "FN", 0);
     l->FNA = l->FNA > 0.35 * FN ? 0 : l->FNA + 0.1 * FN;
-    l->changed = true;
     live_tell(l, false, l->FNA > 0 ? "the cycle swings FN too" : "the cycle holds FN");
 }
 
@@ -159,7 +156,6 @@ static void ask_line(live *l, const char *prompt, const char *text,
     l->cursor = strlen(l->line);
     l->kept_at = l->kept_count;
     l->entered = entered;
-    l->changed = true;
 }
 
 static void keep_line(live *l, const char *line) {
@@ -330,7 +326,6 @@ static void help(live *l) {
     free(l->page);
     l->page = page.text;
     l->page_from = 0;
-    l->changed = true;
 }
 
 /* ---- a page, a line being typed ---------------------------------------------------------------- */
@@ -339,7 +334,6 @@ static void page_key(live *l, int key) {
     const bool next = key == ' ' || key == KEY_DOWN || key == KEY_NPAGE,
                before = key == KEY_UP || key == KEY_PPAGE;
     const int rows = LINES > 4 ? LINES - 3 : 1;
-    l->changed = true;
     if (next && l->page_from + rows < page_rows(l->page)) {
         l->page_from += rows;
     } else if (before) {
@@ -387,7 +381,6 @@ static void erase_one(live *l) {
 
 static void typing_key(live *l, int key) {
     enum { CTRL_A = 1, CTRL_E = 5, CTRL_U = 21, ESCAPE = 27, DELETE = 0x7f };
-    l->changed = true;
     if (key == '\r' || key == '\n' || key == KEY_ENTER) {
         enter(l);
     } else if (key == ESCAPE || key == KEY_STOP) {
@@ -419,9 +412,10 @@ void live_key(live *l, int key) {
     if (key != l->last_key)
         live_refresh(l);
     l->last_key = key;
-    if (key == KEY_AGAIN) {
-        l->changed = true;
-    } else if (key == KEY_MOUSE) {
+    l->changed = true;
+    if (key == KEY_AGAIN)
+        return;
+    if (key == KEY_MOUSE) {
         mouse(l);
     } else if (l->typing) {
         typing_key(l, key);
