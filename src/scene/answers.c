@@ -4,8 +4,6 @@
 
 #include "scene/scene.h"
 
-static const fret_status status_ok = {FRET_OK, NULL, 0, 0};
-
 /* ---- the normal contact now -------------------------------------------------------------------- */
 
 static bool press_of_program(scene *s, calc_error *error) {
@@ -232,7 +230,7 @@ bool scene_cycle_loss(scene *s, long double *loss, calc_error *error) {
 bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error) {
     const fret_normal *normal;
     const fret_press *press;
-    fret_status st = {.code = FRET_OK};
+    fret_status st = status_ok;
     if (!scene_normal(s, &normal, error) || !scene_press(s, &press, error))
         return false;
     if (!s->answers.pressed)
@@ -244,7 +242,7 @@ bool scene_pressed_field(scene *s, const fret_field **field, calc_error *error) 
 bool scene_dragged_field(scene *s, const fret_field **field, calc_error *error) {
     const fret_contact *now;
     double mu;
-    fret_status st = {.code = FRET_OK};
+    fret_status st = status_ok;
     s->used |= USED(MODEL_MEMORY);
     if (!scene_friction(s, &mu, error) || !scene_history(s, &now, error))
         return false;

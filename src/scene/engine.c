@@ -77,7 +77,7 @@ void engine_forces(const engine *e, fret_state *out) {
 }
 
 fret_status engine_copy(engine *to, const engine *from) {
-    fret_status st = {FRET_OK, NULL, 0, 0};
+    fret_status st = status_ok;
     if (from->springs) {
         fret_springs_free(to->springs);
         to->springs = NULL;

@@ -28,7 +28,7 @@ static bool worn_depth(scene *s, long double r, long double *out, calc_error *er
     *out = 0;
     if (!scene_worn(s, &wear, error))
         return false;
-    return calc_status(error, wear ? fret_wear_depth(wear, r, out) : (fret_status){.code = FRET_OK});
+    return calc_status(error, wear ? fret_wear_depth(wear, r, out) : status_ok);
 }
 
 bool call_f(scene *s, value r, long double *out, calc_error *error) {

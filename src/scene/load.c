@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-static const fret_status status_ok = {FRET_OK, NULL, 0, 0};
-
 /* A program without tangential steps needs no friction: mu = 1 then. */
 static bool friction_for_program(scene *s, const load_reach *reach, double *mu, calc_error *error) {
     const inputs *in = &s->in;

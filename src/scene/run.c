@@ -14,7 +14,6 @@
 
 static const double pi = 3.14159265358979323846;
 
-static const fret_status status_ok = {FRET_OK, NULL, 0, 0};
 static const fret_status interrupted = {FRET_INTERRUPTED, NULL, 0, 0};
 
 static fret_status unless_stopped(const runner *r, fret_status st) {

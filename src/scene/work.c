@@ -52,7 +52,7 @@ static bool make_work(scene *s, calc_error *error) {
     friction_work *w = &s->answers.work;
     load_view load;
     const runner *run;
-    fret_status st = {.code = FRET_OK};
+    fret_status st = status_ok;
     if (!load_run(s, &run, error) || !scene_load_of(s, &load, error))
         return false;
     const unsigned levels = s->now ? 1 : s->answers.levels;
@@ -68,7 +68,7 @@ bool scene_work(scene *s, bool period, long double r, long double *out, calc_err
     load_item cycle;
     double mu;
     long double at[LEVELS], unused;
-    fret_status st = {.code = FRET_OK};
+    fret_status st = status_ok;
     s->used |= USED(MODEL_MEMORY);
     if (!scene_friction(s, &mu, error) || (period && !s->now && !scene_last_cycle(s, &cycle, error)) ||
         (!w->levels && !make_work(s, error)))

@@ -18,7 +18,6 @@ const family_row families[FAMILIES] = {
 
 static const long double rounding = 4e-19L; /* least uncertainty of a reference */
 static const long double nothing = 1e-29L;  /* a loss below this part of the stored energy is rounding */
-static const fret_status fine = {FRET_OK, NULL, 0, 0};
 
 /* ---- measuring --------------------------------------------------------------------------------- */
 
@@ -54,7 +53,7 @@ static bool time_of(bench *b, cycle_of *cycle, void *model, double *seconds) {
         count =
             *seconds * 4 * (double)count < b->enough ? 4 * count : (unsigned long)(b->enough / *seconds) + 1;
         const double start = clock_worked();
-        fret_status st = fine;
+        fret_status st = status_ok;
         for (unsigned long i = 0; i < count && !st.code; i++) {
             if (bench_stopped(b))
                 return false;
@@ -171,7 +170,7 @@ static const watch nowhere = {WATCH_NOTHING, .points = 0};
 /* Begins runs with `levels` numbers of chords from level `first` on; 0: one run along the sine. */
 static fret_status begin_running(const bench *b, running *m, model_family family, unsigned springs,
                                  unsigned first, unsigned levels, watch w) {
-    fret_status st = fine;
+    fret_status st = status_ok;
     *m = (running){.levels = 0};
     do {
         runner *r = &m->run[m->levels];
@@ -190,7 +189,7 @@ static fret_status begin_running(const bench *b, running *m, model_family family
 /* The loss of the last period, or its limit over the levels; *moved: relative uncertainty of the limit. */
 static fret_status limit_cycle(running *m, long double *loss, long double *moved) {
     long double at[LEVELS] = {0};
-    fret_status st = fine;
+    fret_status st = status_ok;
     for (unsigned i = 0; i < m->levels && !st.code; i++) {
         runner *r = &m->run[i];
         run_more(r);

@@ -87,7 +87,7 @@ static fret_status step_to(const residuals *r, runner *run, unsigned char by, do
 
 static fret_status run_rows(residuals *r, runner *run, double *out) {
     const fit_loop *loop = &r->of->loop;
-    fret_status st = {.code = FRET_OK};
+    fret_status st = status_ok;
     fret_state now;
     for (size_t pass = 0; pass < 1u + r->twice; pass++)
         for (size_t i = 0; i < r->of->rows && !st.code; i++) {
