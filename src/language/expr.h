@@ -56,6 +56,8 @@ bool expr_value_as(struct calc *c, lexer *lx, const dim *want, value *out);
 
 /* Does the expression depend on a quantity or a user's name, directly or through live definitions? */
 bool expr_mentions(const struct calc *c, const expr *e, const quantity *q, const char *name);
+/* Does a live definition of an input mention the name? */
+bool bindings_mention(const struct calc *c, const inputs *in, const char *name);
 /* Does it depend on this name? way: the chain of definitions to it, as "b -> c -> ". */
 bool expr_way(const struct calc *c, const expr *e, const char *name, char *way, size_t size);
 /* Iterates over the quantities of an expression in order, i = 0, 1, ...: each once, and each call. call: as a

@@ -64,6 +64,13 @@ bool expr_mentions(const calc *c, const expr *e, const quantity *q, const char *
     return search(c, e, q, name, NULL, 0);
 }
 
+bool bindings_mention(const calc *c, const inputs *in, const char *name) {
+    bool found = false;
+    for (input i = 0; i < INPUTS && !found; i++)
+        found = in->bound[i] && expr_mentions(c, &((const definition *)in->bound[i])->body, NULL, name);
+    return found;
+}
+
 const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at) {
     for (size_t j = 0; j < e->count; j++) {
         const expr_node *n = &e->nodes[j];

@@ -85,23 +85,15 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
     return true;
 }
 
-/* Does the load depend on this knob? */
-static bool runs_on(const trial *t, const knob *p) {
-    const inputs *in = &t->scene.in;
-    bool found = p->is_input;
-    for (input i = 0; i < INPUTS && !found; i++)
-        found = in->bound[i] && expr_mentions(t->c, &((const definition *)in->bound[i])->body, NULL, p->text);
-    return found;
-}
-
 bool trial_change(trial *t, const knob_value by[], size_t count, size_t *wrong, calc_error *error) {
     const instant *now = t->scene.now;
     size_t run = count;
     for (*wrong = 0; *wrong < count; ++*wrong) {
-        if (!trial_set(t, &by[*wrong].p, by[*wrong].v, error))
+        const knob *p = &by[*wrong].p;
+        if (!trial_set(t, p, by[*wrong].v, error))
             return false;
-        if (run == count && runs_on(t, &by[*wrong].p))
-            run = *wrong;
+        if (run == count && (p->is_input || bindings_mention(t->c, &t->scene.in, p->text)))
+            run = *wrong; /* the load depends on it */
     }
     if (!now || run == count)
         return true;

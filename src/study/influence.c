@@ -28,23 +28,12 @@ static void add_step(influence_study *out, const char *name, load_by by, double 
                                            .increment = increment};
 }
 
-/* Does the value depend on this user's name, directly or through a live definition of an input? */
-static bool is_mentioned(const calc *c, const expr *e, const char *name) {
-    const inputs *in = &c->now->in;
-    if (expr_mentions(c, e, NULL, name))
-        return true;
-    for (input i = 0; in->bindings >> i; i++)
-        if (in->bindings & INPUT_BIT(i) &&
-            expr_mentions(c, &((const definition *)in->bound[i])->body, NULL, name))
-            return true;
-    return false;
-}
-
 static void add_names(const calc *c, const expr *e, influence_study *out) {
     size_t left = CAUSE_NAMES;
     for (size_t i = 0; i < c->names.count && left > 0; i++) {
         const own_name *row = &c->names.row[i];
-        if (!row->known || row->definition || !is_mentioned(c, e, row->text))
+        if (!row->known || row->definition ||
+            !(expr_mentions(c, e, NULL, row->text) || bindings_mention(c, &c->now->in, row->text)))
             continue;
         out->cause[out->count++] = (cause){.name = row->text,
                                            .v = row->v,
