@@ -89,16 +89,14 @@ static void add_knobs(attempt *p, const char *end) {
 
 /* Adds the units of dimension d; all units if `any`, or if no single unit has that dimension. */
 static void add_units(attempt *p, bool any, dim d) {
-    static const char *const prefixes[] = {"", "n", "u", "m", "c", "k", "M", "G"};
-    enum { PREFIXES = sizeof prefixes / sizeof *prefixes };
     bool none = true;
     unit u = {.d = DIM_NONE};
     for (size_t i = 0; unit_name(i) && none && !any; i++)
         none = (unit_lookup(unit_name(i), strlen(unit_name(i)), &u), !same_dim(u.d, d));
     for (size_t i = 0; unit_name(i); i++)
-        for (size_t j = 0; j < PREFIXES; j++) {
+        for (size_t j = 0; unit_prefix(j); j++) {
             char word[LEX_NAME];
-            snprintf(word, sizeof word, "%s%s", prefixes[j], unit_name(i));
+            snprintf(word, sizeof word, "%s%s", unit_prefix(j), unit_name(i));
             if (unit_lookup(word, strlen(word), &u) && (any || none || same_dim(u.d, d)))
                 add_word(p, word, "");
         }

@@ -38,11 +38,13 @@ static const struct {
 };
 enum { UNITS = sizeof units / sizeof *units };
 
+/* The signs for micro come last: they are read, but not offered. */
 static const struct {
     const char *name;
     int exp10;
-} prefixes[] = {{"n", -9}, {"u", -6}, {"\xc2\xb5", -6}, {"\xce\xbc", -6}, {"m", -3},
-                {"k", 3},  {"M", 6},  {"G", 9},         {"c", -2}};
+} prefixes[] = {{"", 0},  {"n", -9}, {"u", -6}, {"m", -3},        {"c", -2},
+                {"k", 3}, {"M", 6},  {"G", 9},  {"\xc2\xb5", -6}, {"\xce\xbc", -6}};
+enum { PREFIXES = sizeof prefixes / sizeof *prefixes, OFFERED = PREFIXES - 2 };
 
 /* The prefix c is allowed for metres alone. */
 static bool prefix_allowed(const char *prefix, const char *name) {
@@ -61,22 +63,20 @@ bool unit_prefixed(size_t i) {
     return units[i].prefixes;
 }
 
+const char *unit_prefix(size_t i) {
+    return i < OFFERED ? prefixes[i].name : NULL;
+}
+
 bool unit_lookup(const char *word, size_t len, unit *out) {
     static const char sign[] = "\xe2\x84\xab"; /* U+212B, angstrom sign; the table has the letter U+00C5 */
     if (len == sizeof sign - 1 && !memcmp(word, sign, len))
         return unit_lookup("\xc3\x85", 2, out);
     for (size_t i = 0; i < UNITS; i++) {
-        const size_t n = strlen(units[i].name);
+        const size_t n = strlen(units[i].name), allowed = units[i].prefixes ? PREFIXES : 1;
         if (n > len || units[i].name[n - 1] != word[len - 1])
             continue;
-        if (n == len && !memcmp(units[i].name, word, n)) {
-            *out = units[i].u;
-            return true;
-        }
-        if (!units[i].prefixes)
-            continue;
-        for (size_t j = 0; j < sizeof prefixes / sizeof *prefixes; j++) {
-            size_t p = strlen(prefixes[j].name);
+        for (size_t j = 0; j < allowed; j++) {
+            const size_t p = strlen(prefixes[j].name);
             if (p + n == len && !memcmp(prefixes[j].name, word, p) && !memcmp(units[i].name, word + p, n) &&
                 prefix_allowed(prefixes[j].name, units[i].name)) {
                 *out = units[i].u;

@@ -58,6 +58,7 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
 const char *unit_name(size_t i);
 const char *unit_meaning(size_t i);
 bool unit_prefixed(size_t i);
+const char *unit_prefix(size_t i); /* the first: none; NULL after the last */
 
 /* ---- parsing unit expressions: N/mm^2, MPa*m^0.5 ---- */
 
