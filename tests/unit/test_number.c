@@ -145,6 +145,12 @@ static fret_real curve_at(fret_real x, fret_real *slope, void *context) {
     return f;
 }
 
+/* x^3 - 2 in double; counts its calls. */
+static double cube_less_2(double x, void *asked) {
+    ++*(int *)asked;
+    return x * x * x - 2;
+}
+
 static void roots(void) {
     static const fret_real places[] = {1e-20L, 1e-3L, 0.1L, 1 / 3.0L, 0.5L, 0.75L, 1 - 1e-10L};
     static const long most[] = {8, 240, 100, 40, 80, 40};
@@ -168,6 +174,10 @@ static void roots(void) {
     c = (curve){5, true, 0.3L, 0}; /* from nearby a few steps do */
     fret_root(curve_at, &c, -10, 10, 0.3001L);
     CHECK(c.asked <= 8);
+    int asked = 0;
+    CHECK_ABS(fret_root_double(cube_less_2, &asked, 1, 2), cbrtl(2), 1, DBL_EPSILON);
+    CHECK(asked <= 16 &&
+          fret_root_double(cube_less_2, &asked, -10, 1e9) == fret_root_double(cube_less_2, &asked, 1, 2));
 }
 
 /* ---- the least --------------------------------------------------------------------------------- */
