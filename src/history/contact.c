@@ -14,10 +14,12 @@
 
 fret_status fret_contact_make(const fret_normal *normal, double mu, fret_exactness exactness,
                               fret_contact **out) {
+    if (exactness == FRET_DOUBLE && !fret_normal_closed(normal))
+        return fret_fail(FRET_OUTSIDE, "n", 0, 0);
     fret_contact *c = calloc(1, sizeof *c);
     if (!c)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    const fret_status st = exactness == FRET_DOUBLE ? fret_diagram_make(normal, mu, 0, &c->diagram)
+    const fret_status st = exactness == FRET_DOUBLE ? fret_diagram_make(normal, mu, &c->diagram)
                                                     : fret_memory_make(normal, mu, &c->memory);
     c->normal = normal;
     c->mu = mu;

@@ -5,6 +5,7 @@
 #define NUMBER double
 #define SPOT char /* a power law needs no places */
 #define DIAGRAM fret_diagram
+#define PUBLIC(f) fret_diagram_##f
 #define FUNCTION(f) f
 #define POWER pow
 #include "history/diagram_type.h"
@@ -67,25 +68,6 @@ static fret_status law_prepare(fret_diagram *d, coordinate by, double y) {
 
 /* ---- the object -------------------------------------------------------------------------------- */
 
-fret_status fret_diagram_make(const fret_normal *normal, double mu, size_t slices, fret_diagram **out) {
-    const fret_status st = fret_check_positive("mu", mu);
-    return st.code                       ? st
-           : !fret_normal_closed(normal) ? fret_fail(FRET_OUTSIDE, "n", 0, 0)
-                                         : diagram_make(normal, mu, slices, out);
-}
-
-void fret_diagram_free(fret_diagram *d) {
-    diagram_free(d);
-}
-
-void fret_diagram_reset(fret_diagram *d) {
-    diagram_reset(d);
-}
-
-fret_status fret_diagram_copy(fret_diagram *to, const fret_diagram *from) {
-    return diagram_copy(to, from);
-}
-
 void fret_diagram_count_loss(fret_diagram *d, bool on) {
     d->lossless = !on;
 }
@@ -94,26 +76,6 @@ fret_status fret_diagram_step(fret_diagram *d, const fret_step *step) {
     return diagram_step(d, step);
 }
 
-void fret_diagram_state(const fret_diagram *d, fret_state *out) {
-    diagram_state(d, out);
-}
-
-void fret_diagram_forces(const fret_diagram *d, fret_state *out) {
-    diagram_forces(d, out);
-}
-
 double fret_diagram_last_loss(const fret_diagram *d) {
     return d->last_loss;
-}
-
-size_t fret_diagram_packed(const fret_diagram *d) {
-    return packed(d);
-}
-
-void fret_diagram_pack(const fret_diagram *d, double out[]) {
-    diagram_pack(d, out);
-}
-
-fret_status fret_diagram_unpack(fret_diagram *d, const double from[], size_t count) {
-    return diagram_unpack(d, from, count);
 }

@@ -7,8 +7,8 @@
 
 typedef struct fret_diagram fret_diagram;
 
-/* slices > 0: room for that many slices, and steps that need more fail; 0: room grows as needed. */
-fret_status fret_diagram_make(const fret_normal *normal, double mu, size_t slices, fret_diagram **out);
+/* normal: of a power law. */
+fret_status fret_diagram_make(const fret_normal *normal, double mu, fret_diagram **out);
 void fret_diagram_free(fret_diagram *diagram);
 void fret_diagram_count_loss(fret_diagram *diagram, bool on);
 void fret_diagram_reset(fret_diagram *diagram);

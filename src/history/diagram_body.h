@@ -9,7 +9,8 @@
  *   law_level        y - s t at the edge near gross slip, where every digit counts
  *   law_radius       the contact radius
  *   law_slips        records a phase of slip that dissipates
- * LITTLE: the relative accuracy of positions on the curve. Allocates the layers of its contact. */
+ * PUBLIC(f): the name of f in the header; LITTLE: the relative accuracy of positions on the curve. Allocates
+ * the layers of its contact. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +36,17 @@ FRET_INLINE NUMBER size_of(NUMBER x) {
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
-static void diagram_reset(DIAGRAM *d) {
+NOINLINE fret_status make_room(DIAGRAM *d, size_t count) {
+    return fret_array_room(&d->layers, &d->room, count, sizeof *d->layers)
+               ? fret_ok()
+               : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+}
+
+FRET_INLINE fret_status reserve(DIAGRAM *d, size_t count) {
+    return count <= d->room ? fret_ok() : make_room(d, count);
+}
+
+void PUBLIC(reset)(DIAGRAM *d) {
     d->edge = (point){.y = {0, 0}};
     d->dz = d->slid = d->dx = d->Fx = d->W = d->W_rest = d->last_loss = 0;
     d->high[DEPTH] = d->high[LOAD] = 0;
@@ -45,16 +56,12 @@ static void diagram_reset(DIAGRAM *d) {
     d->count = 0;
 }
 
-/* layers > 0: room for that many and never more. */
-static fret_status diagram_make(const fret_normal *normal, double mu, size_t layers, DIAGRAM **out) {
+fret_status PUBLIC(make)(const fret_normal *normal, double mu, DIAGRAM **out) {
     const fret_status st = fret_check_positive("mu", mu);
     if (st.code)
         return st;
-    const size_t room = layers ? layers : 16;
     DIAGRAM *d = calloc(1, sizeof *d);
-    if (d && room <= SIZE_MAX / sizeof *d->layers)
-        d->layers = calloc(room, sizeof *d->layers);
-    if (!d || !d->layers) {
+    if (!d || make_room(d, 1).code) {
         free(d);
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     }
@@ -67,30 +74,18 @@ static fret_status diagram_make(const fret_normal *normal, double mu, size_t lay
         power_make(normal->p, normal->pm1, &d->law[DEPTH]);
         power_make(normal->q, -normal->pm1 * normal->q, &d->law[LOAD]);
     }
-    d->room = room;
-    d->bounded = layers > 0;
-    diagram_reset(d);
+    PUBLIC(reset)(d);
     *out = d;
     return st;
 }
 
-static void diagram_free(DIAGRAM *d) {
+void PUBLIC(free)(DIAGRAM *d) {
     if (d)
         free(d->layers);
     free(d);
 }
 
-NOINLINE fret_status make_room(DIAGRAM *d, size_t count) {
-    return !d->bounded && fret_array_room(&d->layers, &d->room, count, sizeof *d->layers)
-               ? fret_ok()
-               : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-}
-
-FRET_INLINE fret_status reserve(DIAGRAM *d, size_t count) {
-    return count <= d->room ? fret_ok() : make_room(d, count);
-}
-
-static fret_status diagram_copy(DIAGRAM *to, const DIAGRAM *from) {
+fret_status PUBLIC(copy)(DIAGRAM *to, const DIAGRAM *from) {
     if (to == from)
         return fret_ok();
     const fret_status st = reserve(to, from->count);
@@ -98,13 +93,11 @@ static fret_status diagram_copy(DIAGRAM *to, const DIAGRAM *from) {
         return st;
     layer *layers = to->layers;
     const size_t room = to->room;
-    const bool bounded = to->bounded;
     fret_slips *slips = to->slips;
     *to = *from;
     to->slips = slips;
     to->layers = layers;
     to->room = room;
-    to->bounded = bounded;
     memcpy(layers, from->layers, from->count * sizeof *layers);
     return st;
 }
@@ -795,7 +788,7 @@ static const layer *outermost(const DIAGRAM *d) {
     return next->sigma == zone->sigma ? next : zone;
 }
 
-static void diagram_forces(const DIAGRAM *d, fret_state *out) {
+void PUBLIC(forces)(const DIAGRAM *d, fret_state *out) {
     static const fret_state nothing;
     *out = nothing; /* gcc clears a literal in a loop, which takes as long as a step */
     out->FN = d->edge.y[LOAD];
@@ -806,8 +799,8 @@ static void diagram_forces(const DIAGRAM *d, fret_state *out) {
     out->slices = d->count;
 }
 
-static void diagram_state(const DIAGRAM *d, fret_state *out) {
-    diagram_forces(d, out);
+void PUBLIC(state)(const DIAGRAM *d, fret_state *out) {
+    PUBLIC(forces)(d, out);
     if (!d->count)
         return;
     const layer *top = outermost(d);
@@ -854,11 +847,11 @@ static const double *unpack_point(const double *from, point *p) {
     return from;
 }
 
-static size_t packed(const DIAGRAM *d) {
+size_t PUBLIC(packed)(const DIAGRAM *d) {
     return PACKED_NUMBERS + 2 * (NUMBERS_EDGE + NUMBERS_REST + NUMBERS_LAYER * d->count);
 }
 
-static void diagram_pack(const DIAGRAM *d, double out[]) {
+void PUBLIC(pack)(const DIAGRAM *d, double out[]) {
     const NUMBER rest[NUMBERS_REST] = {d->dz, d->slid, d->dx, d->Fx, d->W, d->W_rest, d->last_loss};
     out[PACKED_KIND] = sizeof(NUMBER);
     out[PACKED_IMPOSED] = d->imposed;
@@ -890,7 +883,7 @@ static bool is_history(const DIAGRAM *d) {
     return ok;
 }
 
-static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count) {
+fret_status PUBLIC(unpack)(DIAGRAM *d, const double from[], size_t count) {
     const size_t least = PACKED_NUMBERS + 2 * (NUMBERS_EDGE + NUMBERS_REST);
     const fret_status wrong = fret_fail(FRET_OUTSIDE, "history", (double)count, 0);
     if (count < least || (count - least) % (2 * NUMBERS_LAYER) || from[PACKED_KIND] != sizeof(NUMBER))
@@ -922,7 +915,7 @@ static fret_status diagram_unpack(DIAGRAM *d, const double from[], size_t count)
     else if (made->count && (end < made->low[by] || end > made->high[by])) /* already in range otherwise */
         st = law_prepare(made, by, (double)end);
     if (!st.code)
-        st = diagram_copy(d, made);
+        st = PUBLIC(copy)(d, made);
     free(made->layers);
     return st;
 }

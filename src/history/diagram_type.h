@@ -41,7 +41,7 @@ struct DIAGRAM {
     int direction;      /* of the last tangential motion */
     NUMBER W, W_rest, last_loss;
     size_t count, room;
-    bool bounded, lossless;
+    bool lossless;
     fret_slips *slips; /* borrowed, or NULL */
     layer *layers;     /* innermost first */
 };

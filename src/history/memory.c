@@ -128,49 +128,13 @@ fret_status fret_step_load(double mu, const fret_step *step, fret_real FN, fret_
 
 /* ---- the object -------------------------------------------------------------------------------- */
 
-fret_status fret_memory_make(const fret_normal *normal, double mu, fret_memory **out) {
-    return diagram_make(normal, mu, 0, out);
-}
-
-void fret_memory_free(fret_memory *m) {
-    diagram_free(m);
-}
-
-void fret_memory_reset(fret_memory *m) {
-    diagram_reset(m);
-}
-
 fret_status fret_memory_reserve(fret_memory *m, size_t count) {
     return reserve(m, count);
-}
-
-fret_status fret_memory_copy(fret_memory *to, const fret_memory *from) {
-    return diagram_copy(to, from);
 }
 
 fret_status fret_memory_step(fret_memory *m, const fret_step *step) {
     const fret_status st = diagram_step(m, step);
     return st.code ? st : fret_unless_stopped(m->normal, st);
-}
-
-void fret_memory_state(const fret_memory *m, fret_state *out) {
-    diagram_state(m, out);
-}
-
-void fret_memory_forces(const fret_memory *m, fret_state *out) {
-    diagram_forces(m, out);
-}
-
-size_t fret_memory_packed(const fret_memory *m) {
-    return packed(m);
-}
-
-void fret_memory_pack(const fret_memory *m, double out[]) {
-    diagram_pack(m, out);
-}
-
-fret_status fret_memory_unpack(fret_memory *m, const double from[], size_t count) {
-    return diagram_unpack(m, from, count);
 }
 
 /* ---- along the curve --------------------------------------------------------------------------- */

@@ -11,6 +11,7 @@ typedef struct fret_memory fret_memory;
 #define NUMBER fret_real
 #define SPOT fret_place
 #define DIAGRAM fret_memory
+#define PUBLIC(f) fret_memory_##f
 #define FUNCTION(f) f##l
 #define POWER fret_pow
 #include "history/diagram_type.h"

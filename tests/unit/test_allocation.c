@@ -105,7 +105,7 @@ static void diagrams(void) {
     fret_state before, now;
     int refused = 0;
     for (int i = 0; i < 2; i++) {
-        CHECK_OK(fret_diagram_make(contact.normal, 0.4, 0, &d[i]));
+        CHECK_OK(fret_diagram_make(contact.normal, 0.4, &d[i]));
         CHECK_OK(fret_diagram_step(d[i], &(fret_step){FRET_TO_FORCE, FRET_KEEP_DX, 20, 0}));
     }
     for (int i = 0; i < 200; i++) {

@@ -389,7 +389,7 @@ static void diagrams(void) {
             fret_diagram *g;
             fret_press p;
             fret_state now;
-            CHECK_OK(fret_diagram_make(n, 0.4, 0, &g));
+            CHECK_OK(fret_diagram_make(n, 0.4, &g));
             const fret_status want = fret_press_by_depth(n, dz, &p),
                               st = fret_diagram_step(g, &(fret_step){FRET_TO_DEPTH, FRET_KEEP_DX, dz, 0});
             fret_diagram_forces(g, &now);
@@ -411,7 +411,7 @@ static void lossless(void) {
     fret_diagram *d[2];
     fret_state now[2];
     for (int i = 0; i < 2; i++) {
-        CHECK_OK(fret_diagram_make(n, 0.4, 0, &d[i]));
+        CHECK_OK(fret_diagram_make(n, 0.4, &d[i]));
         fret_diagram_count_loss(d[i], i == 0);
     }
     for (int j = 0; j < 200; j++) {
@@ -442,7 +442,7 @@ static void at_gross_slip(void) {
         fret_memory *m;
         fret_state now;
         fret_state want;
-        CHECK_OK(fret_diagram_make(n, mu, 0, &d));
+        CHECK_OK(fret_diagram_make(n, mu, &d));
         CHECK_OK(fret_memory_make(n, mu, &m));
         const fret_step steps[] = {{FRET_TO_DEPTH, FRET_KEEP_DX, dz, 0}, {FRET_TO_DEPTH, FRET_TO_DX, dz, dx}};
         for (int j = 0; j < 2; j++) {
