@@ -5,7 +5,6 @@
 
 #include <float.h>
 
-#include "history/loss.h"
 #include "law/check.h"
 #include "law/normal.h"
 #include "number/real.h"
@@ -122,8 +121,10 @@ fret_status fret_loading_by_displacement(const fret_pressed *c, double dx, fret_
     return fret_unless_stopped(c->normal, fret_ok());
 }
 
-/* The loss w(t): for -ln s < 3.5 a series of positive terms, else (27), arranged for either size of q. */
-static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
+/* The loss w(t) of a power law, with q = n/(n+k+1), r = 1-q: for -ln s < 3.5 a series of positive terms, else
+ * (27), arranged for either size of q. */
+static fret_real loss_of_power(const fret_normal *n, const fraction *f) {
+    const dd q_wide = n->wide.q, r_wide = dd_div(dd_sum(1, (double)n->foundation.k), n->wide.s);
     const fret_real q = dd_value(q_wide), r = dd_value(r_wide), t = f->t_wide, s = dd_value(f->s);
     if (t <= 0)
         return 0;
@@ -150,17 +151,6 @@ static fret_real loss_shape(dd q_wide, dd r_wide, const fraction *f) {
     }
     fret_real y = kept(f, q_wide);
     return 4 / (1 + q) * (r * t * (1 + y) - 2 * s * dd_value(fret_dd_expm1(dd_neg(dd_mul(r_wide, f->l)))));
-}
-
-fret_real fret_loss_shape(fret_real q, fret_real r, fret_real t, fret_real s) {
-    fraction f = fraction_from(dd_from(t), dd_from(s));
-    return loss_shape(dd_from(q), dd_from(r), &f);
-}
-
-/* The loss shape of a power law, with r = 1-q = (k+1)/(n+k+1). */
-static fret_real loss_of_power(const fret_normal *normal, const fraction *f) {
-    dd r = dd_div(dd_sum(1, (double)normal->foundation.k), normal->wide.s);
-    return loss_shape(normal->wide.q, r, f);
 }
 
 /* The loss for any shape, by Masing's rule 4 times that of first loading: with t the depth below the edge it

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "history/loss.h"
 #include "law/normal.h"
 #include "unit.h"
 
@@ -51,22 +50,37 @@ static void reference(void) {
     }
 }
 
-static void loss_shape(void) {
+/* w(t) = loss/(mu F_N delta_x,max), with mu F_N = 1 N so that t is exact. */
+static fret_real loss_shape(const fret_pressed *c, double t) {
+    fret_real loss = -1;
+    CHECK_OK(fret_cycle_loss_by_force(c, t, &loss));
+    return loss / fret_gross_slip(c);
+}
+
+static fret_pressed contact_of(double n, double k) {
+    unit_scene s = unit_make_scene(n, k);
+    s.mu = 1;
+    return unit_make_contact(&s, 1);
+}
+
+static void loss_shapes(void) {
     unit_table t;
     if (!unit_open(&t, "loss.csv"))
         return;
     while (unit_row(&t)) {
-        fret_real n = unit_input(&t, 0), k1 = 1 + (fret_real)unit_input(&t, 1), x = unit_input(&t, 2);
-        fret_real q = n / (n + k1), r = k1 / (n + k1);
-        CHECK_REL(fret_loss_shape(q, r, x, 1 - x), unit_result(&t, 3), UNIT_TOL(3e-18L, 3e-15L));
+        const fret_pressed c = contact_of(unit_input(&t, 0), unit_input(&t, 1));
+        CHECK_REL(loss_shape(&c, unit_input(&t, 2)), unit_result(&t, 3), UNIT_TOL(3e-18L, 3e-15L));
     }
     for (int i = 1; i < 40; i++) {
-        fret_real q = i / 40.0L, r = 1 - q, last = 0;
-        CHECK(fret_loss_shape(q, r, 0, 1) == 0);
-        CHECK_REL(fret_loss_shape(q, r, 1, 0), 4 * r / (1 + q), UNIT_TOL(1e-18L, 1e-15L));
-        CHECK_REL(fret_loss_shape(q, r, 1e-9L, 1 - 1e-9L), 4 * q * r * 1e-27L / 6, 1e-8L);
-        for (fret_real x = 1.0L / 64; x <= 1; x += 1.0L / 64) { /* grows, also across the branches */
-            fret_real w = fret_loss_shape(q, r, x, 1 - x);
+        const double n = i / (40.0 - i);
+        const fret_pressed c = contact_of(n, 0);
+        const fret_real r = 1 / (n + 1.0L), q = 1 - r;
+        fret_real last = 0;
+        CHECK(loss_shape(&c, 0) == 0);
+        CHECK_REL(loss_shape(&c, 1), 4 * r / (1 + q), UNIT_TOL(1e-18L, 1e-15L));
+        CHECK_REL(loss_shape(&c, 1e-9), 4 * q * r * 1e-27L / 6, 1e-8L);
+        for (double x = 1.0 / 64; x <= 1; x += 1.0 / 64) { /* grows, also across the branches */
+            fret_real w = loss_shape(&c, x);
             CHECK(w > last);
             last = w;
         }
@@ -234,7 +248,7 @@ static void errors(void) {
 int main(int argc, char **argv) {
     unit_start("cycle", argc, argv);
     CASE(reference());
-    CASE(loss_shape());
+    CASE(loss_shapes());
     CASE(definition());
     CASE(published());
     CASE(gross_slip());
