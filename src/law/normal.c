@@ -38,15 +38,14 @@ static void make_power(fret_normal *n) {
     n->wide.ln_force = dd_add(dd_add(force, r0), n->wide.ln_depth);
 }
 
-/* Makes the rest of a contact whose foundation is known. */
+/* Gives a contact whose foundation is known its gap. */
 static fret_status give_shape(fret_normal *n, const fret_gap *gap, const fret_normal *like, fret_stop stop) {
     const double k = (double)n->foundation.k;
     fret_status st = fret_gap_check(gap);
-    n->users = 1;
-    n->gap = *gap;
-    n->end = INFINITY;
     if (st.code)
         return st;
+    n->gap = *gap;
+    n->end = INFINITY;
     n->stiff = fret_normal_stiffness(n, 1);
     if (fret_gap_closed(gap)) {
         make_power(n);
@@ -54,37 +53,39 @@ static fret_status give_shape(fret_normal *n, const fret_gap *gap, const fret_no
     }
     fret_gap_rule(gap, k, &n->rule);
     st = fret_cells_make(gap, k, like ? like->cells : NULL, stop, &n->cells);
-    n->end = st.code ? 0 : n->cells->end;
+    if (!st.code)
+        n->end = n->cells->end;
+    return st;
+}
+
+static fret_status make(const fret_foundation *foundation, const fret_wide_foundation *wide,
+                        const fret_gap *gap, const fret_normal *like, fret_stop stop, fret_normal **out) {
+    fret_normal *n = calloc(1, sizeof *n);
+    if (!n)
+        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
+    n->foundation = *foundation;
+    n->wide_foundation = *wide;
+    n->users = 1;
+    const fret_status st = give_shape(n, gap, like, stop);
+    if (st.code)
+        free(n);
+    else
+        *out = n;
     return st;
 }
 
 fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, const fret_normal *like,
                              fret_stop stop, fret_normal **out) {
-    fret_normal *n = calloc(1, sizeof *n);
-    if (!n)
-        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    fret_status st = fret_foundation_make_wide(material, &n->foundation, &n->wide_foundation);
-    if (!st.code)
-        st = give_shape(n, gap, like, stop);
-    if (st.code)
-        free(n);
-    else
-        *out = n;
-    return st;
+    fret_foundation foundation;
+    fret_wide_foundation wide;
+    const fret_status st = fret_foundation_make_wide(material, &foundation, &wide);
+    return st.code ? st : make(&foundation, &wide, gap, like, stop, out);
 }
 
 fret_status fret_normal_reshape(const fret_normal *from, const fret_gap *gap, fret_normal **out) {
-    fret_normal *n = calloc(1, sizeof *n);
-    if (!n)
-        return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
-    n->foundation = from->foundation;
-    n->wide_foundation = from->wide_foundation;
-    n->stop = from->stop;
-    const fret_status st = give_shape(n, gap, NULL, from->stop);
-    if (st.code)
-        free(n);
-    else
-        *out = n;
+    const fret_status st = make(&from->foundation, &from->wide_foundation, gap, NULL, from->stop, out);
+    if (!st.code)
+        (*out)->stop = from->stop;
     return st;
 }
 
@@ -167,14 +168,11 @@ static bool too_small(const fret_press *p) {
     return !(p->F >= DBL_MIN && p->dz >= DBL_MIN && p->a >= DBL_MIN) && (p->F != 0 || p->dz != 0);
 }
 
-/* True if doubles can hold the state. */
-static bool is_held(const fret_press *p) {
-    return !too_large(p) && !too_small(p);
-}
-
+/* Refuses a state that doubles cannot hold. */
 static fret_status finish(const fret_press *p, fret_press *out) {
-    if (!is_held(p))
-        return fret_fail(FRET_OVERFLOW, NULL, (double)p->F, too_large(p) ? DBL_MAX : DBL_MIN);
+    const bool large = too_large(p);
+    if (large || too_small(p))
+        return fret_fail(FRET_OVERFLOW, NULL, (double)p->F, large ? DBL_MAX : DBL_MIN);
     *out = *p;
     return fret_ok();
 }
