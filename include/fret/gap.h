@@ -62,8 +62,8 @@ fret_status fret_gap_f(const fret_gap *gap, fret_real r, fret_real *f);
 fret_status fret_gap_g(const fret_gap *gap, double k, fret_real x, fret_real *g, fret_real *slope);
 
 /* Makes a sampled gap from r[0] = 0 < r[1] < ..., f[0] = 0, lengths in m. Copies the arrays. A million rows
- * take seconds: the stop flag, which may be NULL, is polled meanwhile and not kept. Errors: FRET_BAD_TABLE,
- * FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. Free with fret_table_free. */
+ * take seconds: the stop flag, which may be NULL, is polled meanwhile and not kept. Errors: FRET_BAD_TABLE
+ * naming r, f or count, FRET_NOT_FINITE, FRET_NO_MEMORY, FRET_INTERRUPTED. Free with fret_table_free. */
 fret_status fret_table_make(const double *r, const double *f, size_t count, fret_stop stop,
                             struct fret_table **out);
 /* A table of more than 2001 rows is thinned to cubic pieces with f' given at both ends. The number of rows

@@ -23,7 +23,7 @@ typedef enum fret_code {
     FRET_NOT_MONOTONE,   /* g(x) falls: the contact is not a disc; value: radius; limit: the radius where a
                             table has soon risen above it again, or 0 */
     FRET_TABLE_SHORT,    /* the gap ends before the load is carried; limit: largest a       */
-    FRET_BAD_TABLE,      /* a gap table that is no function: radii must grow; value: radius */
+    FRET_BAD_TABLE,      /* a sampled gap needs two rows or more, r and f from 0, growing r */
     FRET_OVERFLOW,       /* the result does not fit in a double                             */
     FRET_NO_MEMORY = 14, /* allocation failed; the object is as before                      */
     FRET_INTERRUPTED,    /* the caller's stop flag was set                                  */

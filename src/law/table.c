@@ -152,11 +152,13 @@ fret_status fret_table_sloped(const double *r, const double *f, const double *sl
             return fret_fail(FRET_NOT_FINITE, "slope", slope[i], 0);
         if (!isfinite(r[i]) || !isfinite(f[i]))
             return fret_fail(FRET_NOT_FINITE, isfinite(r[i]) ? "f" : "r", isfinite(r[i]) ? f[i] : r[i], 0);
-        if (i == 0 ? r[0] != 0 || f[0] != 0 : r[i] <= r[i - 1])
+        if (i ? r[i] <= r[i - 1] : r[0] != 0)
             return fret_fail(FRET_BAD_TABLE, "r", r[i], i ? r[i - 1] : 0);
+        if (i == 0 && f[0] != 0)
+            return fret_fail(FRET_BAD_TABLE, "f", f[0], 0);
     }
     if (count < 2)
-        return fret_fail(FRET_BAD_TABLE, "r", count ? r[0] : 0, 0);
+        return fret_fail(FRET_BAD_TABLE, "count", (double)count, 2);
     struct fret_table *t = calloc(1, sizeof *t);
     double *data = t ? malloc(5 * count * sizeof *data) : NULL;
     if (!data) {
@@ -191,9 +193,8 @@ fret_status fret_table_sloped(const double *r, const double *f, const double *sl
 }
 
 void fret_table_free(struct fret_table *t) {
-    if (t) {
+    if (t)
         free(t->r);
-    }
     free(t);
 }
 

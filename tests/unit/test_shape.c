@@ -438,9 +438,11 @@ static void bad_tables(void) {
     CHECK_ERROR(fret_table_make(twice, f, 3, NULL, &t), FRET_BAD_TABLE, "r");
     CHECK_ERROR(fret_table_make(back, f, 3, NULL, &t), FRET_BAD_TABLE, "r");
     CHECK_ERROR(fret_table_make(late, f, 3, NULL, &t), FRET_BAD_TABLE, "r");
-    CHECK_CODE(fret_table_make(r, lifted, 3, NULL, &t), FRET_BAD_TABLE);
-    CHECK_CODE(fret_table_make(r, f, 1, NULL, &t), FRET_BAD_TABLE);
-    CHECK_CODE(fret_table_make(r, f, 0, NULL, &t), FRET_BAD_TABLE);
+    CHECK_ERROR(fret_table_make(r, lifted, 3, NULL, &t), FRET_BAD_TABLE, "f");
+    CHECK_ERROR(fret_table_make(r, f, 1, NULL, &t), FRET_BAD_TABLE, "count");
+    CHECK_ERROR(fret_table_make(r, f, 0, NULL, &t), FRET_BAD_TABLE, "count");
+    CHECK(fret_table_make(r, lifted, 3, NULL, &t).value == 1e-7 &&
+          fret_table_make(r, f, 1, NULL, &t).value == 1);
     CHECK_ERROR(fret_table_make(nans, f, 3, NULL, &t), FRET_NOT_FINITE, "r");
     CHECK_ERROR(fret_table_make(r, inf, 3, NULL, &t), FRET_NOT_FINITE, "f");
     CHECK(fret_table_make(back, f, 3, NULL, &t).value == 1e-3);

@@ -58,6 +58,10 @@ static void text(void) {
     st = (fret_status){FRET_OVERFLOW, "E0", 1e300, 0}; /* a rule that is a sentence */
     CHECK(fret_status_text(&st, whole, sizeof whole) == (int)strlen(whole));
     CHECK(strncmp(whole, "E0 = 1e+300: ", 13) == 0);
+    st = (fret_status){FRET_BAD_TABLE, "f", 1e-7, 0}; /* whichever of r, f and count is to blame */
+    fret_status_text(&st, whole, sizeof whole);
+    CHECK(
+        !strcmp(whole, "f = 1e-07 makes no gap: two rows or more are needed, r and f from 0, and growing r"));
     for (int i = 0; i < FRET_CODES; i++) { /* no quantity */
         st = (fret_status){(fret_code)i, NULL, 0, 0};
         CHECK(fret_status_text(&st, whole, sizeof whole) == (int)strlen(whole) && *whole);
