@@ -33,15 +33,10 @@ bool pressed_by(scene *s, bool by_force, long double v, fret_press *out, calc_er
 bool call_p0(scene *s, value F, long double *out, calc_error *error) {
     const fret_normal *normal;
     fret_press press;
-    fret_field *field = NULL;
     if (!scene_normal(s, &normal, error) || !pressed_by(s, true, F.v, &press, error))
         return false;
     s->used |= USED(MODEL_QUADRATURE);
-    fret_status st = fret_field_of_press(normal, &press, &field);
-    if (!st.code)
-        st = fret_field_peak(field, NULL, out);
-    fret_field_free(field);
-    return calc_status(error, st);
+    return calc_status(error, fret_press_peak(normal, &press, out));
 }
 
 bool get_pmean(scene *s, long double *out, calc_error *error) {
