@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "number/root.h"
+#include "text/error.h"
 
 const model_row models[MODELS] = {
     [MODEL_CLOSED] = {.name = "closed", .title = "closed form"},

@@ -8,8 +8,6 @@
 
 #include "fret/fret.h"
 
-static const fret_status status_ok = {FRET_OK, NULL, 0, 0};
-
 typedef enum model_id {
     MODEL_CLOSED,
     MODEL_MEMORY,

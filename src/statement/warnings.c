@@ -36,8 +36,7 @@ void shell_warn_dissimilar(shell *sh) {
     if (is_new(sh, DISSIMILAR, !f->similar && (sh->warned & DISSIMILAR || tangential))) {
         char size[80] = "; for k other than 0 its effect is not known";
         if (f->k == 0)
-            snprintf(size, sizeof size, "; kn is up to %.2g %% too small (dW: help limits)",
-                     stiffening(f));
+            snprintf(size, sizeof size, "; kn is up to %.2g %% too small (dW: help limits)", stiffening(f));
         shell_warning(sh,
                       "the bodies are elastically dissimilar (mismatch %.3g): the coupling of normal and "
                       "tangential contact is neglected%s",

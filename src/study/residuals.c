@@ -116,7 +116,7 @@ static bool step_branch(void *context, double dx, double normal, double *x, doub
 }
 
 static fret_status run_branches(residuals *r, runner *run, double *out) {
-    branch_run w = {.r = r, .run = run, .status = {.code = FRET_OK}};
+    branch_run w = {.r = r, .run = run, .status = status_ok};
     r->bad_row = NO_ROW;
     if (r->stride)
         branches_begin(&r->loop);

@@ -69,6 +69,8 @@ static inline bool calc_refused(void) {
 /* True, with the error "interrupted", if the flag is set. */
 bool calc_stopped(const volatile sig_atomic_t *stop, calc_error *error);
 
+static const fret_status status_ok = {FRET_OK, NULL, 0, 0};
+
 /* True if the status is good; else raises it as ERROR_STATUS. */
 bool calc_status(calc_error *error, fret_status status);
 /* The same for a status about an input of the scene, which wording.c will name. */
