@@ -31,10 +31,9 @@ static int head_terms(const fret_normal *n, fret_real a, fret_term term[FRET_MOS
 static fret_status begin(const fret_normal *n, double mu, int loads, size_t slices, fret_field **out) {
     fret_field *f = calloc(1, sizeof *f);
     slice *s = f ? calloc(slices + 1, sizeof *s) : NULL;
-    *out = f;
+    *out = s ? f : NULL;
     if (!s) {
         free(f);
-        *out = NULL;
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     }
     const fret_foundation *of = &n->foundation;
@@ -111,16 +110,15 @@ static fret_status finish(fret_field *f, fret_status st, fret_field **out) {
 fret_status fret_field_of_press(const fret_normal *n, const fret_press *press, fret_field **out) {
     const fret_real most = n->cells ? n->cells->most[BY_DEPTH] : (fret_real)INFINITY;
     fret_status st = fret_check_not_negative("dz", (double)press->dz);
+    *out = NULL;
     if (!st.code)
         st = fret_check_not_negative("a", (double)press->a);
     if (!st.code && !fret_cells_reach(most, press->dz))
         st = fret_fail(FRET_OUTSIDE, "dz", (double)press->dz, (double)most);
     if (!st.code)
         st = begin(n, 0, 1, 1, out);
-    if (st.code) {
-        *out = NULL;
+    if (st.code)
         return st;
-    }
     if (press->dz > 0)
         add_slice(*out, press->dz, 0);
     if ((*out)->slices > 0 && press->a > fret_gap_start(&n->gap))
@@ -142,11 +140,6 @@ void fret_field_cut(const fret_field *f, fret_real depth, fret_field *part) {
     find_head(part);
 }
 
-static fret_real depth_at(const fret_swing *c, const fret_real at[2]) {
-    const fret_real N = (at[M] + at[P]) / 2;
-    return N > 0 ? fret_law_depth(c->normal, N) : 0;
-}
-
 /* (dP-dM)/(dP+dM) */
 static fret_real slope_of(const arc *p) {
     const fret_real m = p->last[M] - p->first[M], up = p->last[P] - p->first[P];
@@ -166,7 +159,7 @@ static fret_status make_of_swing(const fret_swing *c, fret_field **out) {
         st = fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     for (size_t i = 0; i < c->count && !st.code; i++) {
         const arc *p = &c->arcs[i];
-        add_slice(f, depth_at(c, p->last), p->curved ? 0 : slope_of(p));
+        add_slice(f, fret_law_depth(c->normal, (p->last[M] + p->last[P]) / 2), p->curved ? 0 : slope_of(p));
         if (p->curved)
             f->swung.arcs[f->swung.count++] = *p;
     }

@@ -134,7 +134,7 @@ static fret_real carry(const place_asked *a, fret_real d) {
 }
 
 static fret_real depth_of(const place_asked *a, coordinate by, fret_real at) {
-    return by == DEPTH ? at : at > 0 ? fret_law_depth(a->work->normal, at) : 0;
+    return by == DEPTH ? at : fret_law_depth(a->work->normal, at);
 }
 
 static fret_real tolerance(const place_asked *a) {

@@ -159,7 +159,7 @@ void fret_contact_forces(const fret_contact *c, fret_state *out) {
 
 fret_real fret_contact_last_loss(const fret_contact *c) {
     return c->diagram  ? (fret_real)fret_diagram_last_loss(c->diagram)
-           : c->curved ? fret_swing_last_loss(c->swing)
+           : c->curved ? c->swing->last_loss
                        : c->memory->last_loss;
 }
 

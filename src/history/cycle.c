@@ -81,7 +81,7 @@ fret_status fret_loading_by_force(const fret_pressed *c, double Fx, fret_loading
         x = s > 0 ? fret_law_thickness(c->normal, &(fret_level){c->press.dz, c->press.F}, w) / c->press.dz
                   : 1;
         const fret_point inner = fret_law_at_force(c->normal, s * c->press.F);
-        out->yc = s > 0 ? inner.y : 0;
+        out->yc = inner.y;
         out->c = s > 0 ? inner.a : 0;
     }
     out->Fx = Fx;

@@ -110,8 +110,7 @@ static fret_status law_prepare(DIAGRAM *d, coordinate by, double y);
  * middle of the 2^16-fold range of loads that contains y, so that it does not depend on the history. */
 NOINLINE fret_status choose_reference(DIAGRAM *d, coordinate by, double y) {
     fret_press p, middle;
-    const fret_status st =
-        by == LOAD ? fret_press_by_force(d->normal, y, &p) : fret_press_by_depth(d->normal, y, &p);
+    const fret_status st = press_by(d->normal, by, y, &p);
     if (st.code)
         return st;
     int exponent;

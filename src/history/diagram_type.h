@@ -14,6 +14,10 @@ static inline coordinate other_than(coordinate by) {
     return by == DEPTH ? LOAD : DEPTH;
 }
 
+static inline fret_status press_by(const fret_normal *n, coordinate by, double y, fret_press *out) {
+    return by == LOAD ? fret_press_by_force(n, y, out) : fret_press_by_depth(n, y, out);
+}
+
 /* A point of the curve: y, its depth and load; t, int sigma dy over depth and over load; at: its place in the
  * law. */
 typedef struct point {

@@ -49,18 +49,14 @@ FRET_INLINE bow law_bow(const fret_memory *m, coordinate by, const place *outer,
     return (bow){(w * G - s.L) / (w * w), 2 * s.L / (w * w), (w * N - s.L) / (w * w)};
 }
 
-static fret_status press(const fret_memory *m, coordinate by, double y, fret_press *out) {
-    return by == LOAD ? fret_press_by_force(m->normal, y, out) : fret_press_by_depth(m->normal, y, out);
-}
-
 static bool law_holds(const fret_memory *m, coordinate by, fret_real y) {
     fret_press p;
-    return !press(m, by, (double)y, &p).code;
+    return !press_by(m->normal, by, (double)y, &p).code;
 }
 
 fret_press fret_memory_pressed(const fret_memory *m) {
     fret_press p = {.F = 0}; /* cannot fail: it succeeded before */
-    (void)press(m, m->imposed, (double)m->edge.y[m->imposed], &p);
+    (void)press_by(m->normal, m->imposed, (double)m->edge.y[m->imposed], &p);
     return p;
 }
 
@@ -71,7 +67,7 @@ static fret_real law_level(const fret_memory *m, coordinate by, fret_real s, con
     double rest = 0;
     (void)level;
     if (m->imposed != by) {
-        (void)press(m, m->imposed, (double)edge->v, &p);
+        (void)press_by(m->normal, m->imposed, (double)edge->v, &p);
         rest = (double)(by == LOAD ? (p.F - edge->y) + p.F_rest : (p.dz - edge->y) + p.dz_rest);
     }
     const dd scale = by == LOAD ? dd_of(m->mu) : dd_mul_d(m->normal->wide_foundation.eta, m->mu);
@@ -104,7 +100,7 @@ static fret_status law_prepare(fret_memory *m, coordinate by, double y) {
     fret_press p;
     if (fret_normal_closed(m->normal))
         return choose_reference(m, by, y);
-    const fret_status st = press(m, by, y, &p);
+    const fret_status st = press_by(m->normal, by, y, &p);
     for (coordinate i = DEPTH; i <= LOAD && !st.code; i++) {
         const fret_real at = i == LOAD ? p.F : p.dz;
         m->low[i] = fminl(m->low[i], at);

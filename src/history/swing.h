@@ -31,7 +31,6 @@ fret_status fret_swing_part(fret_swing *swing, const fret_sine *sine, double fro
 /* A step to F_x, or to delta_x at constant F_N; FRET_OUTSIDE for others. */
 fret_status fret_swing_step(fret_swing *swing, const fret_step *step);
 void fret_swing_state(const fret_swing *swing, fret_state *out);
-fret_real fret_swing_last_loss(const fret_swing *swing);
 fret_real fret_swing_displacement(const fret_swing *swing, fret_real x);
 /* Copies the state to a memory, curved arcs as 640 chords each. Error: FRET_NO_MEMORY. */
 fret_status fret_swing_memory(const fret_swing *swing, fret_memory *out);

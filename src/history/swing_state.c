@@ -165,7 +165,7 @@ fret_real fret_swing_displacement(const fret_swing *c, fret_real x) {
     const fret_real y = fret_normal_profile(c->normal, x);
     if (isnan(x) || !(y < c->dz))
         return isnan(x) ? x : 0;
-    const fret_real N = y > 0 ? fret_law_force(c->normal, y) : 0;
+    const fret_real N = fret_law_force(c->normal, y);
     fret_real sum = 0;
     for (size_t i = c->count; i-- > 0;)
         sum += outside(c, &c->arcs[i], y, N);
@@ -234,10 +234,6 @@ void fret_swing_state(const fret_swing *c, fret_state *out) {
             inner = out->c;
     }
     out->kt = inner > 0 ? fret_normal_stiffness(c->normal, inner) / c->normal->foundation.eta : 0;
-}
-
-fret_real fret_swing_last_loss(const fret_swing *c) {
-    return c->last_loss;
 }
 
 /* ---- as a memory ------------------------------------------------------------------------------- */

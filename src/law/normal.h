@@ -57,7 +57,7 @@ fret_status fret_normal_reshape(const fret_normal *from, const fret_gap *gap, fr
 /* Checks that mu and F_N are positive: FRET_NOT_POSITIVE, FRET_NOT_FINITE. */
 fret_status fret_contact_check(const fret_pressed *contact);
 
-/* The law for the depth y >= 0 of an inner contact. */
+/* The law for the depth y of an inner contact; 0 for y, F <= 0, but a = b of a flat end. */
 fret_real fret_law_radius(const fret_normal *normal, fret_real y); /* a(y) [m] */
 fret_real fret_law_force(const fret_normal *normal, fret_real y);  /* F_N(y) [N] */
 fret_real fret_law_depth(const fret_normal *normal, fret_real F);  /* F_N^-1(F) [m] */

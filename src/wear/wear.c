@@ -187,9 +187,9 @@ fret_status fret_wear_run_make(const fret_normal *n, const fret_wear_held *held,
         st = fret_fail(FRET_OUTSIDE, "tolerance", tolerance, 1e-4);
     if (!st.code)
         st = first_ring(n, held, &inner, &outer);
-    fret_wear_run *run = st.code ? NULL : calloc(1, sizeof *run);
     if (st.code)
         return st;
+    fret_wear_run *run = calloc(1, sizeof *run);
     if (!run)
         return fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     *run = (fret_wear_run){.normal = n, .held = *held, .tolerance = tolerance, .nodes = nodes_of(tolerance)};
@@ -225,9 +225,9 @@ fret_status fret_wear_after(fret_wear_run *run, double cycles, fret_wear_told to
             told(fret_blocks_reached(run), user);
         st = fret_unless_stopped(run->normal, st);
     }
-    double *h = st.code ? NULL : calloc(run->nodes + 1, sizeof *h);
     if (st.code)
         return st;
+    double *h = calloc(run->nodes + 1, sizeof *h);
     st = h ? make_worn(run->normal, fret_blocks_at(run, cycles, h), h, 0, out)
            : fret_fail(FRET_NO_MEMORY, NULL, 0, 0);
     if (!st.code) {

@@ -122,12 +122,12 @@ static void references(void) {
             if (i == 0) {
                 fret_swing_state(s, &now);
                 CHECK_REL(now.W, unit_result(&t, 4), 1e-15L);
-                CHECK_ABS(fret_swing_last_loss(s), unit_result(&t, 5), unit_result(&t, 2), 1e-15L);
+                CHECK_ABS(s->last_loss, unit_result(&t, 5), unit_result(&t, 2), 1e-15L);
             }
         }
         fret_swing_state(s, &now);
         CHECK_REL(now.W, unit_result(&t, 2), 1e-15L);
-        CHECK_ABS(fret_swing_last_loss(s), unit_result(&t, 3), unit_result(&t, 2), 1e-15L);
+        CHECK_ABS(s->last_loss, unit_result(&t, 3), unit_result(&t, 2), 1e-15L);
         fret_swing_free(s);
         fret_memory_free(m);
     }
@@ -184,8 +184,7 @@ static void against_chords(int count) {
         fret_memory_state(coarse, &a);
         fret_memory_state(fine, &b);
         fret_swing_state(s, &now);
-        CHECK_ABS(fret_swing_last_loss(s), loss[1] + (loss[1] - loss[0]) / 3, loss_of(&l, fine, now.W),
-                  1e-8L);
+        CHECK_ABS(s->last_loss, loss[1] + (loss[1] - loss[0]) / 3, loss_of(&l, fine, now.W), 1e-8L);
         CHECK_ABS(now.W, b.W + (b.W - a.W) / 3, loss_of(&l, fine, now.W), 1e-8L);
         CHECK_REL(now.U, b.U + (b.U - a.U) / 3, 1e-8L);
         CHECK_REL(now.dx, b.dx + (b.dx - a.dx) / 3, 1e-8L);
@@ -225,7 +224,7 @@ static void in_parts(int count) {
             double to = at + 0.3 * uniform();
             to = at < middle && to > middle ? middle : to > 1 ? 1 : to;
             CHECK_OK(fret_swing_part(parts, &w, at, to));
-            loss += fret_swing_last_loss(parts);
+            loss += parts->last_loss;
             at = to;
             if (to != middle)
                 continue;
@@ -254,7 +253,7 @@ static void in_parts(int count) {
         fret_swing_state(whole, &a);
         fret_swing_state(parts, &b);
         CHECK_ABS(b.W, a.W, loss_of(&l, m, a.W), 100 * known(&l));
-        CHECK_ABS(loss, fret_swing_last_loss(whole), loss_of(&l, m, a.W), 100 * known(&l));
+        CHECK_ABS(loss, whole->last_loss, loss_of(&l, m, a.W), 100 * known(&l));
         CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 100 * known(&l));
         CHECK(b.FN == a.FN && b.Fx == a.Fx && b.dz == a.dz);
         CHECK(b.slices < 40);
@@ -285,7 +284,7 @@ static void against_memory(int count) {
             const fret_real size =
                 l.mu * l.mu * m->normal->foundation.eta * 100 * fret_law_depth(m->normal, 100);
             CHECK_ABS(b.W, a.W, a.W + (l.gap ? 1e-4L * size : 0), 100 * known(&l));
-            CHECK_ABS(fret_swing_last_loss(s), m->last_loss, size, 10 * known(&l));
+            CHECK_ABS(s->last_loss, m->last_loss, size, 10 * known(&l));
             CHECK_ABS(b.U, a.U, size, known(&l));
             CHECK_ABS(b.dx, a.dx, l.mu * m->normal->foundation.eta * a.dz, 10 * known(&l));
             CHECK(b.FN == a.FN && b.dz == fret_memory_pressed(m).dz && b.a == a.a);
@@ -395,7 +394,7 @@ static void through_slip(void) {
         CHECK_ABS(b.U, a.U, limit * reach, 1e-15L);
         /* the first step goes over what curves, which the memory has in chords */
         CHECK_ABS(b.W, a.W, limit * reach, 1e-6L);
-        CHECK_ABS(fret_swing_last_loss(s), m->last_loss, limit * reach, i ? 1e-15L : 1e-6L);
+        CHECK_ABS(s->last_loss, m->last_loss, limit * reach, i ? 1e-15L : 1e-6L);
         CHECK_ABS(b.c, a.c, a.a, 1e-9L);
         CHECK_ABS(b.kt, a.kt, a.kn, 1e-9L);
     }
@@ -403,7 +402,7 @@ static void through_slip(void) {
     CHECK_OK(fret_swing_step(s, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 0, 0}));
     CHECK_OK(fret_swing_step(s, &(fret_step){FRET_KEEP_NORMAL, FRET_TO_DX, 0, 1e-6}));
     fret_swing_state(s, &a);
-    CHECK(a.dx == 1e-6 && a.Fx == 0 && a.FN == 0 && fret_swing_last_loss(s) == 0);
+    CHECK(a.dx == 1e-6 && a.Fx == 0 && a.FN == 0 && s->last_loss == 0);
     fret_swing_free(s);
     fret_memory_free(m);
 }
