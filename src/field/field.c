@@ -16,10 +16,9 @@ static const double STEEP = 20; /* the least steep n */
 
 /* The powers of the profile within a contact of radius a, without the steep ones; returns their number. */
 static int head_terms(const fret_normal *n, fret_real a, fret_term term[FRET_MOST_TERMS]) {
-    const fret_power *power;
     const int all = fret_gap_series(&n->gap, &n->rule, a, term);
     int gentle = 0;
-    if (fret_gap_powers(&n->gap, &power) == 0)
+    if (fret_gap_powers(&n->gap) == 0)
         return all;
     for (int i = 0; i < all; i++)
         if (term[i].n < STEEP)
@@ -54,8 +53,7 @@ static void add_slice(fret_field *f, fret_real y, fret_real sigma) {
 
 static fret_status add_steep(fret_field *f, const slice *last) {
     fret_term term[FRET_MOST_TERMS];
-    const fret_power *power;
-    const int terms = fret_gap_powers(&f->normal->gap, &power) > 0
+    const int terms = fret_gap_powers(&f->normal->gap) > 0
                           ? fret_gap_series(&f->normal->gap, &f->normal->rule, last->a, term)
                           : 0;
     fret_status st = fret_ok();

@@ -227,12 +227,11 @@ static bool find_fall(maker *mk) {
 }
 
 static bool make_sum(maker *mk) {
-    const fret_power *power;
+    const fret_power *power = mk->gap->power;
     fret_term term[FRET_MOST_TERMS];
-    const int powers = fret_gap_powers(mk->gap, &power);
     const bool ends = isfinite(mk->end);
     bool may_fall = false;
-    for (int i = 0; i < powers; i++)
+    for (int i = 0; i < fret_gap_powers(mk->gap); i++)
         may_fall |= power[i].h < 0;
     const fret_real x0 = ends ? mk->end : power[0].r0;
     const int count = fret_gap_series(mk->gap, &mk->all->rule, x0, term);
@@ -334,7 +333,6 @@ static bool make_worn(maker *mk, const struct fret_worn *w, fret_real x) {
 /* From the centre outwards; inside the worn region by the gap before that wear. */
 static bool make_all(maker *mk) {
     const fret_gap *whole = mk->gap;
-    const fret_power *unused;
     bool ok = true;
     for (fret_real x = 0; ok && x < mk->all->end; x = mk->end) {
         const struct fret_worn *w;
@@ -342,12 +340,12 @@ static bool make_all(maker *mk) {
         mk->gap = whole;
         for (; (w = fret_gap_worn(mk->gap)) && x < w->inner; mk->gap = &w->of)
             mk->end = fminl(mk->end, w->inner);
-        ok = w                                       ? make_worn(mk, w, x)
-             : fret_gap_powers(mk->gap, &unused) > 0 ? make_sum(mk)
-             : fret_gap_sampled(mk->gap)             ? make_rows(mk)
-             : mk->start >= mk->all->end             ? make_punch(mk)
-             : mk->start > 0                         ? make_flat(mk)
-                                                     : make_sphere(mk);
+        ok = w                              ? make_worn(mk, w, x)
+             : fret_gap_powers(mk->gap) > 0 ? make_sum(mk)
+             : fret_gap_sampled(mk->gap)    ? make_rows(mk)
+             : mk->start >= mk->all->end    ? make_punch(mk)
+             : mk->start > 0                ? make_flat(mk)
+                                            : make_sphere(mk);
         fret_transform_free(mk->rows);
         mk->rows = NULL;
     }

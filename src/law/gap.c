@@ -370,8 +370,7 @@ fret_real fret_gap_tip(const fret_gap *gap) {
     return s->tip ? s->tip(gap) : 2;
 }
 
-int fret_gap_powers(const fret_gap *gap, const fret_power **power) {
-    *power = gap->power;
+int fret_gap_powers(const fret_gap *gap) {
     return shape_of(gap)->powers ? gap->terms : 0;
 }
 

@@ -38,8 +38,8 @@ fret_real fret_gap_tip(const fret_gap *gap);
 /* True if the flat end has an edge, where f' jumps and the pressure may be infinite. */
 bool fret_gap_sharp(const fret_gap *gap);
 
-/* The powers of a gap that is a sum of powers, and their number; 0 for other shapes. */
-int fret_gap_powers(const fret_gap *gap, const fret_power **power);
+/* The number of powers of a gap that is a sum of powers; 0 for other shapes. */
+int fret_gap_powers(const fret_gap *gap);
 
 /* The profile within a contact of radius a as powers, g(x) = sum of G (x/a)^n, each the transform of the
  * power G/kappa (r/a)^n of the gap. Returns their number; 0 if there is no series, or too long a one. */
