@@ -175,8 +175,10 @@ static bool goes_within(const line *l) {
 static place line_at(line *l, double u) {
     place at = line_place(l, u);
     if (goes_within(l)) {
-        line inner = {.s = l->s, .axis = l->axis + 1, .nested = true, .base = at, .best = nowhere};
-        at = search_line(&inner) ? inner.best : nowhere;
+        at.f = (long double)NAN;
+        line inner = {.s = l->s, .axis = l->axis + 1, .nested = true, .base = at, .best = at};
+        search_line(&inner);
+        at = inner.best;
     } else {
         at.f = at_parts(l->s, at.u);
     }
@@ -536,7 +538,7 @@ static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     line outer = {.s = s, .nested = true, .best = nowhere};
     if (!search_line(&outer) || !narrow(&outer, outer.lo, outer.hi, 1e-8))
         return false;
-    s->best = outer.best;
+    better(&s->best, &outer.best);
     for (size_t i = 0; i < s->of->count; i++)
         out->end[i] = s->best.u[i] <= 0 ? END_LOW : s->best.u[i] >= 1 ? END_HIGH : END_INNER;
     end_of_scene(s, out);

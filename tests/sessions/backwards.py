@@ -84,7 +84,9 @@ OPTIMA = (
      "30*(z - 6.5344410018999959 - (x + 0.95162134640691609)^2)^2 over x = -1 .. -0.9, y = 1 .. 2, z = 0.001 .. 10", 0, {}),
     # the edge of the possible scenes, and the end of a range on it
     ("maximize 10*y + x + 0*sqrt(1.5 - x - y) over x = 0 .. 1, y = 0 .. 1", 10.5, {"x": 0.5, "y": 1}),
-    ("maximize 10*x + y + 0*sqrt(1.5 - x - y) over x = 0 .. 1, y = 0 .. 1", 10.5, {"x": 1, "y": 0.5}))
+    ("maximize 10*x + y + 0*sqrt(1.5 - x - y) over x = 0 .. 1, y = 0 .. 1", 10.5, {"x": 1, "y": 0.5}),
+    ("maximize x + y + 0*sqrt(2 - x) over x = 0.1 .. 3, y = 0.1 .. 1", 3, {"x": 2, "y": 1}),  # inner searches find nothing beyond x = 2
+    ("minimize x + y + 0*sqrt(x - 1) over x = 0.1 .. 3, y = 0.1 .. 1", 1.1, {"x": 1, "y": 0.1}))
 
 
 def optima(tests):

@@ -69,7 +69,7 @@ def captions(tests):
     where = folder(tests, "captions")
     plots = "set plot caption on\nplot loop | pressure to a.%s\nplot map dWd(d) for FN = 1 N .. 2 N for d = 1 um .. 2 um to m.%s\n"
     done = tests.run("-c", SCENE + "".join(plots % (e, e) for e in ENDINGS if e != "gif") + "plot pressure", cwd=where)
-    line = re.compile(r"material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4\npress FN=100 N; cycle FA=38 N; fret [0-9.]+\n$")
+    line = re.compile(r"\n *material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4\npress FN=100 N; cycle FA=38 N; fret [0-9.]+\n$")
     tests.check("a caption in the terminal", done.returncode == 0 and line.search(done.stdout), tests.report(done))
     for name in ("a", "m"):
         lines = texts(read(os.path.join(where, name + ".svg")))
