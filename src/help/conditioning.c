@@ -2,6 +2,9 @@
 /* Writes the result of study/influence (conditioning) for `explain`, to readers and to programs. */
 #include "help/conditioning.h"
 
+#include <math.h>
+#include <string.h>
+
 #include "statement/output.h"
 
 static const char *const not_shown[] = {"no effect", "condition number below 0.01",
@@ -14,10 +17,12 @@ static const char *argument_of(const cause *c) {
 
 static void put_shown(answer *out, const cause *c, const char *name) {
     char head[400], text[160];
-    format_value(out->set, c->v, text, sizeof text);
+    format_column(
+        &(column){.d = c->v.d, .row = c->kind == CAUSE_INPUT ? quantity_of_input(c->in)->unit : NULL},
+        out->set->digits, c->v.v, text, sizeof text);
     snprintf(head, sizeof head, "%s %s %s", name, c->increment ? "+=" : "=", text);
-    answer_words(out, "    %-20s  %10.1Le  %14.1Le  %16.2Lg%s\n", head, c->digit, c->change,
-                 c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
+    answer_words(out, "    %s%*.1Le  %14.1Le  %16.2Lg%s\n", head, (int)fmax(32 - (double)strlen(head), 9),
+                 c->digit, c->change, c->change / c->digit, c->refused ? "  (at the end of its range)" : "");
     answer_number(out, "last digit", (double)c->digit);
     answer_number(out, "moves", (double)c->change);
     answer_number(out, "condition number", (double)(c->change / c->digit));

@@ -300,6 +300,8 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
 
 /* ---- inputs ------------------------------------------------------------------------------------ */
 
+static const input_set of_cycle = INPUT_CYCLE & ~INPUT_BIT(IN_NW);
+
 static bool has_effect(const influence_study *study, input in) {
     for (size_t i = 0; i < study->count; i++)
         if (study->cause[i].kind == CAUSE_INPUT && study->cause[i].in == in)
@@ -309,14 +311,14 @@ static bool has_effect(const influence_study *study, input in) {
 
 /* Writes the inputs that the value depends on. */
 static void put_numbers(const page *p, const quantity *q, const influence_study *study) {
-    const input_set of_load = INPUT_PRESS | (INPUT_CYCLE & ~INPUT_BIT(IN_NW));
     scene *s = p->sh->calc.now;
+    const input_set reads = q->reads | (q->reads & INPUT_BIT(IN_NW) && scene_is_worn(s) ? READS_WORN : 0);
     for (input in = 0; in < INPUTS; in++) {
         const quantity *row = quantity_of_input(in);
         value v = {0, quantity_dim(row, s)};
         calc_error *why = error_quiet();
         const bool set = s->in.set[in] || (s->in.bindings & INPUT_BIT(in));
-        if (set && row != q && (q->reads & ~of_load & INPUT_BIT(in)) &&
+        if (set && row != q && reads & ~INPUT_PRESS & ~of_cycle & INPUT_BIT(in) &&
             !(in == IN_C0 && s->in.v[IN_K] == 0) && has_effect(study, in) &&
             explain_had(p, scene_get(s, in, &v.v, why), why))
             answer_quantity(p->out, row->name, v);
@@ -343,7 +345,7 @@ static bool is_of_cycle(const quantity *q) {
 static void put_cycle(const page *p, const influence_study *study) {
     for (size_t i = 0; i < study->count; i++) {
         const cause *c = &study->cause[i];
-        if (c->kind == CAUSE_INPUT && (INPUT_BIT(c->in) & INPUT_CYCLE) && c->influence != INFLUENCE_NONE)
+        if (c->kind == CAUSE_INPUT && (INPUT_BIT(c->in) & of_cycle) && c->influence != INFLUENCE_NONE)
             answer_quantity(p->out, c->name, c->v);
     }
 }
@@ -360,9 +362,11 @@ static void put_load(const page *p, const quantity *q, const influence_study *st
     if (!matters || !q->load || q->in == 1 + IN_FN || !explain_had(p, scene_press(s, &press, why), why))
         return;
     answer_quantity(p->out, "FN now", (value){press->F, DIM_FORCE});
-    if (is_of_cycle(q))
+    const bool wears = q->reads & INPUT_BIT(IN_ALPHA_W);
+    if (is_of_cycle(q) || wears || scene_is_worn(s))
         put_cycle(p, study);
-    else if (is_pushed(study) && strcmp(q->name, "Fx") && explain_had(p, scene_state(s, &state, why), why))
+    if (!is_of_cycle(q) && !wears && q->reads & INPUT_BIT(IN_MU) && is_pushed(study) &&
+        strcmp(q->name, "Fx") && explain_had(p, scene_state(s, &state, why), why))
         answer_quantity(p->out, "Fx now", (value){state->Fx, DIM_FORCE});
 }
 

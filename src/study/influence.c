@@ -47,7 +47,7 @@ static void add_names(const calc *c, const expr *e, influence_study *out) {
 /* Lists the causes in the order in which a session sets them. */
 static void find_causes(const calc *c, const expr *e, program *own, const quantity *call, value argument,
                         influence_study *out) {
-    static const input of_cycle[] = {IN_FNA, IN_PHASE, IN_FA, IN_DXA, IN_DRIGA};
+    static const input of_cycle[] = {IN_FNA, IN_PHASE, IN_FA, IN_DXA, IN_DRIGA, IN_NW};
     const scene *s = c->now;
     for (input in = 0; in < INPUTS; in++)
         if (!(INPUT_BIT(in) & INPUT_CYCLE))

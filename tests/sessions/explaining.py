@@ -8,6 +8,7 @@ import harness
 STEEL = "material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4\n"
 PRESSED = STEEL + "press FN=100 N\n"
 SUM = "material steel; friction 0.4; geometry sum 2:50 m^-1, 4:2e6 m^-3; press FN=10 N; cycle FA=1 N FNA=1 N\n"
+WORN = PRESSED + "wear alpha=1e4 um^3/J; cycle FA=10 N; wear cycles 1000\n"
 FLAT = "material steel; friction 0.4; geometry flat-rounded b=0.1 mm R=10 mm; press FN=10 N\n"
 # a scene, what is explained, lines that must be there (regular expressions), and lines that must not
 TOLD = (
@@ -56,6 +57,12 @@ TOLD = (
     (PRESSED, "mu", ("    mu = 0.4",), ("    error: ",)),
     # not a bound: for a cone near gross slip with k = -0.7 the value is 1.1e-2 from its limit
     (PRESSED + "cycle FA=10 N; wear alpha=1e4 um^3/J; Nw = 10\n", "Vwear", ("    error: some 1e-03 of the largest value so far",), ("    error: below",)),
+    # what wears follows from the cycle, not from the force that it ends at
+    (WORN, "Vwear conditioning", ("    FA = 10 N", "    Nw = 1000", r"    alpha_w = 10000 um\^3/J {3}\S+  +\S+  +1", r"    Nw = 1000  +\S+  +\S+  +1"), ("    Fx now",)),
+    (WORN, "hwear(0.95*a)", ("    FA = 10 N",), ("    Fx now",)),
+    (WORN, "dVwear", ("    FA = 10 N", "    Nw = 1000"), ("    Fx now",)),
+    (WORN, "a", ("    mu = 0.4", "    alpha_w = .*", "    FA = 10 N", "    Nw = 1000"), ("    Fx now",)),
+    (WORN, "qx(0.1 mm)", ("    FA = 10 N", "    Fx now = 10 N"), ()),
     (PRESSED, "u1D(0.1 mm)", ("    error: below 1e-13 of the largest value",), ()),
     (PRESSED, "E(1 mm)", ("    error: below 3e-16 of the value",), ()),
     (PRESSED + "step Fx=10 N; step Fx=-5 N\n", "W", ("    error: below 3e-16 of the largest value so far",), ()),
