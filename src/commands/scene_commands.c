@@ -518,7 +518,7 @@ static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
         return false;
     for (input in = IN_N; in < INPUTS; in++)
         if (g->required & INPUT_BIT(in) && !has(e, in))
-            return lex_fail(lx, "a parameter is missing") || add_usage(lx->error, s->by);
+            return lex_fail(lx, "%s is missing", quantity_of_input(in)->name) || add_usage(lx->error, s->by);
     if (geometry_takes(g, IN_A) && (has(e, IN_A) == has(e, IN_H) || has(e, IN_H) != has(e, IN_R0)))
         return lex_fail(lx, "give either A or both h and r0") || add_usage(lx->error, s->by);
     return true;

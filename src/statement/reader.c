@@ -229,12 +229,16 @@ static const clause *argument_named(const lexer *lx, const grammar *f) {
 }
 
 static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i);
+static const clause *clause_named(const lexer *lx, const grammar *f);
 
 static bool read_argument(shell *sh, lexer *lx, said *s) {
     const token_kind how = lex_peek(lx);
     const grammar *f = s->by;
     const clause *a = argument_named(lx, f);
     dim d;
+    if (!a && clause_named(lx, f))
+        return lex_fail(lx, "%.*s takes no '=', only a blank before its value", LEX_WORD(lx)) ||
+               add_usage(lx->error, f);
     if (!a)
         return lex_fail(lx, "%s has no %s '%.*s'", statement_name(f), f->shape ? "parameter" : "argument",
                         LEX_WORD(lx)) ||

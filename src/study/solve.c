@@ -300,9 +300,15 @@ static bool no_root(search *s, calc_error *error) {
     }
     calc_value_text(k->d, s->lo, from);
     calc_value_text(k->d, s->hi, to);
-    if (isnan(best.f))
+    if (isnan(best.f)) {
+        const calc_error last = s->p.none;
+        value v[2];
+        points_at(&s->p, &(long double){s->lo}, v);
+        if (!strcmp(last.text, s->p.none.text)) /* it is not for the value of the knob */
+            return calc_fail(error, left->at, left->len, "%s", last.text);
         return calc_fail(error, left->at, left->len, "no value anywhere from %s = %s to %s: %s", k->text,
-                         from, to, s->p.none.text);
+                         from, to, last.text);
+    }
     if (alike)
         return calc_fail(error, left->at, left->len, "the two sides %s for every %s from %s to %s",
                          best.f == 0 ? "are equal" : "differ by the same amount", k->text, from, to);
