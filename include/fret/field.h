@@ -42,8 +42,9 @@ fret_status fret_field_peak(const fret_field *field, fret_real *r, fret_real *p)
 fret_status fret_press_peak(const fret_normal *normal, const fret_press *press, fret_real *p);
 /* The normal contact with the largest pressure p0 [Pa] > 0, or with the mean pressure F_N/(pi a^2), by the
  * root of ln p(ln F_N). Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE; FRET_OUTSIDE if no load has that
- * pressure, FRET_TABLE_SHORT if the gap ends before; FRET_SINGULAR. Accuracy: that of p; F_N rounded to
- * double. */
+ * pressure, FRET_TABLE_SHORT if the gap ends before; FRET_SINGULAR. If several loads have that mean pressure
+ * (over a flat end it rises and falls if k < 0), the least; of several with that p0 any. Accuracy: that of p;
+ * F_N rounded to double. */
 fret_status fret_press_by_peak(const fret_normal *normal, double p0, fret_press *out);
 fret_status fret_press_by_mean(const fret_normal *normal, double pmean, fret_press *out);
 

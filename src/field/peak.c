@@ -122,6 +122,23 @@ static fret_real most_load(const fret_normal *n) {
     return ends && end.F > 0 ? logl(end.F) : (fret_real)INFINITY;
 }
 
+/* The least ln F <= `at`, a root, that reaches the target too: over flat ends, or where a cone's tip goes
+ * over into another shape, the pressure may fall and rise. */
+static fret_real least_load(search *s, fret_real at, fret_real far) {
+    static const fret_real STEP = 2, NEAR = 1e-6L;
+    fret_real from = at - NEAR, f = miss_at(from, NULL, s);
+    for (fret_real next = at - STEP; !s->st.code && next > -far; next -= STEP) {
+        const fret_real there = miss_at(next, NULL, s);
+        if (!s->st.code && (there < 0) != (f < 0)) {
+            at = fret_root(miss_at, s, next, from, (next + from) / 2);
+            f = there;
+        }
+        from = next;
+    }
+    s->st = fret_ok(); /* forces too small to press by end the search */
+    return at;
+}
+
 /* Steps from F = 1 N (or below the end of the gap) by factors e until the target is passed, then a root.
  * The first slope gives the direction: over a flat end the mean pressure may rise and fall. */
 static fret_status press_to(search *s, const char *name, fret_press *out) {
@@ -154,6 +171,8 @@ static fret_status press_to(search *s, const char *name, fret_press *out) {
     }
     if (s->st.code == FRET_OVERFLOW) /* the pressure tends to a limit short of the target */
         return fret_fail(FRET_OUTSIDE, name, target, (double)(s->target * expl(f)));
+    if (!s->st.code && s->of == mean_of) /* p_0 would take a field at each load */
+        at = least_load(s, at, FAR);
     return s->st.code ? s->st : fret_press_by_force(s->normal, (double)expl(at), out);
 }
 

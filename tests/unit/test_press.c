@@ -131,6 +131,33 @@ static void shapes(void) {
         }
 }
 
+/* Where the mean pressure rises and falls, the least load that reaches it, in any units of force. */
+static void least(void) {
+    static const fret_gap gaps[] = {
+        {FRET_GAP_FLAT_CONE, .b = 2e-4, .slope = 0.02},
+        {FRET_GAP_SUM, .terms = 2, .power = {{1, 0.01, 1}, {3, 1e6, 1}}},
+    };
+    for (size_t i = 0; i < sizeof gaps / sizeof *gaps; i++)
+        for (int power = -9; power <= 9; power += 3) {
+            unit_scene s = unit_make_scene(2, -0.5);
+            const double in = pow(10, power);
+            for (int body = 0; body < 2; body++)
+                s.material.body[body].E0 *= in;
+            s.gap = gaps[i];
+            const fret_normal *n = unit_make_normal(&s);
+            fret_press found, one;
+            const double pmean = (i ? 9e9 : 5e8) * in;
+            CHECK_OK(fret_press_by_mean(n, pmean, &found));
+            CHECK_REL(mean_of(&found), pmean, 1e-13);
+            CHECK_OK(fret_press_by_force(n, 1e6 * in, &one)); /* beyond the other load */
+            CHECK((mean_of(&one) > pmean) == (i == 1));
+            for (double F = (double)found.F / 1.01; F > 1e-9 * in; F /= 1.1) {
+                CHECK_OK(fret_press_by_force(n, F, &one));
+                CHECK((mean_of(&one) > pmean) == (i == 1));
+            }
+        }
+}
+
 /* What no load reaches, and what tells no load. */
 static void refused(void) {
     unit_scene s = unit_make_scene(1, 0);
@@ -232,6 +259,7 @@ int main(int argc, char **argv) {
     CASE(powers());
     CASE(hertz());
     CASE(shapes());
+    CASE(least());
     CASE(refused());
     CASE(punch());
     CASE(punch_on_its_way());
