@@ -133,6 +133,8 @@ bool range_read_along(shell *sh, const lexer *lx, const span *part, range *out) 
     if (s->what != ALONG_LOAD)
         return at_end(&own);
     const bool ok = read_load(sh, &own, &load.step, &load.extra, load.bound) && at_end(&own);
+    if (ok && load.step.kind == LOAD_CYCLE && inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW)))
+        shell_note(sh, "the cycle runs on the unworn gap: Nw counts cycles like the last one");
     for (input in = 0; in < INPUTS; in++)
         counted_drop(load.bound[in]);
     return ok;

@@ -378,11 +378,12 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
     return true;
 }
 
-/* The number of samples by default: a swinging normal force takes a thousand times as long. */
+/* The number of samples by default: a swinging normal force takes a thousand times as long, and so do runs of
+ * wear. */
 static unsigned usual_samples(shell *sh) {
     const load_reach *reach = &(load_reach){.swings = false};
     scene_reach(&sh->calc.scene, &reach, error_quiet());
-    return reach->swings ? 200 : 10000;
+    return reach->swings || inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW)) ? 200 : 10000;
 }
 
 bool do_uncertainty(shell *sh, lexer *lx, said *all) {

@@ -208,7 +208,8 @@ const command commands[] = {
      .summary = "press the bodies together: starts a load program",
      .help = "By force, indentation depth, contact radius, largest or mean pressure: the one\n"
              "given becomes an input, the others are results. Earlier steps and cycles are\n"
-             "dropped.\n\n"
+             "dropped. If several contacts have that mean pressure, as over a flat end at k < 0,\n"
+             "it is the one of the least load.\n\n"
              "    fret> material steel; geometry sphere R=10 mm\n"
              "    fret> press a=0.2 mm\n"
              "    fret> FN, dz\n"
@@ -562,7 +563,8 @@ const command commands[] = {
      .summary = "standard deviation of results, and the share of each input in it",
      .help = "Takes standard deviations of independent inputs; 5 % is relative to the value.\n"
              "The answer is first order, from derivatives, with the share of each input in the\n"
-             "variance. If a Monte Carlo of normal samples differs, it is given as well. fret\n"
+             "variance. If a Monte Carlo of normal samples (10000; 200 where FN swings or the\n"
+             "gap is worn) differs, it is given as well. fret\n"
              "--part I/N draws only its share of the samples, as rows; the same statement with\n"
              "`from FILE.csv` evaluates those of all shares (help parts).\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"

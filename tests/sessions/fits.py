@@ -700,6 +700,9 @@ def units(tests):
     tests.check("a seed tells which samples", sampled[0] == sampled[1] != sampled[2], str(sampled))
     done = tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; cycle FA=9 N FNA=10 N; set timing on; uncertainty W with mu +- 0.01")
     tests.check("fewer samples where F_N swings", "differences of sixth order and 200 samples (seed 1)" in done.stderr, tests.report(done))
+    done = tests.run("-c", "material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N; wear alpha=1e4 um^3/J; cycle FA=9 N; wear cycles 10\n"
+                     "set timing on; uncertainty Vwear with Nw +- 1")
+    tests.check("fewer samples of runs of wear", "differences of sixth order and 200 samples (seed 1)" in done.stderr, tests.report(done))
     done = tests.run("-c", "x = 2; uncertainty x^2, x with x +- 0.1 samples 50; fit x for y = x*u to %s" % write(tests, "units.csv", "u,y", STRAIGHT))
     tests.check("no load is needed", done.returncode == 0 and done.stdout.startswith("x^2 = 4 +- 0.4\n"), tests.report(done))
 
