@@ -208,8 +208,8 @@ const command commands[] = {
      .summary = "press the bodies together: starts a load program",
      .help = "By force, indentation depth, contact radius, largest or mean pressure: the one\n"
              "given becomes an input, the others are results. Earlier steps and cycles are\n"
-             "dropped. If several contacts have that mean pressure, as over a flat end at k < 0,\n"
-             "it is the one of the least load.\n\n"
+             "dropped. If several contacts have that mean pressure, as over a flat end at k <\n"
+             "0, it is the one of the least load.\n\n"
              "    fret> material steel; geometry sphere R=10 mm\n"
              "    fret> press a=0.2 mm\n"
              "    fret> FN, dz\n"
