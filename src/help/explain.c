@@ -289,6 +289,10 @@ static void put_error(const page *p, const quantity *q, bool call, model_id mode
     const bool power = scene_is_power(s), local = is_local(q, call);
     const bool before = models[model].steps || scene_is_worn(s); /* dW of a worn gap, say, ends at 0 */
     const char *of = local ? "largest value" : before ? "largest value so far" : "value";
+    if (quantity_is_input(q) && quantity_input(q) == IN_P0 && s->used & ASKED_STEEP) {
+        answer_words(p->out, "    error: not known, p is steeper than the nodes of the worn gap\n");
+        return;
+    }
     double good = sine > 0 && local ? 1e-12 : sine > 0 || q->by || !power ? 1e-13 : DBL_EPSILON;
     good = fmax(q->calls == CALL_STRESS ? 1e-12 : good, sine);
     if (scene_is_worn(s))

@@ -196,6 +196,9 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     *sh->calc.note = 0;
     if (ok && sh->calc.scene.used & ASKED_TANGENTIAL)
         shell_warn_dissimilar(sh);
+    if (ok && sh->calc.scene.used & ASKED_STEEP)
+        shell_note(sh, "p rises to p0 more steeply than the nodes of the worn gap resolve: finer ones would "
+                       "tell another p0 (help wear)");
     undo_end(&sh->calc);
     if (shell_stop) { /* results of a run stopped half-way must not be used by the next statement */
         scene_forget(&sh->calc.scene, false);

@@ -23,6 +23,8 @@ typedef enum model_id {
 #define USED(id) (1u << (id))
 /* Another bit of it: a result that depends on friction was asked for. */
 #define ASKED_TANGENTIAL USED(MODELS)
+/* And another: a largest pressure that the nodes of a worn gap do not resolve. */
+#define ASKED_STEEP USED(MODELS + 1)
 
 typedef struct model_row {
     const char *name;  /* the word of `set model`, also used in answers */

@@ -10,14 +10,26 @@ static bool is_imposed(scene *s, input in) {
     return s->in.set[in] && !s->now && scene_reach(s, &reach, error_quiet()) && !reach->normal_varies;
 }
 
+/* The largest pressure. Nodes of a worn gap lie 1 % of the radius apart: a pressure that rises within that is
+ * marked, since finer nodes would tell another one. */
+static fret_status peak_of(scene *s, const fret_field *field, long double *out) {
+    fret_real r, beside;
+    s->used |= USED(MODEL_QUADRATURE);
+    fret_status st = fret_field_peak(field, &r, out);
+    if (!st.code && scene_is_worn(s)) {
+        st = fret_field_pressure(field, 0.99L * r, &beside);
+        s->used |= !st.code && beside < 0.9L * *out ? ASKED_STEEP : 0;
+    }
+    return st;
+}
+
 bool get_p0(scene *s, long double *out, calc_error *error) {
     const fret_field *field;
     if (is_imposed(s, IN_P0))
         return scene_get(s, IN_P0, out, error);
     if (!scene_pressed_field(s, &field, error))
         return false;
-    s->used |= USED(MODEL_QUADRATURE);
-    return calc_status(error, fret_field_peak(field, NULL, out));
+    return calc_status(error, peak_of(s, field, out));
 }
 
 bool pressed_by(scene *s, bool by_force, long double v, fret_press *out, calc_error *error) {
@@ -33,10 +45,14 @@ bool pressed_by(scene *s, bool by_force, long double v, fret_press *out, calc_er
 bool call_p0(scene *s, value F, long double *out, calc_error *error) {
     const fret_normal *normal;
     fret_press press;
+    fret_field *field = NULL;
     if (!scene_normal(s, &normal, error) || !pressed_by(s, true, F.v, &press, error))
         return false;
-    s->used |= USED(MODEL_QUADRATURE);
-    return calc_status(error, fret_press_peak(normal, &press, out));
+    fret_status st = fret_field_of_press(normal, &press, &field);
+    if (!st.code)
+        st = peak_of(s, field, out);
+    fret_field_free(field);
+    return calc_status(error, st);
 }
 
 bool get_pmean(scene *s, long double *out, calc_error *error) {

@@ -59,6 +59,8 @@ TOLD = (
     (PRESSED + "cycle FA=10 N; wear alpha=1e4 um^3/J; Nw = 10\n", "Vwear", ("    error: some 1e-03 of the largest value so far",), ("    error: below",)),
     # what wears follows from the cycle, not from the force that it ends at
     (WORN, "Vwear conditioning", ("    FA = 10 N", "    Nw = 1000", r"    alpha_w = 10000 um\^3/J {3}\S+  +\S+  +1", r"    Nw = 1000  +\S+  +\S+  +1"), ("    Fx now",)),
+    (WORN, "p0", ("    error: some 1e-03 of the largest value so far",), ()),
+    (WORN + "Nw = 1e7\n", "p0", ("    error: not known, p is steeper than the nodes of the worn gap",), ("    error: some",)),
     (WORN, "hwear(0.95*a)", ("    FA = 10 N",), ("    Fx now",)),
     (WORN, "dVwear", ("    FA = 10 N", "    Nw = 1000"), ("    Fx now",)),
     (WORN, "a", ("    mu = 0.4", "    alpha_w = .*", "    FA = 10 N", "    Nw = 1000"), ("    Fx now",)),
