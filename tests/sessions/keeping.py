@@ -168,10 +168,10 @@ def recorded(tests):
     where = os.path.join(tests.dir, "kept")
     os.mkdir(where)
     done = tests.run("--keep-going", "-c", "mu = 0.3\nrecord r.txt\n" + SCENE + "foo\nstep FN=90 N \\\n  un^o\nstep Fx=20 N; dx\na + \\\n1 um\n"
-                     "set format json\nc\nset format text\nrecord off\nk", cwd=where)
+                     "set format json\nc\nbar\nsave new.fret\nset format text\nrecord off\nk", cwd=where)
     tests.check("a script is recorded", done.returncode == 1 and "k = 0" in done.stdout, tests.report(done))
     done = tests.run("--replay", "r.txt", cwd=where)
-    tests.check("and replays", done.returncode == 0 and done.stdout.endswith("r.txt: 9 passed, 0 failed\n"), tests.report(done))
+    tests.check("and replays", done.returncode == 0 and done.stdout.endswith("r.txt: 11 passed, 0 failed\n"), tests.report(done))
     done = tests.run("-c", "material steel; second rigid; geometry sphere R=1 mm; friction 0.3; press FN=9 N; step Fx=1 N\nrecord d.txt\n"
                      "a\nsecond same\nsecond rigid\nrecord off", cwd=where)
     done = tests.run("--replay", "d.txt", cwd=where)
