@@ -50,12 +50,13 @@ typedef void (*fret_wear_told)(double cycles, void *user);
  * by up to 1.5 from those by other elements, which are good to 0.3 to 6. Depths are those of nodes 1 % of the
  * radius apart, good to 0.15 of the tolerance; beside a and edges they are steeper than the nodes resolve:
  * within 1 % of the radius there they are off by up to 4 % of the largest depth in the first cycles, 0.4 %
- * later, and by up to 9 % where p is infinite at an edge (flat cones, k <= 0). The first 10^6 cycles take
- * 0.02 to 0.2 s at k >= 0 (F_N and delta_A held: 0.6 s), up to 0.4 s at k = -0.3, 1 s at k = -0.7 and 2 s at
- * k = -0.9; cycles within the blocks computed before, 2 ms. Errors: FRET_NOT_FINITE, FRET_NEGATIVE (cycles);
- * FRET_OUTSIDE (cycles: more than can be run; limit: how many); FRET_TABLE_SHORT (limit: its end): the worn
- * contact reaches beyond the gap; FRET_GROSS_SLIP: F_A, at a held delta_z; FRET_NO_MEMORY, FRET_INTERRUPTED
- * (fret_normal_stop of normal). */
+ * later, and by up to 9 % where p is infinite at an edge (flat cones, k <= 0). Pressure there is that of the
+ * nodes: near the limit its largest value differed by half between the tolerances 1e-3 and 1e-4. The first
+ * 10^6 cycles take 0.02 to 0.2 s at k >= 0 (F_N and delta_A held: 0.6 s), up to 0.4 s at k = -0.3, 1 s at k =
+ * -0.7 and 2 s at k = -0.9; cycles within the blocks computed before, 2 ms. Errors: FRET_NOT_FINITE,
+ * FRET_NEGATIVE (cycles); FRET_OUTSIDE (cycles: more than can be run; limit: how many); FRET_TABLE_SHORT
+ * (limit: its end): the worn contact reaches beyond the gap; FRET_GROSS_SLIP: F_A, at a held delta_z;
+ * FRET_NO_MEMORY, FRET_INTERRUPTED (fret_normal_stop of normal). */
 fret_status fret_wear_after(fret_wear_run *run, double cycles, fret_wear_told told, void *user,
                             fret_wear **out);
 void fret_wear_free(fret_wear *wear);
