@@ -378,8 +378,8 @@ static bool print_uncertain(shell *sh, const uncertainty_question *q, const unce
     return true;
 }
 
-/* The number of samples by default: a swinging normal force takes a thousand times as long, and so do runs of
- * wear. */
+/* The number of samples by default: a run with a swinging normal force, or of wear, takes a thousand times as
+ * long. */
 static unsigned usual_samples(shell *sh) {
     const load_reach *reach = &(load_reach){.swings = false};
     scene_reach(&sh->calc.scene, &reach, error_quiet());

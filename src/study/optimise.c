@@ -551,7 +551,7 @@ static bool answer_optimum(search *s, optimise_answer *out, calc_error *error) {
     if (!(s->of->count == 1 ? search_one(s, &l, out->end) : search_several(s, out->end)))
         return false;
     if (isnan(s->best.f))
-        return calc_fail(error, e->at, e->len, "no value anywhere in the range: %s", s->why.text);
+        return calc_fail(error, e->at, e->len, "no value at any place tried in the range: %s", s->why.text);
     if (!s->varies)
         return calc_fail(error, e->at, e->len, "%.*s is the same everywhere in the range", LEX_SHOWN(e->len),
                          e->text + e->at);

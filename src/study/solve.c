@@ -306,7 +306,7 @@ static bool no_root(search *s, calc_error *error) {
         points_at(&s->p, &(long double){s->lo}, v);
         if (!strcmp(last.text, s->p.none.text)) /* it is not for the value of the knob */
             return calc_fail(error, left->at, left->len, "%s", last.text);
-        return calc_fail(error, left->at, left->len, "no value anywhere from %s = %s to %s: %s", k->text,
+        return calc_fail(error, left->at, left->len, "no value at any place tried from %s = %s to %s: %s", k->text,
                          from, to, last.text);
     }
     if (alike)
