@@ -538,7 +538,8 @@ static bool stay_blunt(search *s, line *l, optimise_answer *out) {
     line outer = {.s = s, .nested = true, .best = nowhere};
     if (!search_line(&outer) || !narrow(&outer, outer.lo, outer.hi, 1e-8))
         return false;
-    better(&s->best, &outer.best);
+    if (!is_less(s->best.f, outer.best.f))
+        s->best = outer.best;
     for (size_t i = 0; i < s->of->count; i++)
         out->end[i] = s->best.u[i] <= 0 ? END_LOW : s->best.u[i] >= 1 ? END_HIGH : END_INNER;
     end_of_scene(s, out);

@@ -38,7 +38,7 @@ typedef struct optimise_answer {
 
 /* Searches from each place of the grid that is better than its neighbours and may lead to the optimum. The
  * grid has 17 places for one name, 129 if several of them qualify, 7 x 7 for two and 5 x 5 x 5 for three.
- * Errors: no value anywhere; the same value everywhere. */
+ * Errors: no value at any place tried; the same value everywhere. */
 bool optimise(const optimise_question *question, optimise_answer *out, calc_error *error);
 
 #endif
