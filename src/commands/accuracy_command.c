@@ -30,9 +30,9 @@ static void show_progress(void *context, const accuracy_row *row) {
 }
 
 /* Runs the study of the cycle given by FA or dxA, or of the last one. */
-static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *error) {
-    const heard *FA = said_of(given, "FA", 0), *dxA = said_of(given, "dxA", 0), *v = dxA ? dxA : FA,
-                *within = said_of(given, "within", 0);
+static bool run_study(shell *sh, parsed *given, accuracy_study *out, calc_error *error) {
+    const given_clause *FA = parsed_clause(given, "FA", 0), *dxA = parsed_clause(given, "dxA", 0),
+                       *v = dxA ? dxA : FA, *within = parsed_clause(given, "within", 0);
     const accuracy_load load = {.given = v != NULL,
                                 .by_force = !dxA,
                                 .amplitude = v ? (double)v->v.v : 0,
@@ -40,7 +40,7 @@ static bool run_study(shell *sh, said *given, accuracy_study *out, calc_error *e
     bool ok = accuracy_measure(sh->calc.now, &load, show_progress, NULL, out, error);
     const char *blamed = error->raised && error->kind == ERROR_STATUS ? error->status.quantity : NULL;
     if (v && blamed && !strcmp(blamed, "FA")) /* a dxA has no limit to exceed */
-        heard_place(error, v);
+        given_place(error, v);
     return ok;
 }
 
@@ -187,7 +187,7 @@ static void say_study(shell *sh, const accuracy_study *study) {
 }
 
 /* Error against time, one curve a model. */
-bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+bool figure_accuracy(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l) {
     static const axis_of time = {.name = "time of a cycle [s]"}, loss = {.name = "relative error"};
     accuracy_study study;
     char text[400], load[360];
@@ -215,7 +215,7 @@ bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks
            looks_axis(lx, l, p, false, &loss);
 }
 
-bool do_accuracy(shell *sh, lexer *lx, said *all) {
+bool do_accuracy(shell *sh, lexer *lx, parsed *all) {
     accuracy_study study;
     if (!run_study(sh, all, &study, lx->error))
         return false;

@@ -13,25 +13,25 @@
 /* ---- using ------------------------------------------------------------------------------------- */
 
 /* Is it the file of a clause `at` or `over`? A `using` applies to the last such clause before it. */
-static bool has_own_using(const heard *file) {
+static bool has_own_using(const given_clause *file) {
     return !strcmp(file->of->name, "at") || !strcmp(file->of->name, "over");
 }
 
 /* The file that a `using` applies to, or NULL. */
-static const heard *file_before(const said *all, const heard *using) {
-    for (const heard *h = using; h-- > all->list;)
+static const given_clause *file_before(const parsed *all, const given_clause *using) {
+    for (const given_clause *h = using; h-- > all->list;)
         if (has_own_using(h))
             return h;
     return NULL;
 }
 
 /* Is the clause h a `using` that applies to this file? */
-static bool is_using_of(const said *all, const heard *h, const heard *file) {
+static bool is_using_of(const parsed *all, const given_clause *h, const given_clause *file) {
     return !strcmp(h->of->name, "using") && (!has_own_using(file) || file_before(all, h) == file);
 }
 
-bool columns_placed(const said *all, calc_error *error) {
-    for (const heard *h = all->list; h < all->list + all->count; h++)
+bool columns_placed(const parsed *all, calc_error *error) {
+    for (const given_clause *h = all->list; h < all->list + all->count; h++)
         if (!strcmp(h->of->name, "using") && !file_before(all, h))
             return calc_fail(error, h->at, h->len, "using follows at FILE.csv or over FILE.csv");
     return true;
@@ -64,7 +64,7 @@ static csv_values *column_at(csv *c, lexer *lx) {
 }
 
 /* Applies one `using NAME = COLUMN [UNIT]`; the unit is for columns whose header has none that is known. */
-static bool apply_using(csv *c, const lexer *lx, const heard *h) {
+static bool apply_using(csv *c, const lexer *lx, const given_clause *h) {
     const span *name = &h->hole[0];
     lexer own = hole_lexer(lx, &h->hole[1]);
     char called[CSV_NAME];
@@ -91,13 +91,13 @@ static bool apply_using(csv *c, const lexer *lx, const heard *h) {
     return true;
 }
 
-bool columns_read(const lexer *lx, const said *all, const heard *file, csv *out) {
+bool columns_read(const lexer *lx, const parsed *all, const given_clause *file, csv *out) {
     char name[FILE_NAME];
     *out = (csv){.path = NULL};
     hole_file(lx, &file->hole[0], name);
     if (!csv_read(name, &shell_stop, out, lx->error))
-        return heard_place(lx->error, file);
-    for (const heard *h = all->list; h < all->list + all->count; h++)
+        return given_place(lx->error, file);
+    for (const given_clause *h = all->list; h < all->list + all->count; h++)
         if (is_using_of(all, h, file) && !apply_using(out, lx, h))
             return calc_place(lx->error, h->hole[1].at, h->hole[1].len);
     return true;
@@ -217,9 +217,9 @@ long double columns_rms(const comparison *c) {
 
 /* Leaves out columns whose title is no name, or is the name of a result; columns_missed explains that to a
  * user whose expression mentions one. */
-bool columns_wake(shell *sh, csv *data, said *all, named_columns *out, calc_error *error) {
+bool columns_show_names(shell *sh, csv *data, parsed *all, named_columns *out, calc_error *error) {
     out->count = 0;
-    all->wakes = true;
+    all->shows_names = true;
     for (size_t i = 0; i < data->columns; i++) {
         csv_values *of_file = &data->column[i];
         calc_error *no_name = error_quiet();
@@ -233,7 +233,7 @@ bool columns_wake(shell *sh, csv *data, said *all, named_columns *out, calc_erro
         if ((known && !quantity_is_input(known)) ||
             (!known && name_taken(of_file->name, strlen(of_file->name))))
             continue;
-        if (!names_wake(sh, &lx, all->names))
+        if (!names_show(sh, &lx, all->names))
             return calc_no_memory(error);
         knob_name(&sh->calc, &lx, k); /* cannot fail: the name is known now */
         if (k->is_input && !calc_takes(&sh->calc, k->in, error_quiet()))

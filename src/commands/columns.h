@@ -2,7 +2,7 @@
 /* Assigns the columns of a CSV file to quantities: by name, by `using NAME = COLUMN, ...`, or by dimension. A
  * command calls columns_read, columns_take for each column (or csv_column, by name only), csv_settle, which
  * leaves out rows without a value, and columns_say, which notes how the file was understood. If columns are
- * names in expressions, it calls columns_wake before these are parsed, and columns_load after. */
+ * names in expressions, it calls columns_show_names before these are parsed, and columns_load after. */
 #ifndef COMMANDS_COLUMNS_H
 #define COMMANDS_COLUMNS_H
 
@@ -14,11 +14,11 @@
 #include "text/csv.h"
 
 /* Does an `at FILE` or `over FILE` precede every `using`? Else an error. */
-bool columns_placed(const said *all, calc_error *error);
+bool columns_placed(const parsed *all, calc_error *error);
 
 /* Reads the file named in the clause `file`, and renames its columns by `using`. Errors have their place.
  * Free `out` with csv_free, also after an error. */
-bool columns_read(const lexer *lx, const said *all, const heard *file, csv *out);
+bool columns_read(const lexer *lx, const parsed *all, const given_clause *file, csv *out);
 
 /* The name of the file, without directories. */
 static inline const char *columns_file(const csv *c) {
@@ -74,8 +74,8 @@ typedef struct named_columns {
     bool turned;                     /* the sign of FN has been reversed */
 } named_columns;
 
-/* Makes the names of columns known to expressions, until said_drop(all). */
-bool columns_wake(shell *sh, csv *data, said *all, named_columns *out, calc_error *error);
+/* Makes the names of columns known to expressions, until parsed_drop(all). */
+bool columns_show_names(shell *sh, csv *data, parsed *all, named_columns *out, calc_error *error);
 /* Keeps the columns that matter: inputs, and names that the first `expressions` of sh->list mention. Reads
  * them and leaves out rows without a value. A column of an input that is not mentioned may be unreadable. */
 bool columns_load(const shell *sh, csv *data, size_t expressions, named_columns *out, calc_error *error);

@@ -27,7 +27,7 @@ static bool put_row(export_table *t, const long double *si) {
 }
 
 /* Writes the table of `to FILE` with columns of these names, ended by NULL; `write` writes the rows. */
-static bool write_table(shell *sh, lexer *lx, said *all, const char *const *names, size_t rows,
+static bool write_table(shell *sh, lexer *lx, parsed *all, const char *const *names, size_t rows,
                         bool (*write)(export_table *t, void *context), void *context) {
     export_table t = {.total = rows, .stop = sh->calc.scene.stop, .error = lx->error};
     if (!table_open(sh, lx, all, &t.t))
@@ -41,8 +41,8 @@ static bool write_table(shell *sh, lexer *lx, said *all, const char *const *name
     return table_close(sh, lx, &t.t, ok);
 }
 
-static size_t steps_of(said *all, size_t usual) {
-    const heard *steps = said_of(all, "steps", 0);
+static size_t steps_of(parsed *all, size_t usual) {
+    const given_clause *steps = parsed_clause(all, "steps", 0);
     return steps ? steps->count : usual;
 }
 
@@ -55,10 +55,10 @@ typedef struct amplitudes {
     bool log;
 } amplitudes;
 
-static bool read_amplitudes(shell *sh, const lexer *lx, said *all, amplitudes *out) {
+static bool read_amplitudes(shell *sh, const lexer *lx, parsed *all, amplitudes *out) {
     const knob dxA = {.is_input = true, .in = IN_DXA, .d = DIM_LENGTH, .text = "dxA"};
-    const span *name = &said_of(all, "for", 0)->hole[0], *ends = name + 1;
-    *out = (amplitudes){sh->calc.now, {.lo = 0}, steps_of(all, 50), said_of(all, "log", 0)};
+    const span *name = &parsed_clause(all, "for", 0)->hole[0], *ends = name + 1;
+    *out = (amplitudes){sh->calc.now, {.lo = 0}, steps_of(all, 50), parsed_clause(all, "log", 0)};
     if (name->len != strlen(dxA.text) || strncmp(lx->text + name->at, dxA.text, name->len) != 0)
         return calc_fail(lx->error, name->at, name->len,
                          "K' and K'' are functions of dxA: for dxA = LO .. HI");
@@ -83,7 +83,7 @@ static bool write_harmonic(export_table *t, void *context) {
     return true;
 }
 
-static bool export_harmonic(shell *sh, lexer *lx, said *all) {
+static bool export_harmonic(shell *sh, lexer *lx, parsed *all) {
     static const char *const names[] = {"dxA", "Kp", "Kpp", NULL};
     amplitudes by;
     return read_amplitudes(sh, lx, all, &by) &&
@@ -97,8 +97,8 @@ static bool write_loop(export_table *t, void *context) {
     trial_along *a = context;
     const size_t turn = t->total / 2 - 1;
     for (size_t i = 0; trial_along_next(a, t->error); i++) {
-        sight now;
-        run_sight(a->trace.run, a->trace.levels, &now);
+        run_view now;
+        run_view_now(a->trace.run, a->trace.levels, &now);
         for (int branch = i > turn ? 2 : 1; branch <= (i < turn ? 1 : 2); branch++)
             if (!put_row(t, (const long double[]){branch, now.state.dx, now.state.Fx, now.state.FN}))
                 return false;
@@ -106,7 +106,7 @@ static bool write_loop(export_table *t, void *context) {
     return !t->error->raised;
 }
 
-static bool export_loop(shell *sh, lexer *lx, said *all) {
+static bool export_loop(shell *sh, lexer *lx, parsed *all) {
     static const char *const names[] = {"branch", "dx", "Fx", "FN", NULL};
     const size_t steps = steps_of(all, 100);
     const scene *s = &sh->calc.scene;
@@ -210,7 +210,7 @@ static writer *form_of(const lexer *lx, const span *part) {
 /* ---- jenkins ----------------------------------------------------------------------------------- */
 
 /* Makes the elements for amplitudes up to FA, or for all amplitudes if it is NULL. */
-static bool make_model(trial *t, const heard *FA, model *m, calc_error *error) {
+static bool make_model(trial *t, const given_clause *FA, model *m, calc_error *error) {
     double amplitude = (double)INFINITY;
     fret_loading first;
     if (!scene_contact(&t->scene, &m->contact, error))
@@ -254,8 +254,9 @@ static bool write_model(shell *sh, lexer *lx, const span *name, writer *write, c
     return ok;
 }
 
-static bool export_jenkins(shell *sh, lexer *lx, said *all) {
-    const heard *count = said_of(all, "", 0), *to = said_of(all, "to", 0), *FA = said_of(all, "FA", 0);
+static bool export_jenkins(shell *sh, lexer *lx, parsed *all) {
+    const given_clause *count = parsed_clause(all, "", 0), *to = parsed_clause(all, "to", 0),
+                       *FA = parsed_clause(all, "FA", 0);
     const span *name = &to->hole[0];
     if (!count)
         return calc_fail(lx->error, to->at, to->len,
@@ -281,7 +282,7 @@ static const struct {
     const char *name;
     const char *takes; /* grammar behind the name, see grammar.h */
     const char *summary;
-    bool (*write)(shell *sh, lexer *lx, said *all);
+    bool (*write)(shell *sh, lexer *lx, parsed *all);
 } exported[] = {
     {"jenkins", "N:1000 to FILE.csv|json|h [FA=20 N]", "parallel springs in line with sliders",
      export_jenkins},
@@ -301,6 +302,6 @@ const grammar *export_form(size_t i) {
                         : NULL;
 }
 
-bool do_export(shell *sh, lexer *lx, said *all) {
+bool do_export(shell *sh, lexer *lx, parsed *all) {
     return exported[all->row].write(sh, lx, all);
 }

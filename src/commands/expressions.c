@@ -120,7 +120,7 @@ static bool read_side(shell *sh, lexer *lx, expr *e) {
     return expr_read_at(&sh->calc, lx, e);
 }
 
-bool read_sides(shell *sh, const lexer *lx, const heard *equation) {
+bool read_sides(shell *sh, const lexer *lx, const given_clause *equation) {
     for (int i = 0; i < 2; i++) {
         lexer own = hole_lexer(lx, &equation->hole[i]);
         if (!read_side(sh, &own, &sh->list[i]) || !at_end(&own))

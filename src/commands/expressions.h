@@ -18,7 +18,7 @@ bool read_one_expression(shell *sh, lexer *lx, column *c);
 /* Appends the name at the cursor to `names`, at most `most`, none twice. known: it must have a value. */
 bool read_name(shell *sh, lexer *lx, bool known, size_t most, knob *names, size_t *count);
 /* Reads the two sides of EXPR = EXPR into sh->list[0] and [1]. */
-bool read_sides(shell *sh, const lexer *lx, const heard *equation);
+bool read_sides(shell *sh, const lexer *lx, const given_clause *equation);
 /* Sets the column's dimension to that of v. False: the unit asked for has another one, or v is too large. */
 bool column_fits(const expr *e, column *c, value v, calc_error *error);
 

@@ -9,7 +9,7 @@
 #include "commands/range.h"
 #include "statement/command.h"
 
-static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
+static bool figure_regimes(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l);
 
 /* `when` of the figure E: the body is homogeneous, so there is no c0 to scale depth by. */
 static bool lacks_c0(const inputs *in, bool compared) {
@@ -247,18 +247,18 @@ static bool run_borders(shell *sh, range *over, regimes *r) {
 }
 
 /* The map of running conditions: full stick, partial and gross slip over the amplitude and an input. */
-static bool figure_regimes(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+static bool figure_regimes(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l) {
     range r[2];
     sweep_range ends[2] = {{.lo = 0}, {.lo = 0}};
     axis_of axis[2];
     bool amplitude[2] = {false, false}, rig = false;
-    for (size_t i = 0; i < 2 && said_of(all, "for", i); i++) {
-        const lexer name = hole_lexer(lx, &said_of(all, "for", i)->hole[0]);
+    for (size_t i = 0; i < 2 && parsed_clause(all, "for", i); i++) {
+        const lexer name = hole_lexer(lx, &parsed_clause(all, "for", i)->hole[0]);
         rig = rig || lex_is(&name, amplitudes[1]);
         amplitude[i] = lex_is(&name, amplitudes[rig]);
     }
-    if (amplitude[0] == amplitude[1] || !said_of(all, "for", 1) || said_of(all, "for", 2) ||
-        said_of(all, "with", 0) || said_of(all, "along", 0) || said_of(all, "steps", 0))
+    if (amplitude[0] == amplitude[1] || !parsed_clause(all, "for", 1) || parsed_clause(all, "for", 2) ||
+        parsed_clause(all, "with", 0) || parsed_clause(all, "along", 0) || parsed_clause(all, "steps", 0))
         return calc_fail(
             lx->error, 0, 0,
             "regimes needs two ranges: for dxA = LO .. HI for NAME = LO .. HI (for FN = 1 N .. 9 N)");

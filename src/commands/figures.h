@@ -18,8 +18,8 @@ typedef struct figure {
      * stick and of slip, where it reaches its bound, the next expression. */
     const char *roles;
     const char *takes; /* grammar behind its name, see grammar.h; NULL: a range and looks */
-    bool (*build)(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
-    bool (*below)(shell *sh, lexer *lx, said *all, plot_panel *p,
+    bool (*build)(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l);
+    bool (*below)(shell *sh, lexer *lx, parsed *all, plot_panel *p,
                   const looks *l); /* draws a second panel; or NULL */
 } figure;
 
@@ -30,9 +30,9 @@ const char *figure_word(size_t i);    /* first words of figures: the names, then
 const figure *figure_find(const char *name, size_t len);
 
 /* Figures that are no sweep: in accuracy_command.c and fit_command.c (without GSL study_none.c) */
-bool figure_accuracy(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
-bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
-bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
+bool figure_accuracy(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l);
+bool figure_fit(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l);
+bool figure_fit_residuals(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l);
 /* Frees the last fit. */
 void fit_forget(shell *sh);
 

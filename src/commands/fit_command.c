@@ -53,14 +53,14 @@ static bool ambiguous(const shell *sh, csv *data, const expr *e, calc_error *err
     return false;
 }
 
-static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv *data,
+static bool read_equation(shell *sh, lexer *lx, parsed *all, fit_question *q, csv *data,
                           named_columns *columns) {
-    const heard *sides = said_of(all, "for", 0), *to = said_of(all, "to", 0);
+    const given_clause *sides = parsed_clause(all, "for", 0), *to = parsed_clause(all, "to", 0);
     char layout[CALC_ERROR_TEXT / 2];
     _Static_assert((int)CSV_COLUMNS <= (int)FIT_COLUMNS, "all columns of a file are names");
     if (!to)
         return lex_fail(lx, "expected to FILE.csv");
-    if (!columns_read(lx, all, to, data) || !columns_wake(sh, data, all, columns, lx->error))
+    if (!columns_read(lx, all, to, data) || !columns_show_names(sh, data, all, columns, lx->error))
         return false;
     const expr *left = &sh->list[0], *right = &sh->list[1];
     q->sides = sh->list;
@@ -80,8 +80,8 @@ static bool read_equation(shell *sh, lexer *lx, said *all, fit_question *q, csv 
     return true;
 }
 
-static bool read_loop(shell *sh, const lexer *lx, const said *all, const heard *along, fit_question *q,
-                      csv *data) {
+static bool read_loop(shell *sh, const lexer *lx, const parsed *all, const given_clause *along,
+                      fit_question *q, csv *data) {
     calc_error *error = lx->error;
     if (!columns_read(lx, all, along, data))
         return false;
@@ -95,7 +95,7 @@ static bool read_loop(shell *sh, const lexer *lx, const said *all, const heard *
     if ((!csv_find(data, "dx") && !q->loop.rig) || !csv_find(data, "Fx"))
         calc_append(&sh->calc, error, " (a loop needs dx and Fx, and may have FN or dz)");
     if (error->raised || !csv_settle(data, error))
-        return heard_place(error, along);
+        return given_place(error, along);
     const bool against = columns_opposed(data, dx, Fx),
                pull = q->loop.normal_by == BY_FORCE && columns_turn_pull(data, normal);
     if (against)
@@ -113,12 +113,13 @@ static bool read_loop(shell *sh, const lexer *lx, const said *all, const heard *
 }
 
 /* Reads `noise dx=10 nm Fx=0.5 N`, or one of the two. */
-static bool read_noise(const lexer *lx, said *all, fit_loop *loop) {
-    const heard *word = said_of(all, "noise", 0), *of[2] = {said_of(all, "dx", 0), said_of(all, "Fx", 0)};
+static bool read_noise(const lexer *lx, parsed *all, fit_loop *loop) {
+    const given_clause *word = parsed_clause(all, "noise", 0),
+                       *of[2] = {parsed_clause(all, "dx", 0), parsed_clause(all, "Fx", 0)};
     for (size_t i = 0; i < 2; i++) {
         if (!of[i])
             continue;
-        if (!word || !said_of(all, "along", 0))
+        if (!word || !parsed_clause(all, "along", 0))
             return calc_fail(lx->error, of[i]->at, of[i]->len,
                              "%s= tells the noise of a measured loop: along FILE.csv noise %s=...",
                              of[i]->of->name, of[i]->of->name);
@@ -128,13 +129,13 @@ static bool read_noise(const lexer *lx, said *all, fit_loop *loop) {
            calc_fail(lx->error, word->at, word->len, "expected dx=10 nm or Fx=0.5 N behind noise");
 }
 
-static bool read_fit(shell *sh, lexer *lx, said *all, fit_question *q, csv *data, named_columns *columns) {
-    const heard *along = said_of(all, "along", 0);
+static bool read_fit(shell *sh, lexer *lx, parsed *all, fit_question *q, csv *data, named_columns *columns) {
+    const given_clause *along = parsed_clause(all, "along", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     q->c = &sh->calc;
     if (!read_names(sh, &own, q) || !read_noise(lx, all, &q->loop))
         return false;
-    if (!along && !said_of(all, "for", 0))
+    if (!along && !parsed_clause(all, "for", 0))
         return lex_fail(lx, "expected for EXPR = EXPR to FILE.csv, or along FILE.csv");
     return along ? read_loop(sh, lx, all, along, q, data) : read_equation(sh, lx, all, q, data, columns);
 }
@@ -327,7 +328,7 @@ static bool cycle_rows(shell *sh, answer *out, const fit_question *q, const csv 
     return true;
 }
 
-static bool fit_by_cycle(shell *sh, lexer *lx, said *all, const fit_question *q, const csv *data) {
+static bool fit_by_cycle(shell *sh, lexer *lx, parsed *all, const fit_question *q, const csv *data) {
     loop_answer l;
     si_table t;
     bool ok = loop_find(q->loop.dx, q->loop.Fx, q->rows, &l, lx->error) && table_open(sh, lx, all, &t);
@@ -340,12 +341,12 @@ static bool fit_by_cycle(shell *sh, lexer *lx, said *all, const fit_question *q,
     return ok;
 }
 
-static bool is_by_cycle(const lexer *lx, said *all) {
-    const heard *by = said_of(all, "by", 0);
+static bool is_by_cycle(const lexer *lx, parsed *all) {
+    const given_clause *by = parsed_clause(all, "by", 0);
     char word[LEX_NAME] = "";
     if (by)
         hole_word(lx, by, word);
-    if (by && (strcmp(word, "cycle") || !said_of(all, "along", 0)))
+    if (by && (strcmp(word, "cycle") || !parsed_clause(all, "along", 0)))
         calc_fail(lx->error, by->at, by->len,
                   "by cycle gives a row for each cycle of a measured loop: along FILE.csv by cycle");
     return by != NULL;
@@ -437,7 +438,7 @@ static bool finish_axes(lexer *lx, const struct fitted *f, const looks *l, plot_
 }
 
 /* One entry of the key for each name, all in the style of the curve; only the first has its points. */
-bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+bool figure_fit(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l) {
     const struct fitted *f = sh->fitted;
     (void)all;
     if (!f)
@@ -459,7 +460,7 @@ bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) 
            finish_axes(lx, f, l, p, &(axis_of){.name = f->ordinate, .d = f->q.sides ? f->a.d : DIM_FORCE});
 }
 
-bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+bool figure_fit_residuals(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l) {
     const struct fitted *f = sh->fitted;
     const looks plain = {.sh = l->sh};
     char title[COLUMN_UNIT + NUMBER_TEXT + 60], rms[COLUMN_UNIT + NUMBER_TEXT];
@@ -478,7 +479,7 @@ bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const 
 
 /* ---- the command ------------------------------------------------------------------------------- */
 
-bool do_fit(shell *sh, lexer *lx, said *all) {
+bool do_fit(shell *sh, lexer *lx, parsed *all) {
     struct fitted *f = calloc(1, sizeof *f);
     bool ok = (f || calc_no_memory(lx->error)) && read_fit(sh, lx, all, &f->q, &f->data, &f->columns);
     if (ok && is_by_cycle(lx, all)) {

@@ -59,7 +59,7 @@ static const struct {
                {"FA", false, BY_FORCE}, {"dxA", false, BY_DISPLACEMENT}, {"drigA", false, BY_RIG},
                {"FN", true, BY_FORCE},  {"dz", true, BY_DISPLACEMENT}};
 
-static void take_target(load_step *step, const heard *h, bool normal, load_by by) {
+static void take_target(load_step *step, const given_clause *h, bool normal, load_by by) {
     *(normal ? &step->normal : &step->tangential) = (unsigned char)by;
     *(normal ? &step->normal_value : &step->tangential_value) = (double)h->v.v;
     if (h->increment)
@@ -67,11 +67,11 @@ static void take_target(load_step *step, const heard *h, bool normal, load_by by
 }
 
 /* Fills in a step or cycle from its arguments. *last: the last target, which errors of the load point at. */
-static void load_of(said *s, load_step *step, cycle_extra *extra, const heard **last) {
-    const heard *FNA = said_of(s, "FNA", 0), *phase = said_of(s, "phase", 0), *steps = said_of(s, "steps", 0),
-                *times = said_of(s, "times", 0);
+static void load_of(parsed *s, load_step *step, cycle_extra *extra, const given_clause **last) {
+    const given_clause *FNA = parsed_clause(s, "FNA", 0), *phase = parsed_clause(s, "phase", 0),
+                       *steps = parsed_clause(s, "steps", 0), *times = parsed_clause(s, "times", 0);
     *last = NULL;
-    for (const heard *h = s->list; h < s->list + s->count; h++)
+    for (const given_clause *h = s->list; h < s->list + s->count; h++)
         for (size_t i = 0; i < sizeof targets / sizeof *targets; i++)
             if (!strcmp(h->of->name, targets[i].name)) {
                 take_target(step, h, targets[i].normal, targets[i].by);
@@ -88,22 +88,22 @@ static void load_of(said *s, load_step *step, cycle_extra *extra, const heard **
 }
 
 /* Evaluates live amplitudes in the present scene. */
-static bool evaluate_live(shell *sh, lexer *lx, said *s) {
-    for (heard *h = s->list; h < s->list + s->count; h++) {
+static bool evaluate_live(shell *sh, lexer *lx, parsed *s) {
+    for (given_clause *h = s->list; h < s->list + s->count; h++) {
         const clause *a = h->of;
         if (!h->live)
             continue;
         if (!definition_value(&sh->calc, (definition *)h->live, &h->v, lx->error) ||
             !value_dim(lx, a->name, h->hole[0].at, h->hole[0].len, h->v, a->d) ||
             !input_check((input)(a->in - 1), (double)h->v.v, lx->error))
-            return heard_place(lx->error, h);
+            return given_place(lx->error, h);
     }
     return true;
 }
 
 /* Makes a step or cycle of the clauses; an error if it has no target. */
-static bool read_targets(shell *sh, lexer *lx, bool cycle, said *s, load_step *step, cycle_extra *extra,
-                         const heard **last) {
+static bool read_targets(shell *sh, lexer *lx, bool cycle, parsed *s, load_step *step, cycle_extra *extra,
+                         const given_clause **last) {
     *step = (load_step){.kind = cycle ? LOAD_CYCLE : LOAD_STEP};
     *extra = (cycle_extra){.times = 1};
     if (cycle && !evaluate_live(sh, lx, s))
@@ -115,55 +115,55 @@ static bool read_targets(shell *sh, lexer *lx, bool cycle, said *s, load_step *s
 
 bool read_load(shell *sh, lexer *lx, load_step *step, cycle_extra *extra, counted *bound[INPUTS]) {
     const command *c = command_find(lx->text + lx->at, lx->len);
-    said s;
-    const heard *last;
+    parsed s;
+    const given_clause *last;
     const bool cycle = lex_is(lx, "cycle");
     lex_next(lx);
     bool ok =
-        said_read_some(sh, lx, command_form(c), &s) && read_targets(sh, lx, cycle, &s, step, extra, &last);
-    for (heard *h = s.list; ok && h < s.list + s.count; h++)
+        parsed_read_some(sh, lx, command_form(c), &s) && read_targets(sh, lx, cycle, &s, step, extra, &last);
+    for (given_clause *h = s.list; ok && h < s.list + s.count; h++)
         if (h->live)
             bound[h->of->in - 1] = counted_hold(h->live);
-    said_drop(sh, &s);
+    parsed_drop(sh, &s);
     return ok;
 }
 
-bool do_press(shell *sh, lexer *lx, said *all) {
+bool do_press(shell *sh, lexer *lx, parsed *all) {
     static const char *const names[] = {"FN", "a", "dz", NULL};
     if (!all->count)
         return lex_fail(lx, "press by what?") || add_usage(lx->error, all->by);
-    const heard *by = &all->list[0];
+    const given_clause *by = &all->list[0];
     const bool worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
     const load_step step = {.kind = LOAD_PRESS,
                             .normal = (unsigned char)press_by((input)(by->of->in - 1)),
                             .normal_value = (double)by->v.v};
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error)) {
         const char *of = lx->error->kind == ERROR_STATUS ? lx->error->status.quantity : NULL;
-        return of && !strcmp(of, by->of->name) ? heard_place(lx->error, by) : false;
+        return of && !strcmp(of, by->of->name) ? given_place(lx->error, by) : false;
     }
     report_event(sh, "press", names);
     note_unworn(sh, worn);
     return true;
 }
 
-bool do_step(shell *sh, lexer *lx, said *all) {
+bool do_step(shell *sh, lexer *lx, parsed *all) {
     static const char *const names[] = {"Fx", "dx", "c", "drig", NULL}, *const oblique[] = {"FN",   "Fx",
                                                                                             "dx",   "c",
                                                                                             "drig", NULL};
     load_step step;
     cycle_extra extra;
-    const heard *last;
+    const given_clause *last;
     if (!read_targets(sh, lx, false, all, &step, &extra, &last))
         return false;
     if (!scene_load(&sh->calc.scene, &step, NULL, lx->error))
-        return heard_place(lx->error, last);
+        return given_place(lx->error, last);
     if (reports(sh)) /* else scene_load may leave the step to be run later */
         report_event(sh, "step", step.normal ? oblique : names);
     if (shell_stop) { /* `step` has no undo mark in run_row, which takes back other commands */
         calc_undo(&sh->calc);
         return calc_interrupted(lx->error);
     }
-    shell_pressed(sh, &step);
+    shell_warn_load(sh, &step);
     return true;
 }
 
@@ -174,24 +174,24 @@ static void bind_all(inputs *in, void *context) {
             inputs_bind(in, i, counted_hold(bound[i]));
 }
 
-bool do_cycle(shell *sh, lexer *lx, said *all) {
+bool do_cycle(shell *sh, lexer *lx, parsed *all) {
     static const char *const names[] = {"dW", "Fx", "dx", "c", "drig", NULL};
     load_step step;
     cycle_extra extra;
-    const heard *last;
+    const given_clause *last;
     counted *bound[INPUTS] = {NULL};
     const bool worn = inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW));
     bool live = false;
     if (!read_targets(sh, lx, true, all, &step, &extra, &last))
         return false;
-    for (const heard *h = all->list; h < all->list + all->count; h++)
+    for (const given_clause *h = all->list; h < all->list + all->count; h++)
         if (h->live) {
             bound[h->of->in - 1] = h->live;
             live = true;
         }
-    const bool ok = (scene_load(&sh->calc.scene, &step, &extra, lx->error) || heard_place(lx->error, last)) &&
+    const bool ok = (scene_load(&sh->calc.scene, &step, &extra, lx->error) || given_place(lx->error, last)) &&
                     (!live || scene_edit(&sh->calc.scene, bind_all, bound, lx->error));
-    if (ok && said_of(all, "phase", 0) && !said_of(all, "FNA", 0))
+    if (ok && parsed_clause(all, "phase", 0) && !parsed_clause(all, "FNA", 0))
         shell_note(sh, "phase has no effect without FNA");
     if (ok)
         report_event(sh, "cycle", names);
@@ -311,14 +311,14 @@ static bool compare_rows(shell *sh, const rows *w, comparison of[COMPARED_COLUMN
     scene *s = &sh->calc.scene;
     const size_t before = s->end.steps - w->data->rows;
     scene_trace t;
-    sight now;
+    run_view now;
     of[OF_FX].with = w->Fx;
     of[OF_DX].with = w->dx;
     if (!trace_begin(&t, s, watch_points(1), true, error))
         return false;
     while (trace_next(&t, error)) {
         const size_t at = trace_now(&t)->at.steps;
-        run_sight(t.run, t.levels, &now);
+        run_view_now(t.run, t.levels, &now);
         const long double computed[] = {now.state.Fx, now.state.dx};
         for (int k = 0; k < COMPARED_COLUMNS && at >= before; k++)
             columns_differ(&of[k], at - before, computed[k]);
@@ -373,26 +373,26 @@ static bool follow_file(shell *sh, csv *data, calc_error *error) {
     return true;
 }
 
-bool do_follow(shell *sh, lexer *lx, said *all) {
+bool do_follow(shell *sh, lexer *lx, parsed *all) {
     static const char *const names[] = {"FN", "Fx", "dx", "c", NULL};
     csv data;
     const bool ok = columns_read(lx, all, &all->list[0], &data) && follow_file(sh, &data, lx->error);
     csv_free(&data);
     if (!ok)
-        return heard_place(lx->error, &all->list[0]);
+        return given_place(lx->error, &all->list[0]);
     report_event(sh, "follow", names);
     return true;
 }
 
 /* ---- reset and undo ---------------------------------------------------------------------------- */
 
-bool do_reset(shell *sh, lexer *lx, said *all) {
+bool do_reset(shell *sh, lexer *lx, parsed *all) {
     (void)lx;
-    scene_reset(&sh->calc.scene, said_of(all, "all", 0) != NULL);
+    scene_reset(&sh->calc.scene, parsed_clause(all, "all", 0) != NULL);
     return true;
 }
 
-bool do_undo(shell *sh, lexer *lx, said *all) {
+bool do_undo(shell *sh, lexer *lx, parsed *all) {
     (void)all;
     return calc_undo(&sh->calc) || lex_fail(lx, "there is nothing to undo");
 }

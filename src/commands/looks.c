@@ -12,8 +12,8 @@
 typedef struct reading {
     shell *sh;
     const lexer *lx;
-    const said *all;
-    const heard *said; /* the clause */
+    const parsed *all;
+    const given_clause *given; /* the clause */
     plot_panel *p;
     size_t at; /* offset in *p of the member to set */
     looks *out;
@@ -24,7 +24,7 @@ static void *member(const reading *r) {
 }
 
 static bool read_text(const reading *r) {
-    const span *quoted = &r->said->hole[0];
+    const span *quoted = &r->given->hole[0];
     char **text = member(r);
     free(*text);
     *text = strndup(r->lx->text + quoted->at + 1, quoted->len - 2);
@@ -37,13 +37,13 @@ static bool read_flag(const reading *r) {
 }
 
 static bool read_limits(const reading *r) {
-    limits *l = *r->said->of->name == 'x' ? &r->out->x : &r->out->y;
-    lexer own = hole_lexer(r->lx, &r->said->hole[0]);
+    limits *l = *r->given->of->name == 'x' ? &r->out->x : &r->out->y;
+    lexer own = hole_lexer(r->lx, &r->given->hole[0]);
     l->at = own.at;
     if (!expr_value(&r->sh->calc, &own, &l->end[0]))
         return false;
     if (own.kind != T_RANGE)
-        return lex_fail(&own, "expected %s LO .. HI", r->said->of->name);
+        return lex_fail(&own, "expected %s LO .. HI", r->given->of->name);
     lex_next(&own);
     if (!expr_value(&r->sh->calc, &own, &l->end[1]))
         return false;
@@ -60,23 +60,23 @@ const char *axes_name(size_t i) {
 }
 
 static bool read_log(const reading *r) {
-    r->p->logx = r->p->logx || r->said->choice != AXIS_Y;
-    r->p->logy = r->p->logy || r->said->choice != AXIS_X;
+    r->p->logx = r->p->logx || r->given->choice != AXIS_Y;
+    r->p->logy = r->p->logy || r->given->choice != AXIS_X;
     return true;
 }
 
 static bool read_flip(const reading *r) {
-    r->p->flipx = r->p->flipx || r->said->choice != AXIS_Y;
-    r->p->flipy = r->p->flipy || r->said->choice != AXIS_X;
+    r->p->flipx = r->p->flipx || r->given->choice != AXIS_Y;
+    r->p->flipy = r->p->flipy || r->given->choice != AXIS_X;
     return true;
 }
 
 static bool read_over(const reading *r) {
-    const span *name = &r->said->hole[0];
+    const span *name = &r->given->hole[0];
     looks *l = r->out;
     if (l->files == OVER)
         return calc_fail(r->lx->error, name->at, name->len, "more than %d files", OVER);
-    l->over[l->files++] = r->said;
+    l->over[l->files++] = r->given;
     return true;
 }
 
@@ -112,10 +112,10 @@ const char *look_line(size_t i) {
     return i < ROWS ? rows[i].line : NULL;
 }
 
-bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out) {
+bool looks_read(shell *sh, const lexer *lx, const parsed *all, plot_panel *p, looks *out) {
     out->sh = sh;
     out->all = all;
-    for (const heard *h = all->list; h < all->list + all->count; h++)
+    for (const given_clause *h = all->list; h < all->list + all->count; h++)
         for (size_t i = 0; i < ROWS; i++)
             if (h->of->text == rows[i].line + 1 &&
                 !rows[i].read(&(reading){sh, lx, all, h, p, rows[i].at, out}))
@@ -179,12 +179,12 @@ static bool find_columns(csv *c, const axis_of *x, const axis_of *y, csv_values 
 
 static bool lay_file(lexer *lx, const looks *l, size_t file, plot_panel *p, const axis_of *x,
                      const axis_of *y) {
-    const heard *of = l->over[file];
+    const given_clause *of = l->over[file];
     csv c;
     csv_values *of_x, *of_y;
     bool ok = columns_read(lx, l->all, of, &c) && find_columns(&c, x, y, &of_x, &of_y, lx->error);
     if (!ok)
-        heard_place(lx->error, of);
+        given_place(lx->error, of);
     plot_series *s = ok ? plot_series_add(p, PLOT_MEASURED, columns_file(&c), lx->error) : NULL;
     for (size_t j = 0; s && ok && j < c.rows; j++)
         ok = plot_point(s, of_x->v[j], of_y->v[j]) || calc_no_memory(lx->error);

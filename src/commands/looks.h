@@ -20,9 +20,9 @@ typedef struct limits {
 /* Looks that can be applied only when the axes are known. The others are set in the panel at once. */
 typedef struct looks {
     limits x, y;
-    size_t files;            /* `over FILE` clauses: */
-    const said *all;         /* the statement that has them */
-    const heard *over[OVER]; /* the clauses */
+    size_t files;                   /* `over FILE` clauses: */
+    const parsed *all;              /* the statement that has them */
+    const given_clause *over[OVER]; /* the clauses */
     shell *sh;
     bool residuals;
 } looks;
@@ -31,7 +31,7 @@ typedef struct looks {
 const char *look_line(size_t i);
 const char *axes_name(size_t i);
 /* Applies all looks of the statement to the panel or to `out`. */
-bool looks_read(shell *sh, const lexer *lx, const said *all, plot_panel *p, looks *out);
+bool looks_read(shell *sh, const lexer *lx, const parsed *all, plot_panel *p, looks *out);
 
 /* The unit of an axis; scale 0: it is not known yet. */
 typedef struct axis_unit {

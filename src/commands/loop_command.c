@@ -75,7 +75,7 @@ static void report_cycles(const shell *sh, const csv *data, const loop_answer *l
     answer_end(a, true);
 }
 
-static bool answer_loop(shell *sh, lexer *lx, said *all, const csv *data, const loop_answer *l) {
+static bool answer_loop(shell *sh, lexer *lx, parsed *all, const csv *data, const loop_answer *l) {
     si_table t;
     if (!table_open(sh, lx, all, &t))
         return false;
@@ -85,7 +85,7 @@ static bool answer_loop(shell *sh, lexer *lx, said *all, const csv *data, const 
     return true;
 }
 
-bool do_loop(shell *sh, lexer *lx, said *all) {
+bool do_loop(shell *sh, lexer *lx, parsed *all) {
     csv data;
     csv_values *dx, *Fx;
     loop_answer l = {.cycle = NULL};
@@ -106,5 +106,5 @@ bool do_loop(shell *sh, lexer *lx, said *all) {
     }
     loop_free(&l);
     csv_free(&data);
-    return ok || heard_place(lx->error, &all->list[0]);
+    return ok || given_place(lx->error, &all->list[0]);
 }

@@ -7,9 +7,9 @@
 
 enum { MAP_STEPS = 60 };
 
-bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t steps_a, size_t steps_b) {
-    const heard *with = said_of(all, "with", 0), *second = said_of(all, "for", 1),
-                *third = said_of(all, "for", 2);
+bool grid_range_read(shell *sh, lexer *lx, parsed *all, grid_range *out, size_t steps_a, size_t steps_b) {
+    const given_clause *with = parsed_clause(all, "with", 0), *second = parsed_clause(all, "for", 1),
+                       *third = parsed_clause(all, "for", 2);
     if (!range_read(sh, lx, all, 0, &out->a) || !range_options(sh, lx, all, 0, &out->a, steps_a))
         return false;
     if (out->a.sweep.along)
@@ -103,13 +103,13 @@ static bool run_map(shell *sh, lexer *lx, const sweep *s, column *c, const looks
     return ok;
 }
 
-bool map_read(shell *sh, lexer *lx, said *all, column *c, grid_range *r) {
+bool map_read(shell *sh, lexer *lx, parsed *all, column *c, grid_range *r) {
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     lex_next(&own);
     return read_one_expression(sh, &own, c) && grid_range_read(sh, lx, all, r, MAP_STEPS, MAP_STEPS);
 }
 
-bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+bool map_draw(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l) {
     column c;
     grid_range r;
     const bool ok = map_read(sh, lx, all, &c, &r) && run_map(sh, lx, &r.a.sweep, &c, l, p);

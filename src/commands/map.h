@@ -13,14 +13,14 @@ typedef struct grid_range {
 } grid_range;
 
 /* Reads two `for` clauses; steps_a, steps_b: their steps where the statement has none. */
-bool grid_range_read(shell *sh, lexer *lx, said *all, grid_range *out, size_t steps_a, size_t steps_b);
+bool grid_range_read(shell *sh, lexer *lx, parsed *all, grid_range *out, size_t steps_a, size_t steps_b);
 
 /* Is the cursor on `map EXPR`? */
 bool map_at(const lexer *lx);
-bool map_draw(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l);
+bool map_draw(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l);
 /* Reads the expression and the ranges of a map. Free the column, also after an error. */
-bool map_read(shell *sh, lexer *lx, said *all, column *c, grid_range *r);
+bool map_read(shell *sh, lexer *lx, parsed *all, column *c, grid_range *r);
 /* Writes the values of a map as a table, of which a share can be run. In view_commands.c. */
-bool table_map(shell *sh, lexer *lx, said *all);
+bool table_map(shell *sh, lexer *lx, parsed *all);
 
 #endif

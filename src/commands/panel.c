@@ -351,16 +351,16 @@ static bool is_still(const sweep *s) {
 }
 
 /* Does the which-th range of an animated figure go over an input? Then its values are the frames. */
-static bool is_moving(const panel_job *job, const lexer *lx, said *all, size_t which) {
-    const heard *by = job->m ? said_of(all, "for", which) : NULL;
+static bool is_moving(const panel_job *job, const lexer *lx, parsed *all, size_t which) {
+    const given_clause *by = job->m ? parsed_clause(all, "for", which) : NULL;
     const lexer name = by ? hole_lexer(lx, &by->hole[0]) : *lx;
     const quantity *q = by ? quantity_find(name.text + name.at, name.len) : NULL;
     return q && quantity_is_input(q);
 }
 
 /* Makes the range of an input that of the animation; an error if another figure follows something else. */
-static bool move_by(panel_job *job, lexer *lx, said *all, size_t which) {
-    const heard *by = said_of(all, "for", which);
+static bool move_by(panel_job *job, lexer *lx, parsed *all, size_t which) {
+    const given_clause *by = parsed_clause(all, "for", which);
     motion *m = job->m;
     range r;
     job->moved = true;
@@ -406,8 +406,8 @@ static bool run_sweep(panel_job *job, sweep_job *sweeping, const sweep *s) {
     return ok && mark_now(job);
 }
 
-static bool no_second_range(panel_job *job, lexer *lx, said *all) {
-    const heard *second = said_of(all, "for", 1);
+static bool no_second_range(panel_job *job, lexer *lx, parsed *all) {
+    const given_clause *second = parsed_clause(all, "for", 1);
     if (is_moving(job, lx, all, 1))
         return move_by(job, lx, all, 1);
     return !second || calc_fail(lx->error, second->at, second->len,
@@ -439,12 +439,12 @@ static bool make_curves(panel_job *job, lexer *lx, sweep *s) {
 /* The clauses of a statement, or of a row of the table of figures, and a lexer over its text. */
 typedef struct written {
     lexer lx;
-    said *all;
+    parsed *all;
 } written;
 
-static const heard *range_of(said *all) {
-    const heard *by = said_of(all, "for", 0), *along = said_of(all, "along", 0);
-    return by ? by : along ? along : said_of(all, "at", 0);
+static const given_clause *range_of(parsed *all) {
+    const given_clause *by = parsed_clause(all, "for", 0), *along = parsed_clause(all, "along", 0);
+    return by ? by : along ? along : parsed_clause(all, "at", 0);
 }
 
 /* For `residuals`: replaces the range of the curve by the rows of the file. */
@@ -462,11 +462,11 @@ static bool take_residuals(panel_job *job, const lexer *lx, range *r, file_rows 
 /* Reads EXPR, ... [against EXPR], ...: the ordinates, then the abscissas, kept at PLOTTED and on at first. */
 static bool read_curves(panel_job *job, const written *of, column columns[2 * PLOTTED]) {
     shell *sh = job->sh;
-    const heard *h = &of->all->list[0];
+    const given_clause *h = &of->all->list[0];
     lexer own = hole_lexer(&of->lx, &h->hole[0]);
     size_t drawn = 0;
     bool ok = read_expressions(sh, &own, columns, PLOTTED, &job->count);
-    while (ok && at_end(&own) && (h = said_of(of->all, "against", job->abscissas))) {
+    while (ok && at_end(&own) && (h = parsed_clause(of->all, "against", job->abscissas))) {
         const size_t i = PLOTTED + job->abscissas;
         if (drawn == job->count)
             return calc_fail(own.error, h->at, h->len, "expected EXPR before against");
@@ -498,7 +498,7 @@ static bool read_curves(panel_job *job, const written *of, column columns[2 * PL
 }
 
 /* Draws curves. of: has the expressions, and the range, unless the user's statement (lx, all) has one. */
-static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
+static bool draw_sweep(panel_job *job, lexer *lx, parsed *all, written *of) {
     shell *sh = job->sh;
     column columns[2 * PLOTTED] = {{.name = NULL}};
     written own = {*lx, all}, *over = range_of(of->all) ? of : &own;
@@ -516,7 +516,7 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
              ((job->moved && job->figure) || range_options(sh, lx, all, 0, &r, 0));
     ok = ok && take_residuals(job, lx, &r, &at) && follow_load(job->m, &r) && make_curves(job, lx, &r.sweep);
     if (!ok && job->measured)
-        heard_place(lx->error, job->looks->over[0]);
+        given_place(lx->error, job->looks->over[0]);
     if (ok && at.given && !(job->m && job->m->trial))
         rows_say(sh, &at);
     rows_close(&at);
@@ -526,12 +526,13 @@ static bool draw_sweep(panel_job *job, lexer *lx, said *all, written *of) {
 
 /* ---- named figures ----------------------------------------------------------------------------- */
 
-static const char *statement_of(const shell *sh, const figure *f, said *all) {
-    return f->when && f->when(&sh->calc.now->in, said_of(all, "with", 0)) ? f->instead : f->statement;
+static const char *statement_of(const shell *sh, const figure *f, parsed *all) {
+    return f->when && f->when(&sh->calc.now->in, parsed_clause(all, "with", 0)) ? f->instead : f->statement;
 }
 
 /* `along LOAD` behind a figure over a place (`pressure`): the load of the animation; an error in a plot. */
-static bool take_load(panel_job *job, const lexer *lx, const heard *along, const char *place, size_t len) {
+static bool take_load(panel_job *job, const lexer *lx, const given_clause *along, const char *place,
+                      size_t len) {
     const char *name = job->figure->name;
     range r;
     if (!job->m)
@@ -543,34 +544,34 @@ static bool take_load(panel_job *job, const lexer *lx, const heard *along, const
 
 /* Draws the statement of the row. A range in the user's statement replaces the row's and the looks behind
  * that; but if the row has a `for`, the animation just follows a load, or the range of an input. */
-static bool draw_row(panel_job *job, lexer *lx, said *all, written *row) {
-    const heard *over = range_of(row->all), *along = said_of(all, "along", 0);
+static bool draw_row(panel_job *job, lexer *lx, parsed *all, written *row) {
+    const given_clause *over = range_of(row->all), *along = parsed_clause(all, "along", 0);
     const span *place = &over->hole[0];
-    if (row->all->wakes && along && !said_of(all, "for", 0)) {
+    if (row->all->shows_names && along && !parsed_clause(all, "for", 0)) {
         if (!take_load(job, lx, along, row->lx.text + place->at, place->len))
             return false;
-    } else if (row->all->wakes && is_moving(job, lx, all, 0)) {
+    } else if (row->all->shows_names && is_moving(job, lx, all, 0)) {
         if (!move_by(job, lx, all, 0))
             return false;
     } else if (range_of(all)) {
-        said_drop(job->sh, row->all);
+        parsed_drop(job->sh, row->all);
         row->all->count = (unsigned)(over - row->all->list);
     }
     return looks_read(job->sh, &row->lx, row->all, job->p, job->looks) &&
            looks_read(job->sh, lx, all, job->p, job->looks) && draw_sweep(job, lx, all, row);
 }
 
-static bool draw_named(panel_job *job, lexer *lx, said *all) {
+static bool draw_named(panel_job *job, lexer *lx, parsed *all) {
     const char *statement = statement_of(job->sh, job->figure, all);
     calc_error mine = ERROR_NONE;
-    said own;
+    parsed own;
     written row = {.all = &own};
     job->error = &mine;
     lex_start(&row.lx, statement, strlen(statement), &mine);
-    bool ok = said_read(job->sh, &row.lx, all->by, &own);
+    bool ok = parsed_read(job->sh, &row.lx, all->by, &own);
     if (ok) {
         ok = draw_row(job, lx, all, &row);
-        said_drop(job->sh, &own);
+        parsed_drop(job->sh, &own);
     }
     if (mine.raised) { /* its place is one in the row's text */
         *lx->error = mine;
@@ -582,10 +583,10 @@ static bool draw_named(panel_job *job, lexer *lx, said *all) {
 /* ---- figures ----------------------------------------------------------------------------------- */
 
 /* Is the first word the name of a figure, not part of an expression, nor a value's name before a range? */
-static bool is_named(const shell *sh, const figure *f, said *all) {
+static bool is_named(const shell *sh, const figure *f, parsed *all) {
     const size_t len = strlen(f->name);
     size_t own;
-    if (!all->count || all->list[0].hole[0].len != len || said_of(all, "against", 0))
+    if (!all->count || all->list[0].hole[0].len != len || parsed_clause(all, "against", 0))
         return false;
     return !range_of(all) ||
            !(quantity_find(f->name, len) || names_find(&sh->calc.names, f->name, len, &own));
@@ -594,28 +595,28 @@ static bool is_named(const shell *sh, const figure *f, said *all) {
 bool panel_read(shell *sh, lexer *lx, const grammar *row, panel *out) {
     const figure *f = lx->kind == T_NAME ? figure_find(lx->text + lx->at, lx->len) : NULL;
     out->at = lx->at;
-    const bool ok = said_read_some(sh, lx, row, &out->said);
-    out->figure = ok && f && (f->build || is_named(sh, f, &out->said)) ? f : NULL;
+    const bool ok = parsed_read_some(sh, lx, row, &out->parsed);
+    out->figure = ok && f && (f->build || is_named(sh, f, &out->parsed)) ? f : NULL;
     if (!ok)
-        said_drop(sh, &out->said);
-    said_sleep(sh, &out->said); /* other panels must not know its names */
+        parsed_drop(sh, &out->parsed);
+    parsed_hide_names(sh, &out->parsed); /* other panels must not know its names */
     return ok;
 }
 
 bool panel_is_whole(panel *p) {
-    return p->figure || range_of(&p->said);
+    return p->figure || range_of(&p->parsed);
 }
 
 bool panel_is_map(const lexer *lx, const panel *p) {
     if (p->figure)
         return false;
-    const lexer first = hole_lexer(lx, &p->said.list[0].hole[0]);
+    const lexer first = hole_lexer(lx, &p->parsed.list[0].hole[0]);
     return map_at(&first);
 }
 
 bool panel_list(shell *sh, lexer *lx, panel *as) {
-    const bool ok = said_wake(sh, lx, &as->said) && table_map(sh, lx, &as->said);
-    said_sleep(sh, &as->said);
+    const bool ok = parsed_show_names(sh, lx, &as->parsed) && table_map(sh, lx, &as->parsed);
+    parsed_hide_names(sh, &as->parsed);
     return ok;
 }
 
@@ -634,28 +635,28 @@ static bool draw_panel(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *
                      .statement = lx->text,
                      .error = lx->error};
     if (as->figure && !as->figure->build)
-        return draw_named(&job, lx, &as->said);
-    if (!looks_read(sh, lx, &as->said, p, &l))
+        return draw_named(&job, lx, &as->parsed);
+    if (!looks_read(sh, lx, &as->parsed, p, &l))
         return false;
     if (as->figure) {
-        if (!as->figure->build(sh, lx, &as->said, p, &l) || !as->figure->below)
+        if (!as->figure->build(sh, lx, &as->parsed, p, &l) || !as->figure->below)
             return !lx->error->raised;
         p = plot_panel_add(f, lx->error);
         if (!p)
             return calc_place(lx->error, as->at, 1);
         p->below = true;
-        return as->figure->below(sh, lx, &as->said, p, &l);
+        return as->figure->below(sh, lx, &as->parsed, p, &l);
     }
-    lexer first = hole_lexer(lx, &as->said.list[0].hole[0]);
+    lexer first = hole_lexer(lx, &as->parsed.list[0].hole[0]);
     size_t own;
     if (lex_is(&first, "map") && lex_peek(&first) == T_END && !names_find(&sh->calc.names, "map", 3, &own))
         return lex_fail(&first, "expected map EXPR for A = LO .. HI for B = LO .. HI");
-    return map_at(&first) ? map_draw(sh, lx, &as->said, p, &l)
-                          : draw_sweep(&job, lx, &as->said, &(written){*lx, &as->said});
+    return map_at(&first) ? map_draw(sh, lx, &as->parsed, p, &l)
+                          : draw_sweep(&job, lx, &as->parsed, &(written){*lx, &as->parsed});
 }
 
 bool panel_draw(shell *sh, lexer *lx, panel *as, plot_figure *f, motion *m) {
-    const bool ok = said_wake(sh, lx, &as->said) && draw_panel(sh, lx, as, f, m);
-    said_sleep(sh, &as->said);
+    const bool ok = parsed_show_names(sh, lx, &as->parsed) && draw_panel(sh, lx, as, f, m);
+    parsed_hide_names(sh, &as->parsed);
     return ok;
 }

@@ -18,8 +18,8 @@ typedef struct motion {
 
 /* A figure as the statement gives it. */
 typedef struct panel {
-    const struct figure *figure; /* the named figure; NULL: `said` has expressions */
-    said said;
+    const struct figure *figure; /* the named figure; NULL: `parsed` has expressions */
+    parsed parsed;
     size_t at; /* its place in the statement */
 } panel;
 

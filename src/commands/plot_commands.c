@@ -76,12 +76,12 @@ static bool draw_on_page(shell *sh, plot_figure *f, calc_error *error) {
     file_text svg;
     if (!file_text_open(&svg))
         return calc_no_memory(error);
-    const plot_target to = {.out = svg.to, .terminal = PLOT_PAGE, .stop = &shell_stop};
+    const plot_target to = {.out = svg.to, .terminal = PLOT_SVG_INLINE, .stop = &shell_stop};
     const bool ok = plot_draw(f, 1, &to, NULL, error);
     if (!file_text_close(&svg))
         return calc_no_memory(error);
     if (ok)
-        record_apart(sh, PAGE_FIGURE, svg.text);
+        record_replace(sh, PAGE_FIGURE, svg.text);
     free(svg.text);
     return ok;
 }
@@ -133,7 +133,7 @@ static bool draw(shell *sh, lexer *lx, plot_figure *frame, size_t frames, const 
     }
     const bool ok = (on_page && record_alone(sh)) || draw_off_page(sh, lx, frame, frames, file);
     if (on_page)
-        record_together(sh);
+        record_replaced(sh);
     return ok;
 }
 
@@ -147,13 +147,13 @@ typedef struct panels {
 
 static void panels_free(shell *sh, panels *p) {
     while (p->count > 0)
-        said_drop(sh, &p->list[--p->count].said);
+        parsed_drop(sh, &p->list[--p->count].parsed);
     free(p->list);
 }
 
 /* A clause of the last figure, which alone may have `to` and `frames`. */
-static heard *last_said(panels *p, const char *word) {
-    return said_of(&p->list[p->count - 1].said, word, 0);
+static given_clause *last_said(panels *p, const char *word) {
+    return parsed_clause(&p->list[p->count - 1].parsed, word, 0);
 }
 
 static bool read_panels(shell *sh, lexer *lx, const grammar *row, panels *out) {
@@ -166,7 +166,7 @@ static bool read_panels(shell *sh, lexer *lx, const grammar *row, panels *out) {
             return false;
         out->count++;
     } while (lx->kind == T_BAR && !last_said(out, "to") && !last_said(out, "frames"));
-    return said_end(lx, &out->list[out->count - 1].said);
+    return parsed_end(lx, &out->list[out->count - 1].parsed);
 }
 
 static bool draw_panels(shell *sh, lexer *lx, panels *p, plot_figure *f, motion *m) {
@@ -192,8 +192,8 @@ static bool fail_figure(const calc *c, lexer *lx, const grammar *row, const char
         return lex_fail(lx, "unexpected '%.*s': %s is a figure; | puts another beside it", LEX_WORD(lx),
                         near);
     }
-    if (unknown && lead_from(word))
-        return lex_fail(lx, "there is no figure '%s': %s", word, lead_from(word));
+    if (unknown && hint_from(word))
+        return lex_fail(lx, "there is no figure '%s': %s", word, hint_from(word));
     if (near)
         return lex_fail(lx, "there is no figure '%s': did you mean %s?", word, near);
     if (!unknown || (next != T_END && next != T_BAR))
@@ -212,16 +212,16 @@ static bool read_figures(shell *sh, lexer *lx, const grammar *row, const char *w
     if (!read_panels(sh, lx, row, out))
         return false;
     if (!panel_is_whole(&out->list[0]))
-        return !range_hides(lx, &out->list[0].said) && fail_figure(&sh->calc, &begin, row, wants);
-    const heard *to = last_said(out, "to");
+        return !range_hides(lx, &out->list[0].parsed) && fail_figure(&sh->calc, &begin, row, wants);
+    const given_clause *to = last_said(out, "to");
     if (to)
         hole_file(lx, &to->hole[0], file);
-    return !to || plot_check(file, &shell_stop, lx->error) || heard_place(lx->error, to);
+    return !to || plot_check(file, &shell_stop, lx->error) || given_place(lx->error, to);
 }
 
 /* A map under --part: writes its values as the rows of a table. */
 static bool share_map(shell *sh, lexer *lx, panels *p) {
-    const heard *to = last_said(p, "to");
+    const given_clause *to = last_said(p, "to");
     if (to)
         return calc_fail(lx->error, to->at, to->len,
                          "a share of a map is rows, not a picture: they go to standard output, without `to`");
@@ -236,7 +236,7 @@ static bool draw_plot(shell *sh, lexer *lx, plot_figure *f, const char *file) {
     return true;
 }
 
-bool do_plot(shell *sh, lexer *lx, said *all) {
+bool do_plot(shell *sh, lexer *lx, parsed *all) {
     static const char wants[] = "EXPR, ... for NAME = LO .. HI, such as for FN = 1 N .. 9 N";
     char file[FILE_NAME];
     plot_figure f;
@@ -343,7 +343,7 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
     return ok;
 }
 
-bool do_animate(shell *sh, lexer *lx, said *all) {
+bool do_animate(shell *sh, lexer *lx, parsed *all) {
     enum { FRAMES = 80 };
     char file[FILE_NAME];
     movie *m = calloc(1, sizeof *m);
@@ -351,7 +351,7 @@ bool do_animate(shell *sh, lexer *lx, said *all) {
         return calc_no_memory(lx->error);
     *m = (movie){.sh = sh, .lx = lx, .frames = FRAMES, .error = lx->error};
     bool ok = read_figures(sh, lx, all->by, "EXPR, ... along program, or a figure", &m->figures, file);
-    const heard *frames = ok ? last_said(&m->figures, "frames") : NULL;
+    const given_clause *frames = ok ? last_said(&m->figures, "frames") : NULL;
     if (frames)
         m->frames = frames->count;
     ok = ok && run_movie(m, lx, *file ? file : NULL);

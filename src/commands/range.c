@@ -170,12 +170,12 @@ static bool occurs_elsewhere(const char *text, size_t here, const char *name) {
     return false;
 }
 
-static bool read_with(shell *sh, const lexer *lx, const said *all, const heard *h, sweep *s) {
+static bool read_with(shell *sh, const lexer *lx, const parsed *all, const given_clause *h, sweep *s) {
     lexer name = hole_lexer(lx, &h->hole[0]);
     if (!knob_read(&sh->calc, &name, &s->with))
         return false;
     const bool fresh =
-        !s->with.is_input && (sh->calc.names.row[s->with.name].woken || s->with.name >= all->names);
+        !s->with.is_input && (sh->calc.names.row[s->with.name].lent || s->with.name >= all->names);
     if (fresh &&
         !occurs_elsewhere(lx->text, h->hole[0].at, s->with.text)) /* no definition can use a new name */
         snprintf(sh->calc.note, sizeof sh->calc.note, "nothing here depends on %s", s->with.text);
@@ -184,12 +184,12 @@ static bool read_with(shell *sh, const lexer *lx, const said *all, const heard *
     return range_read_values(sh, lx, &h->hole[1], s);
 }
 
-bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps) {
+bool range_options(shell *sh, lexer *lx, const parsed *all, size_t which, range *out, size_t steps) {
     sweep *s = &out->sweep;
     size_t ranges = 0;
     bool given = false;
     s->steps = out->listed ? s->steps : steps;
-    for (const heard *h = all->list; h < all->list + all->count; h++) {
+    for (const given_clause *h = all->list; h < all->list + all->count; h++) {
         const char *word = h->of->name;
         ranges += !strcmp(word, "for");
         if ((ranges ? ranges - 1 : 0) != which)
@@ -215,10 +215,10 @@ bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *o
     return true;
 }
 
-bool range_read_name(shell *sh, lexer *lx, said *all, size_t which, bool takes, range *out) {
+bool range_read_name(shell *sh, lexer *lx, parsed *all, size_t which, bool takes, range *out) {
     sweep *s = &out->sweep;
     sweep_range ends = {.lo = 0};
-    const heard *by = said_of(all, "for", which);
+    const given_clause *by = parsed_clause(all, "for", which);
     start_range(sh, lx, &by->hole[1], out);
     lexer name = hole_lexer(lx, &by->hole[0]), own = out->own;
     if (!(takes ? knob_read : knob_name)(&sh->calc, &name, &s->var) ||
@@ -230,10 +230,10 @@ bool range_read_name(shell *sh, lexer *lx, said *all, size_t which, bool takes, 
     return true;
 }
 
-bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out) {
-    const heard *along = said_of(all, "along", 0), *by = said_of(all, "for", which);
+bool range_read(shell *sh, lexer *lx, parsed *all, size_t which, range *out) {
+    const given_clause *along = parsed_clause(all, "along", 0), *by = parsed_clause(all, "for", which);
     if (along && by) {
-        const heard *later = by->at > along->at ? by : along;
+        const given_clause *later = by->at > along->at ? by : along;
         return calc_fail(lx->error, later->at, later->len,
                          "a range goes for NAME = LO .. HI, or along a load");
     }
@@ -269,15 +269,15 @@ void note_missing(shell *sh, const sweep_job *job) {
 
 /* ---- the rows of a file --------------------------------------------------------------------------- */
 
-bool rows_open(shell *sh, const lexer *lx, said *all, file_rows *out) {
-    const heard *at = said_of(all, "at", 0);
+bool rows_open(shell *sh, const lexer *lx, parsed *all, file_rows *out) {
+    const given_clause *at = parsed_clause(all, "at", 0);
     out->given = at != NULL;
     out->data = (csv){.path = NULL};
     if (!columns_placed(all, lx->error) || !at)
         return !lx->error->raised;
     return (columns_read(lx, all, at, &out->data) &&
-            columns_wake(sh, &out->data, all, &out->names, lx->error)) ||
-           heard_place(lx->error, at);
+            columns_show_names(sh, &out->data, all, &out->names, lx->error)) ||
+           given_place(lx->error, at);
 }
 
 void rows_close(file_rows *r) {
@@ -287,15 +287,15 @@ void rows_close(file_rows *r) {
 }
 
 /* The sweep over the rows sets inputs, and names that the first `count` expressions mention. */
-static bool rows_range(shell *sh, const lexer *lx, said *all, file_rows *r, size_t count, sweep *out) {
+static bool rows_range(shell *sh, const lexer *lx, parsed *all, file_rows *r, size_t count, sweep *out) {
     static const char *const others[] = {"for", "along", "steps", "log"};
-    for (const heard *h = all->list; h < all->list + all->count; h++)
+    for (const given_clause *h = all->list; h < all->list + all->count; h++)
         for (size_t i = 0; i < sizeof others / sizeof *others; i++)
             if (!strcmp(h->of->name, others[i]) && !(i == 3 && h->of->holes)) /* `log x` is a look */
                 return calc_fail(lx->error, h->at, h->len,
                                  "the rows of the file are the range: %s does not go with at FILE",
                                  others[i]);
-    const span *file = &said_of(all, "at", 0)->hole[0];
+    const span *file = &parsed_clause(all, "at", 0)->hole[0];
     if (!columns_load(sh, &r->data, count, &r->names, lx->error))
         return calc_place(lx->error, file->at, file->len);
     if (r->names.count > SWEEP_NAMES)
@@ -315,12 +315,12 @@ static bool rows_range(shell *sh, const lexer *lx, said *all, file_rows *r, size
     return true;
 }
 
-bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t count, range *out) {
-    const heard *at = said_of(all, "at", 0);
+bool range_read_rows(shell *sh, lexer *lx, parsed *all, file_rows *from, size_t count, range *out) {
+    const given_clause *at = parsed_clause(all, "at", 0);
     start_range(sh, lx, &at->hole[0], out);
     if (!rows_range(sh, lx, all, from, count, &out->sweep))
         return false;
-    for (const heard *h = all->list; h < all->list + all->count; h++)
+    for (const given_clause *h = all->list; h < all->list + all->count; h++)
         if (!strcmp(h->of->name, "with") && !read_with(sh, lx, all, h, &out->sweep))
             return false;
     for (size_t i = 0; out->sweep.curves && i < from->at.names; i++)
@@ -330,7 +330,7 @@ bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t co
     return true;
 }
 
-bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over, file_rows *out) {
+bool rows_over(const lexer *lx, const parsed *all, const given_clause *file, sweep *over, file_rows *out) {
     const axis_of axis = {.name = over->var.text, .d = over->var.d};
     out->given = true;
     if (!columns_read(lx, all, file, &out->data))
@@ -340,7 +340,7 @@ bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over,
         calc_fail(lx->error, 0, 0, "%.200s has no column for %s, or more than one", out->data.path,
                   axis.name);
     if (!x || !csv_settle(&out->data, lx->error))
-        return heard_place(lx->error, file);
+        return given_place(lx->error, file);
     out->names.column[0] = (column_knob){over->var, x->v};
     out->names.turned = false;
     out->at = (sweep_rows){1, out->names.column};

@@ -10,8 +10,8 @@
 #include "study/sweep.h"
 
 /* Has an expression swallowed the `for` or `along` of the range, as in `a*for FN = ..`? Then an error. */
-static inline bool range_hides(const lexer *lx, const said *all) {
-    return said_hides(lx, all, "for") || said_hides(lx, all, "along");
+static inline bool range_hides(const lexer *lx, const parsed *all) {
+    return parsed_swallowed(lx, all, "for") || parsed_swallowed(lx, all, "along");
 }
 
 /* The file of `at FILE` or `over FILE residuals`; given: the statement has such a clause. */
@@ -22,12 +22,12 @@ typedef struct file_rows {
     sweep_rows at; /* the sweep over the rows, see sweep.h */
 } file_rows;
 
-/* Reads the file of `at FILE`, if there is one, and makes its columns known to expressions until said_drop.
+/* Reads the file of `at FILE`, if there is one, and makes its columns known to expressions until parsed_drop.
  * Call rows_close afterwards, also after an error. */
-bool rows_open(shell *sh, const lexer *lx, said *all, file_rows *out);
+bool rows_open(shell *sh, const lexer *lx, parsed *all, file_rows *out);
 void rows_close(file_rows *r);
 /* Of `over FILE residuals`: turns a sweep over one name into one over the file's values of that name. */
-bool rows_over(const lexer *lx, const said *all, const heard *file, sweep *over, file_rows *out);
+bool rows_over(const lexer *lx, const parsed *all, const given_clause *file, sweep *over, file_rows *out);
 /* Notes how the file was understood; called when all columns have been read. */
 void rows_say(shell *sh, const file_rows *r);
 
@@ -54,14 +54,14 @@ bool range_read_interval(shell *sh, const lexer *lx, const span *part, const kno
 /* Reads the load of `along LOAD`. */
 bool range_read_along(shell *sh, const lexer *lx, const span *load, range *out);
 /* Reads the which-th `for`, or `along`. Do not copy `out`; the text of the statement must outlive it. */
-bool range_read(shell *sh, lexer *lx, said *all, size_t which, range *out);
+bool range_read(shell *sh, lexer *lx, parsed *all, size_t which, range *out);
 /* The same for a `for` that the statement has; takes: it is an error if the scene has no use for the name. */
-bool range_read_name(shell *sh, lexer *lx, said *all, size_t which, bool takes, range *out);
+bool range_read_name(shell *sh, lexer *lx, parsed *all, size_t which, bool takes, range *out);
 /* Makes a sweep over the rows of `at FILE`, with its `with`, for the first `count` expressions of sh->list.
  * Neither `out` nor `from` may be copied. */
-bool range_read_rows(shell *sh, lexer *lx, said *all, file_rows *from, size_t count, range *out);
+bool range_read_rows(shell *sh, lexer *lx, parsed *all, file_rows *from, size_t count, range *out);
 /* Reads `steps`, `log` and `with` before the next `for`; steps: the number where the statement has none. */
-bool range_options(shell *sh, lexer *lx, const said *all, size_t which, range *out, size_t steps);
+bool range_options(shell *sh, lexer *lx, const parsed *all, size_t which, range *out, size_t steps);
 /* Dimensions of the expressions of a sweep: known where the column has a unit, or from the first value on. */
 typedef struct found {
     dim d[COLUMNS];

@@ -70,8 +70,8 @@ static void put_preset(edit *e, const preset *p, int body) {
 }
 
 /* Takes all arguments of a statement that are inputs. */
-static void gather(edit *e, const said *s) {
-    for (const heard *h = s->list; h < s->list + s->count; h++) {
+static void gather(edit *e, const parsed *s) {
+    for (const given_clause *h = s->list; h < s->list + s->count; h++) {
         if (!h->of->in)
             continue;
         if (h->live)
@@ -83,9 +83,9 @@ static void gather(edit *e, const said *s) {
 
 /* ---- material, second body, friction ----------------------------------------------------------- */
 
-bool do_material(shell *sh, lexer *lx, said *all) {
+bool do_material(shell *sh, lexer *lx, parsed *all) {
     edit e = {.clear = OF_MATERIAL};
-    const heard *named = said_of(all, "", 0);
+    const given_clause *named = parsed_clause(all, "", 0);
     if (named)
         put_preset(&e, preset_row(named->choice), 0);
     gather(&e, all);
@@ -108,9 +108,9 @@ static const input bodies[][2] = {{IN_E0, IN_E0_2}, {IN_G0, IN_G0_2}, {IN_NU, IN
 enum { OF_BODY = sizeof bodies / sizeof *bodies };
 
 /* Is no input of the second body given twice, nor any of a rigid one? Else an error. */
-static bool second_is_valid(lexer *lx, const said *s, bool rigid) {
+static bool second_is_valid(lexer *lx, const parsed *s, bool rigid) {
     bool given[INPUTS] = {false};
-    for (const heard *h = s->list; h < s->list + s->count; h++) {
+    for (const given_clause *h = s->list; h < s->list + s->count; h++) {
         const int of = h->of->in;
         if (!of)
             continue;
@@ -128,9 +128,9 @@ static bool second_is_valid(lexer *lx, const said *s, bool rigid) {
     return true;
 }
 
-bool do_second(shell *sh, lexer *lx, said *all) {
+bool do_second(shell *sh, lexer *lx, parsed *all) {
     edit e = {.clear = OF_SECOND, .second = SECOND_GIVEN};
-    const heard *named = said_of(all, "", 0);
+    const given_clause *named = parsed_clause(all, "", 0);
     gather(&e, all);
     if (!second_is_valid(lx, all, named && named->choice == SECOND_WORDS - 1))
         return false;
@@ -153,16 +153,16 @@ bool do_second(shell *sh, lexer *lx, said *all) {
                : lex_fail(lx, "expected E0=... nu=..., a material, rigid or same");
 }
 
-bool do_friction(shell *sh, lexer *lx, said *all) {
+bool do_friction(shell *sh, lexer *lx, parsed *all) {
     edit e = {.clear = 0};
     edit_put(&e, IN_MU, all->list[0].v.v);
-    return scene_edit(&sh->calc.scene, apply, &e, lx->error) || heard_place(lx->error, &all->list[0]);
+    return scene_edit(&sh->calc.scene, apply, &e, lx->error) || given_place(lx->error, &all->list[0]);
 }
 
 /* Clears all inputs of the rig first: stiffness and offsets that are not given go. */
-bool do_rig(shell *sh, lexer *lx, said *all) {
+bool do_rig(shell *sh, lexer *lx, parsed *all) {
     edit e = {.clear = INPUT_RIG};
-    const heard *none = said_of(all, "none", 0);
+    const given_clause *none = parsed_clause(all, "none", 0);
     gather(&e, all);
     if (none ? all->count > 1 : !has(&e, IN_K_RIG))
         return lex_fail(lx, none ? "without a rig there are no offsets" : "stiffness is missing") ||
@@ -170,7 +170,7 @@ bool do_rig(shell *sh, lexer *lx, said *all) {
     return scene_edit(&sh->calc.scene, apply, &e, lx->error);
 }
 
-bool do_bulk(shell *sh, lexer *lx, said *all) {
+bool do_bulk(shell *sh, lexer *lx, parsed *all) {
     edit e = {.clear = INPUT_BIT(IN_SB)};
     gather(&e, all);
     return all->count ? scene_edit(&sh->calc.scene, apply, &e, lx->error)
@@ -180,7 +180,7 @@ bool do_bulk(shell *sh, lexer *lx, said *all) {
 /* ---- wear -------------------------------------------------------------------------------------- */
 
 /* Archard's alpha_w = K/(mu*H) as a live definition, so that it follows mu. */
-static counted *archard(shell *sh, const heard *K, const heard *H, calc_error *error) {
+static counted *archard(shell *sh, const given_clause *K, const given_clause *H, calc_error *error) {
     char text[100];
     counted *out = NULL;
     lexer own;
@@ -214,7 +214,7 @@ static bool report_limit(shell *sh, calc_error *error) {
 }
 
 /* Adds to Nw, the number of cycles so far. */
-static bool add_cycles(shell *sh, edit *e, const heard *cycles, calc_error *error) {
+static bool add_cycles(shell *sh, edit *e, const given_clause *cycles, calc_error *error) {
     long double Nw = 0;
     if (!calc_takes(&sh->calc, IN_NW, error) || !scene_get(&sh->calc.scene, IN_NW, &Nw, error))
         return false;
@@ -222,14 +222,15 @@ static bool add_cycles(shell *sh, edit *e, const heard *cycles, calc_error *erro
     return true;
 }
 
-bool do_wear(shell *sh, lexer *lx, said *all) {
+bool do_wear(shell *sh, lexer *lx, parsed *all) {
     static const char *const names[] = {"Nw", "Vwear", "a", "c", "p0", NULL};
-    const heard *cycles = said_of(all, "cycles", 0), *K = said_of(all, "K", 0), *H = said_of(all, "H", 0);
-    edit e = {.clear = said_of(all, "none", 0) ? INPUT_BIT(IN_ALPHA_W) | INPUT_BIT(IN_NW) : 0};
+    const given_clause *cycles = parsed_clause(all, "cycles", 0), *K = parsed_clause(all, "K", 0),
+                       *H = parsed_clause(all, "H", 0);
+    edit e = {.clear = parsed_clause(all, "none", 0) ? INPUT_BIT(IN_ALPHA_W) | INPUT_BIT(IN_NW) : 0};
     counted *law = NULL;
     if (!all->count)
         return lex_fail(lx, "wear by what law?") || add_usage(lx->error, all->by);
-    if (said_of(all, "limit", 0))
+    if (parsed_clause(all, "limit", 0))
         return report_limit(sh, lx->error);
     if (!K != !H)
         return lex_fail(lx, "%s is missing: wear K=1e-4 H=2 GPa", K ? "H" : "K");
@@ -441,24 +442,24 @@ static void report_apex(shell *sh, const apex *top) {
 }
 
 /* Writes ` using NAME=COLUMN, ...`, for `show` to repeat. */
-static bool write_using(const lexer *lx, said *all, char text[CHOSEN], calc_error *error) {
-    const heard *h;
+static bool write_using(const lexer *lx, parsed *all, char text[CHOSEN], calc_error *error) {
+    const given_clause *h;
     bool fits = true;
     *text = 0;
-    for (size_t i = 0; (h = said_of(all, "using", i)) && fits; i++)
+    for (size_t i = 0; (h = parsed_clause(all, "using", i)) && fits; i++)
         fits = text_add(text, CHOSEN, "%s%.*s=%.*s", i ? ", " : " using ", (int)h->hole[0].len,
                         lx->text + h->hole[0].at, (int)h->hole[1].len, lx->text + h->hole[1].at);
     return fits || calc_fail(error, 0, 0, "the names of the columns are too long");
 }
 
-static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
+static bool read_gap_file(shell *sh, const lexer *lx, parsed *s, edit *e) {
     char name[FILE_NAME];
-    const heard *smoothly = said_of(s, "smooth", 0);
+    const given_clause *smoothly = parsed_clause(s, "smooth", 0);
     smoothing how = {.by = SMOOTH_NOT};
     smooth_answer smoothed = {.pieces = 0};
     apex top = {.moved = false};
     csv data;
-    how.height = said_of(s, "height", 0) != NULL;
+    how.height = parsed_clause(s, "height", 0) != NULL;
     hole_file(lx, &s->list[0].hole[0], name);
     if (!write_using(lx, s, how.columns, lx->error) ||
         (smoothly && !read_smoothing(sh, lx, &smoothly->hole[0], &how)))
@@ -481,11 +482,11 @@ static bool read_gap_file(shell *sh, const lexer *lx, said *s, edit *e) {
         report_thinning(sh, data.rows, e->table->table);
     smooth_free(&smoothed);
     csv_free(&data);
-    return ok || heard_place(lx->error, &s->list[0]);
+    return ok || given_place(lx->error, &s->list[0]);
 }
 
 /* 1/R = 1/R1 + 1/R2; a negative radius is that of a concave body. */
-static bool put_radii(lexer *lx, edit *e, const heard *R1, const heard *R2) {
+static bool put_radii(lexer *lx, edit *e, const given_clause *R1, const given_clause *R2) {
     if (!R1 || !R2)
         return lex_fail(lx, "give both R1 and R2, or R");
     e->radii[0] = (double)R1->v.v;
@@ -498,7 +499,7 @@ static bool put_radii(lexer *lx, edit *e, const heard *R1, const heard *R2) {
 }
 
 /* The slope of a cone from its angle to the base plane, or to the axis (half). */
-static bool put_angle(lexer *lx, edit *e, const heard *angle, bool half) {
+static bool put_angle(lexer *lx, edit *e, const given_clause *angle, bool half) {
     if (!(angle->v.v > 0 && angle->v.v < 1.5707963267948966 /* 90 deg as a double */))
         return calc_fail(lx->error, angle->hole[0].at, angle->hole[0].len, "%s must lie between 0 and 90 deg",
                          angle->of->name);
@@ -507,9 +508,10 @@ static bool put_angle(lexer *lx, edit *e, const heard *angle, bool half) {
     return true;
 }
 
-static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
-    const heard *angle = said_of(s, "angle", 0), *half = said_of(s, "half_angle", 0),
-                *R1 = said_of(s, "R1", 0), *R2 = said_of(s, "R2", 0), *D = said_of(s, "D", 0);
+static bool put_parameters(lexer *lx, const geometry *g, edit *e, parsed *s) {
+    const given_clause *angle = parsed_clause(s, "angle", 0), *half = parsed_clause(s, "half_angle", 0),
+                       *R1 = parsed_clause(s, "R1", 0), *R2 = parsed_clause(s, "R2", 0),
+                       *D = parsed_clause(s, "D", 0);
     gather(e, s);
     if (D)
         edit_put(e, IN_RADIUS, D->v.v / 2);
@@ -524,7 +526,7 @@ static bool put_parameters(lexer *lx, const geometry *g, edit *e, said *s) {
     return true;
 }
 
-bool do_geometry(shell *sh, lexer *lx, said *all) {
+bool do_geometry(shell *sh, lexer *lx, parsed *all) {
     fret_gap sum;
     const geometry *g = geometry_row(all->row);
     edit e = {.geometry = g};

@@ -32,9 +32,9 @@ static bool knob_column(column *c, const knob *k, calc_error *error) {
 
 /* ---- solve ------------------------------------------------------------------------------------- */
 
-static bool read_solve(shell *sh, const lexer *lx, said *all, solve_question *q) {
+static bool read_solve(shell *sh, const lexer *lx, parsed *all, solve_question *q) {
     sweep_range ends = {.lo = 0};
-    const heard *equation = said_of(all, "for", 0), *from = said_of(all, "from", 0);
+    const given_clause *equation = parsed_clause(all, "for", 0), *from = parsed_clause(all, "from", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     if (!knob_read(&sh->calc, &own, &q->name) || !read_sides(sh, lx, equation))
         return false;
@@ -80,7 +80,7 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
               q->name.text, lo, hi);
 }
 
-bool do_solve(shell *sh, lexer *lx, said *all) {
+bool do_solve(shell *sh, lexer *lx, parsed *all) {
     solve_question q = {.given = false};
     solve_answer a;
     column c = {.name = NULL};
@@ -94,9 +94,9 @@ bool do_solve(shell *sh, lexer *lx, said *all) {
 
 /* ---- maximize, minimize ------------------------------------------------------------------------ */
 
-static bool read_over(shell *sh, const lexer *lx, said *all, optimise_question *q) {
-    const heard *h;
-    for (size_t i = 0; (h = said_of(all, "over", i)); i++) {
+static bool read_over(shell *sh, const lexer *lx, parsed *all, optimise_question *q) {
+    const given_clause *h;
+    for (size_t i = 0; (h = parsed_clause(all, "over", i)); i++) {
         sweep_range ends = {.lo = 0};
         const span *ends_at = &h->hole[1];
         lexer own = hole_lexer(lx, &h->hole[0]);
@@ -144,7 +144,7 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
                   a->sharp && inner ? ", Newton's method" : "", a->evaluations);
 }
 
-static bool optimum(shell *sh, lexer *lx, said *all, bool most) {
+static bool optimum(shell *sh, lexer *lx, parsed *all, bool most) {
     optimise_question q = {.c = &sh->calc, .e = &sh->list[0], .most = most};
     optimise_answer a;
     column columns[OPTIMISE_NAMES + 1] = {{.name = NULL}}, optimised = {.name = NULL};
@@ -165,11 +165,11 @@ static bool optimum(shell *sh, lexer *lx, said *all, bool most) {
     return ok;
 }
 
-bool do_maximize(shell *sh, lexer *lx, said *all) {
+bool do_maximize(shell *sh, lexer *lx, parsed *all) {
     return optimum(sh, lx, all, true);
 }
 
-bool do_minimize(shell *sh, lexer *lx, said *all) {
+bool do_minimize(shell *sh, lexer *lx, parsed *all) {
     return optimum(sh, lx, all, false);
 }
 
@@ -200,9 +200,9 @@ static bool count_sample(void *context, size_t sample, const value v[]) {
     return true;
 }
 
-static bool read_uncertain(shell *sh, const lexer *lx, said *all, uncertainty_question *q) {
-    const heard *h, *samples = said_of(all, "samples", 0), *seed = said_of(all, "seed", 0);
-    for (size_t i = 0; (h = said_of(all, "with", i)); i++) {
+static bool read_uncertain(shell *sh, const lexer *lx, parsed *all, uncertainty_question *q) {
+    const given_clause *h, *samples = parsed_clause(all, "samples", 0), *seed = parsed_clause(all, "seed", 0);
+    for (size_t i = 0; (h = parsed_clause(all, "with", i)); i++) {
         lexer own = hole_lexer(lx, &h->hole[0]);
         if (!read_name(sh, &own, true, UNCERTAIN_NAMES, q->name, &q->count) ||
             !read_deviation(sh, lx, &h->hole[1], &q->name[i], &q->deviation[i]))
@@ -255,7 +255,7 @@ static bool give_sample(void *context, size_t sample, const value v[]) {
     return !ferror(job->t.to.to); /* table_close reports it */
 }
 
-static bool share_samples(shell *sh, lexer *lx, said *all, uncertainty_question *q, uncertainty_answer *a) {
+static bool share_samples(shell *sh, lexer *lx, parsed *all, uncertainty_question *q, uncertainty_answer *a) {
     samples_job job = {.sh = sh, .of = a, .count = q->expressions, .error = lx->error};
     if (!table_open(sh, lx, all, &job.t) ||
         !target_share(sh, &job.t.to, q->samples, &q->from, &q->to, lx->error))
@@ -295,14 +295,14 @@ static bool take_given(csv *file, uncertainty_question *q, const csv_values *giv
     return true;
 }
 
-static bool sum_given(const lexer *lx, const said *all, uncertainty_question *q, uncertainty_answer *a,
-                      const heard *from) {
+static bool sum_given(const lexer *lx, const parsed *all, uncertainty_question *q, uncertainty_answer *a,
+                      const given_clause *from) {
     const csv_values *given[UNCERTAIN_VALUES];
     const double *values[UNCERTAIN_VALUES];
     char is[128], has[128];
     csv file;
     bool ok = columns_read(lx, all, from, &file) &&
-              (take_given(&file, q, given, values, lx->error) || heard_place(lx->error, from)) &&
+              (take_given(&file, q, given, values, lx->error) || given_place(lx->error, from)) &&
               uncertainty(q, a, lx->error);
     for (size_t k = 0; k < q->expressions && ok; k++) {
         dim_describe(a->value[k].d, is, sizeof is);
@@ -386,14 +386,14 @@ static unsigned usual_samples(shell *sh) {
     return reach->swings || inputs_any(&sh->calc.scene.in, INPUT_BIT(IN_NW)) ? 200 : 10000;
 }
 
-bool do_uncertainty(shell *sh, lexer *lx, said *all) {
+bool do_uncertainty(shell *sh, lexer *lx, parsed *all) {
     uncertainty_question q = {.c = &sh->calc, .e = sh->list, .samples = usual_samples(sh), .seed = 1};
     uncertainty_answer *a = calloc(1, sizeof *a);
     column columns[UNCERTAIN_VALUES];
     bool ok = a || calc_no_memory(lx->error);
     ok = ok && read_expressions_in(sh, lx, &all->list[0].hole[0], columns, UNCERTAIN_VALUES, &q.expressions);
     ok = ok && read_uncertain(sh, lx, all, &q);
-    const heard *from = ok ? said_of(all, "from", 0) : NULL;
+    const given_clause *from = ok ? parsed_clause(all, "from", 0) : NULL;
     if (ok && sh->share.of && !from)
         ok = share_samples(sh, lx, all, &q, a);
     else

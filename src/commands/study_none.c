@@ -12,7 +12,7 @@ static bool without(const char *what, calc_error *error) {
     return calc_fail(error, 0, 0, "%s needs GSL, which this program was built without", what);
 }
 
-bool do_fit(shell *sh, lexer *lx, said *all) {
+bool do_fit(shell *sh, lexer *lx, parsed *all) {
     (void)sh;
     return without(all->by->command, lx->error);
 }
@@ -21,12 +21,12 @@ void fit_forget(shell *sh) {
     (void)sh;
 }
 
-bool figure_fit(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+bool figure_fit(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l) {
     (void)sh, (void)all, (void)p, (void)l;
     return without("fit", lx->error);
 }
 
-bool figure_fit_residuals(shell *sh, lexer *lx, said *all, plot_panel *p, const looks *l) {
+bool figure_fit_residuals(shell *sh, lexer *lx, parsed *all, plot_panel *p, const looks *l) {
     return figure_fit(sh, lx, all, p, l);
 }
 

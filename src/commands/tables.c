@@ -4,7 +4,7 @@
 
 #include "statement/progress.h"
 
-bool table_open(shell *sh, const lexer *lx, said *all, si_table *t) {
+bool table_open(shell *sh, const lexer *lx, parsed *all, si_table *t) {
     t->count = 0;
     t->begun = t->lost = false;
     return target_open(sh, lx, all, &t->to);
@@ -18,8 +18,8 @@ bool table_begin(shell *sh, si_table *t, const char *event, calc_error *error) {
     answer_begin_as(&t->a, &sh->set, t->to.to, t->to.format);
     if (t->lost || !columns_distinct(t->column, t->count))
         return calc_no_memory(error);
-    if (target_goes_on(sh, &t->to))
-        answer_goes_on(&t->a, t->column, t->count);
+    if (target_is_continued(sh, &t->to))
+        answer_columns_shared(&t->a, t->column, t->count);
     else if (!answer_columns(&t->a, event, t->column, t->count))
         return calc_no_memory(error);
     return t->begun = true;

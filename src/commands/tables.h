@@ -16,7 +16,7 @@ typedef struct si_table {
 } si_table;
 
 /* Opens the destination. False: the file cannot be written; do not call table_close then. */
-bool table_open(shell *sh, const lexer *lx, said *all, si_table *t);
+bool table_open(shell *sh, const lexer *lx, parsed *all, si_table *t);
 /* Adds a column; running out of memory shows in table_begin. */
 void table_column(si_table *t, const char *name, dim d);
 /* Writes the header, unless another share of the run does. Numbers names that occur more than once. */

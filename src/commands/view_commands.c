@@ -18,12 +18,12 @@ enum { HISTORY = sizeof history_names / sizeof *history_names };
 
 static bool history_rows(scene *s, long double K_rig, answer *a, calc_error *error) {
     scene_trace t;
-    sight now;
+    run_view now;
     if (!trace_begin(&t, s, watch_points(1), true, error))
         return false;
     while (trace_next(&t, error)) {
         const fret_state *at = &now.state;
-        run_sight(t.run, t.levels, &now);
+        run_view_now(t.run, t.levels, &now);
         answer_row(
             a, (const long double[HISTORY]){at->FN, at->dz, at->Fx, at->dx, at->W, at->dx + at->Fx / K_rig});
     }
@@ -31,7 +31,7 @@ static bool history_rows(scene *s, long double K_rig, answer *a, calc_error *err
     return !error->raised;
 }
 
-bool do_history(shell *sh, lexer *lx, said *all) {
+bool do_history(shell *sh, lexer *lx, parsed *all) {
     const fret_contact *contact;
     long double K_rig = INFINITY;
     si_table t;
@@ -233,7 +233,7 @@ static bool run_matrix(shell *sh, table_job *job, const sweep *s, sweep_job *swe
 /* ---- table: the command ------------------------------------------------------------------------- */
 
 /* Runs the sweep and writes its table. at: the sweep goes over the rows of this file; or NULL. */
-static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, file_rows *at, column *columns,
+static bool run_table(shell *sh, lexer *lx, parsed *all, const sweep *s, file_rows *at, column *columns,
                       size_t count) {
     const size_t first = (at ? at->at.names : 1) + (s->curves > 0);
     if (first + (at ? 3 : 1) * count > COLUMNS)
@@ -279,7 +279,7 @@ static bool run_table(shell *sh, lexer *lx, said *all, const sweep *s, file_rows
     return ok;
 }
 
-bool table_map(shell *sh, lexer *lx, said *all) {
+bool table_map(shell *sh, lexer *lx, parsed *all) {
     column c;
     grid_range r;
     const bool ok = map_read(sh, lx, all, &c, &r) && run_table(sh, lx, all, &r.a.sweep, NULL, &c, 1);
@@ -287,7 +287,7 @@ bool table_map(shell *sh, lexer *lx, said *all) {
     return ok;
 }
 
-bool do_table(shell *sh, lexer *lx, said *all) {
+bool do_table(shell *sh, lexer *lx, parsed *all) {
     enum { ROWS = 20, ACROSS = 5 };
     column columns[COLUMNS - 2];
     size_t count = 0;
@@ -296,7 +296,7 @@ bool do_table(shell *sh, lexer *lx, said *all) {
     file_rows at;
     const span *first = &all->list[0].hole[0];
     bool ok = rows_open(sh, lx, all, &at);
-    const bool ranged = at.given || said_of(all, "for", 0) || said_of(all, "along", 0);
+    const bool ranged = at.given || parsed_clause(all, "for", 0) || parsed_clause(all, "along", 0);
     ok = ok && (ranged || (!range_hides(lx, all) &&
                            calc_fail(lx->error, first->at, first->len,
                                      "expected EXPR, ... for NAME = LO .. HI, such as for FN = 1 N .. 9 N")));
@@ -306,7 +306,7 @@ bool do_table(shell *sh, lexer *lx, said *all) {
     else if (ok && at.given)
         ok = range_read_rows(sh, lx, all, &at, count, &r) &&
              run_table(sh, lx, all, &r.sweep, &at, columns, count);
-    else if (ok && said_of(all, "for", 1))
+    else if (ok && parsed_clause(all, "for", 1))
         ok = grid_range_read(sh, lx, all, &two, ROWS, ACROSS) &&
              run_table(sh, lx, all, &two.a.sweep, NULL, columns, count);
     else
@@ -319,10 +319,10 @@ bool do_table(shell *sh, lexer *lx, said *all) {
 
 /* ---- compare ------------------------------------------------------------------------------------ */
 
-bool do_compare(shell *sh, lexer *lx, said *all) {
+bool do_compare(shell *sh, lexer *lx, parsed *all) {
     sweep two = {.along = true};
     bool ok = true;
-    const heard *by = said_of(all, "", 0);
+    const given_clause *by = parsed_clause(all, "", 0);
     if (by) {
         lexer name = hole_lexer(lx, &by->hole[0]);
         ok = knob_known(&sh->calc, &name, &two.with) && range_read_values(sh, lx, &by->hole[1], &two) &&

@@ -160,7 +160,7 @@ static fret_real sum_of(const query *q, int level, size_t i) {
 static fret_real evaluate(query q, const slice *cut) {
     const rings *all = q.all;
     const slice_end end =
-        cut && all->count > 0 ? fret_rings_rim(all, cut) : (slice_end){all->count, 0, false};
+        cut && all->count > 0 ? fret_rings_end(all, cut) : (slice_end){all->count, 0, false};
     int level = 0;
     q.slice = cut ? cut : all->slice;
     q.ends = cut ? &end : all->ends;

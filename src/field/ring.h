@@ -67,7 +67,7 @@ fret_status fret_rings_make(const fret_normal *normal, size_t first, const fret_
 void fret_rings_free(rings *all);
 
 /* The position of a slice's end within the rings. */
-slice_end fret_rings_rim(const rings *all, const slice *s);
+slice_end fret_rings_end(const rings *all, const slice *s);
 
 /* int g' (x^2-r^2)^(m-1) dx over x > r, each slice by its weight. cut: NULL, or a smaller slice in place of
  * the only one that `all` has. */

@@ -146,7 +146,7 @@ static slice_end end_in_steep(const rings *all, fret_real n, const slice *s) {
                        fmaxl(expm1l(2 / n * (PART * i - fall)) / expm1l(2 / n * PART), 0), false};
 }
 
-slice_end fret_rings_rim(const rings *all, const slice *s) {
+slice_end fret_rings_end(const rings *all, const slice *s) {
     static const fret_real NEAR = 0x1p-14L; /* relative; a radius farther out keeps 50 bits of its distance */
     const fret_real start = fret_gap_start(&all->normal->gap);
     slice_end at = all->steep > 0 ? end_in_steep(all, all->steep, s) : end_by_depth(all, all->first_cell, s);
@@ -157,7 +157,7 @@ slice_end fret_rings_rim(const rings *all, const slice *s) {
 static void place_slices(rings *all) {
     size_t next = 0;
     for (size_t i = 0; i < all->slices; i++)
-        all->ends[i] = fret_rings_rim(all, &all->slice[i]);
+        all->ends[i] = fret_rings_end(all, &all->slice[i]);
     for (size_t i = 0; i < all->count; i++) {
         while (next < all->slices && all->ends[next].ring < i)
             next++;

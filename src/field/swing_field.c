@@ -10,7 +10,7 @@ typedef enum weight { ALONG, OUTSIDE, INSIDE } weight;
 typedef struct arc_integral {
     const fret_normal *normal;
     const flat_field *flat;
-    way of;
+    load_path of;
     fret_real r, N;              /* the radius, and the normal force of the contact that ends there */
     fret_real growth, curvature; /* a(N+x) - r = growth x (1 + curvature x); not for powers */
     fret_real from, beyond;
@@ -39,7 +39,7 @@ static fret_real square_rise(const arc_integral *b, fret_real rise, fret_real a)
 
 /* sigma dy/dt; y and the stiffness are functions of the normal force. */
 static fret_real depth_rate(const arc_integral *b, fret_real w, const fret_point *at) {
-    const fret_real turn = -way_fall(&b->of, P, b->from + w);
+    const fret_real turn = -load_path_fall(&b->of, P, b->from + w);
     return fret_normal_closed(b->normal) ? turn * b->normal->q * at->y / at->F : turn / at->K;
 }
 
@@ -47,7 +47,7 @@ static fret_real depth_rate(const arc_integral *b, fret_real w, const fret_point
 static fret_real rate_at(const arc_integral *b, fret_real w, bool but) {
     if (fret_stopped(b->normal))
         return 0;
-    const fret_point at = fret_law_at_force(b->normal, way_at(&b->of, M, b->from + w));
+    const fret_point at = fret_law_at_force(b->normal, load_path_at(&b->of, M, b->from + w));
     const fret_real sum = depth_rate(b, w, &at);
     if (b->weight == INSIDE)
         return sum;
@@ -90,7 +90,7 @@ static fret_real sum_between(arc_integral *b, fret_real lo, fret_real hi) {
         end = fminl(turn, hi);
         b->lo = lo;
         b->hi = end;
-        b->sign = way_fall(&b->of, P, b->from + b->side * (lo + end) / 2) > 0 ? -1 : 1;
+        b->sign = load_path_fall(&b->of, P, b->from + b->side * (lo + end) / 2) > 0 ? -1 : 1;
         sum += b->sign * fret_integral(other_rate, b, 1e-14L).value;
     }
     return sum;
@@ -147,9 +147,10 @@ static fret_real integral(arc_integral *b, fret_real end) {
 /* The sum over one arc: `outside` weights the part whose contacts end inside r, `inside` the other. */
 static fret_real sum_of(arc_integral *b, const arc *p, weight outside, weight inside, fret_real factor) {
     fret_real sum = 0;
-    fret_swing_loads(&p->way, &b->of);
-    const fret_real first = way_at(&b->of, M, p->lo) - b->N, last = way_at(&b->of, M, p->hi) - b->N;
-    b->from = first >= 0 ? p->lo : last <= 0 ? p->hi : way_when(&b->of, M, b->N, p->lo, p->hi);
+    fret_swing_loads(&p->path, &b->of);
+    const fret_real first = load_path_at(&b->of, M, p->lo) - b->N,
+                    last = load_path_at(&b->of, M, p->hi) - b->N;
+    b->from = first >= 0 ? p->lo : last <= 0 ? p->hi : load_path_when(&b->of, M, b->N, p->lo, p->hi);
     b->beyond = first >= 0 ? first : last <= 0 ? last : 0;
     b->weight = outside;
     if (outside != ALONG && b->from > p->lo)

@@ -18,13 +18,13 @@ struct fret_work {
     swung_phase *swung;
 };
 
-static fret_real load_of(const way *w, fret_real s) {
-    return (way_at(w, M, s) + way_at(w, P, s)) / 2;
+static fret_real load_of(const load_path *w, fret_real s) {
+    return (load_path_at(w, M, s) + load_path_at(w, P, s)) / 2;
 }
 
 /* Does the normal force of a way turn in (lo, hi), and when? Once at most while M or P falls. */
-static bool turns(const way *w, fret_real lo, fret_real hi, fret_real *when) {
-    way loads;
+static bool turns(const load_path *w, fret_real lo, fret_real hi, fret_real *when) {
+    load_path loads;
     if (!w->harmonic)
         return false;
     fret_swing_loads(w, &loads);
@@ -39,11 +39,11 @@ static fret_real deepest(const fret_work *w, const slip_phase *p) {
     const fret_real most = fmaxl(p->edge[0], p->edge[1]);
     fret_real when;
     if (p->kind != SWUNG)
-        return p->kind == BY_LOADS ? fret_law_depth(w->normal, most) : most;
+        return p->kind == LINEAR_IN_LOAD ? fret_law_depth(w->normal, most) : most;
     const swung_phase *s = &w->swung[p->swung];
-    fret_real N = fmaxl(load_of(&s->way, s->lo), load_of(&s->way, s->hi));
-    if (turns(&s->way, s->lo, s->hi, &when))
-        N = fmaxl(N, load_of(&s->way, when));
+    fret_real N = fmaxl(load_of(&s->path, s->lo), load_of(&s->path, s->hi));
+    if (turns(&s->path, s->lo, s->hi, &when))
+        N = fmaxl(N, load_of(&s->path, when));
     return fret_law_depth(w->normal, N);
 }
 
@@ -159,7 +159,7 @@ static fret_real straight_rate(fret_real t, fret_real rest, void *context) {
         return 0;
     if (p->kind == GROSS)
         return pressure(a, depth);
-    const coordinate by = p->kind == BY_LOADS ? LOAD : DEPTH;
+    const coordinate by = p->kind == LINEAR_IN_LOAD ? LOAD : DEPTH;
     const fret_real at = by == LOAD ? fret_law_force(a->work->normal, depth) : depth,
                     part = (p->front[0] - at) / (p->front[0] - p->front[1]),
                     edge = p->edge[0] + (p->edge[1] - p->edge[0]) * part;
@@ -178,7 +178,7 @@ static fret_real gross_work(place_asked *a, const slip_phase *p) {
 
 /* The work of the part of a straight phase in which the front lies inside r and the edge outside. */
 static fret_real straight_work(place_asked *a, const slip_phase *p) {
-    const coordinate by = p->kind == BY_LOADS ? LOAD : DEPTH;
+    const coordinate by = p->kind == LINEAR_IN_LOAD ? LOAD : DEPTH;
     const fret_real at = a->at[by], travel = p->front[0] - p->front[1], rise = p->edge[1] - p->edge[0];
     const fret_real crosses = rise != 0 ? (at - p->edge[0]) / rise : 0;
     fret_real from = p->front[0] > at ? (p->front[0] - at) / travel : 0, to = 1;
@@ -213,58 +213,59 @@ static fret_real swung_rate(fret_real t, fret_real rest, void *context) {
     place_asked *a = l->place;
     const fret_normal *n = a->work->normal;
     const fret_real s = l->lo * rest + l->hi * t,
-                    level = p->way.harmonic ? way_at(&p->way, p->which, s)
-                                            : l->end - p->way.span[p->which] * ((l->hi - l->lo) * rest),
+                    level = p->path.harmonic ? load_path_at(&p->path, p->which, s)
+                                             : l->end - p->path.span[p->which] * ((l->hi - l->lo) * rest),
                     inner = fret_swing_other(&p->front, p->which, fminl(level, p->front.last[p->which]));
     const fret_point front = fret_law_at_force(n, (level + inner) / 2);
     if (fret_stopped(n) || !(front.K > 0))
         return 0;
-    return pressure(a, fret_law_depth(n, load_of(&p->way, s))) * carry(a, front.a) *
-           way_fall(&p->way, p->which, s) / front.K;
+    return pressure(a, fret_law_depth(n, load_of(&p->path, s))) * carry(a, front.a) *
+           load_path_fall(&p->path, p->which, s) / front.K;
 }
 
 /* The work while the normal force is monotone, over the times at which the contact reaches beyond r. */
 static fret_real swung_part(place_asked *a, const swung_phase *p, fret_real lo, fret_real hi) {
-    const fret_real N = a->at[LOAD], first = load_of(&p->way, lo), last = load_of(&p->way, hi);
-    way loads = p->way;
+    const fret_real N = a->at[LOAD], first = load_of(&p->path, lo), last = load_of(&p->path, hi);
+    load_path loads = p->path;
     swing_integral s = {a, p, lo, hi, 0};
     if (!(fmaxl(first, last) > N) || !(hi > lo))
         return 0;
     if (fminl(first, last) < N) {
         fret_real when = lo + (hi - lo) * ((N - first) / (last - first));
-        if (p->way.harmonic) {
-            fret_swing_loads(&p->way, &loads);
-            when = way_when(&loads, M, N, lo, hi);
+        if (p->path.harmonic) {
+            fret_swing_loads(&p->path, &loads);
+            when = load_path_when(&loads, M, N, lo, hi);
         }
         *(first < N ? &s.lo : &s.hi) = when;
     }
-    s.end = way_at(&p->way, p->which, s.hi);
+    s.end = load_path_at(&p->path, p->which, s.hi);
     return (s.hi - s.lo) * fret_integral_ends(swung_rate, &s, tolerance(a));
 }
 
 /* The level (M or P, by `which`) of an arc where its normal force is N; infinite if N lies off the arc. */
 static fret_real level_at(const arc *p, int which, fret_real N) {
     const fret_real first = (p->first[M] + p->first[P]) / 2, last = (p->last[M] + p->last[P]) / 2;
-    way loads;
+    load_path loads;
     if (!(N < last))
         return (fret_real)INFINITY;
     if (!(N > first))
         return -(fret_real)INFINITY;
     if (!p->curved)
         return p->first[which] + (p->last[which] - p->first[which]) * ((N - first) / (last - first));
-    fret_swing_loads(&p->way, &loads);
-    return way_at(&p->way, which, way_when(&loads, M, N, p->lo, p->hi));
+    fret_swing_loads(&p->path, &loads);
+    return load_path_at(&p->path, which, load_path_when(&loads, M, N, p->lo, p->hi));
 }
 
 static fret_real swung_work(place_asked *a, const swung_phase *p) {
     const fret_real level = level_at(&p->front, p->which, a->at[LOAD]),
-                    first = way_at(&p->way, p->which, p->lo), last = way_at(&p->way, p->which, p->hi);
-    const fret_real from = level < first ? way_when(&p->way, p->which, level, p->lo, p->hi) : p->lo;
+                    first = load_path_at(&p->path, p->which, p->lo),
+                    last = load_path_at(&p->path, p->which, p->hi);
+    const fret_real from = level < first ? load_path_when(&p->path, p->which, level, p->lo, p->hi) : p->lo;
     fret_real turn;
     if (!(last < level))
         return 0;
-    return turns(&p->way, from, p->hi, &turn) ? swung_part(a, p, from, turn) + swung_part(a, p, turn, p->hi)
-                                              : swung_part(a, p, from, p->hi);
+    return turns(&p->path, from, p->hi, &turn) ? swung_part(a, p, from, turn) + swung_part(a, p, turn, p->hi)
+                                               : swung_part(a, p, from, p->hi);
 }
 
 /* The normal force at which the front's arc has this level. */
@@ -283,14 +284,14 @@ static size_t ends_of(const fret_work *w, const slip_phase *p, fret_real at[FRET
         return p->kind == GROSS ? 2 : 4;
     }
     const swung_phase *s = &w->swung[p->swung];
-    at[0] = load_of(&s->way, s->lo);
-    at[1] = load_of(&s->way, s->hi);
-    at[2] = front_load(s, way_at(&s->way, s->which, s->lo));
-    at[3] = front_load(s, way_at(&s->way, s->which, s->hi));
-    if (!turns(&s->way, s->lo, s->hi, &at[4]))
+    at[0] = load_of(&s->path, s->lo);
+    at[1] = load_of(&s->path, s->hi);
+    at[2] = front_load(s, load_path_at(&s->path, s->which, s->lo));
+    at[3] = front_load(s, load_path_at(&s->path, s->which, s->hi));
+    if (!turns(&s->path, s->lo, s->hi, &at[4]))
         return 4;
-    at[5] = front_load(s, way_at(&s->way, s->which, at[4]));
-    at[4] = load_of(&s->way, at[4]);
+    at[5] = front_load(s, load_path_at(&s->path, s->which, at[4]));
+    at[4] = load_of(&s->path, at[4]);
     return 6;
 }
 
@@ -299,7 +300,7 @@ size_t fret_work_edges(const fret_work *w, size_t phase, fret_real r[FRET_WORK_E
     if (phase >= w->count)
         return 0;
     const slip_phase *p = &w->phase[phase];
-    const bool loads = p->kind == SWUNG || p->kind == BY_LOADS;
+    const bool loads = p->kind == SWUNG || p->kind == LINEAR_IN_LOAD;
     const size_t ends = ends_of(w, p, r);
     for (size_t i = 0; i < ends; i++)
         if (r[i] > 0)

@@ -121,7 +121,7 @@ static void add_hole(attempt *p, const clause *a, unsigned i) {
 }
 
 /* Adds the clauses and arguments that may still follow; first: the row's nameless leading holes as well. */
-static void add_clauses(attempt *p, const lexer *lx, const said *s, bool first) {
+static void add_clauses(attempt *p, const lexer *lx, const parsed *s, bool first) {
     const grammar *f = s->by;
     const clause *awaited = NULL; /* a leading hole that must not be left out */
     for (const clause *a = f->clause; a < f->clause + f->count; a++) {
@@ -131,13 +131,13 @@ static void add_clauses(attempt *p, const lexer *lx, const said *s, bool first) 
             add_hole(p, a, 0);
             awaited = a->optional ? awaited : a;
         } else if (*a->name && (!awaited || (a->group && a->group == awaited->group)) &&
-                   said_may_come(&quiet, s, a)) {
+                   parsed_allows(&quiet, s, a)) {
             add_word(p, a->name, a->argument ? "=" : "");
         }
     }
 }
 
-static hole_kind kind_of(const said *s) {
+static hole_kind kind_of(const parsed *s) {
     return s->open->of->hole[s->hole].row->kind;
 }
 
@@ -154,7 +154,7 @@ static bool dim_in(attempt *p, lexer own, dim *d) {
 }
 
 /* Gets the dimension of the number before the cursor: of what it is assigned to, or of what `=` follows. */
-static bool wanted_dim(attempt *p, const lexer *lx, const said *s, dim *d) {
+static bool wanted_dim(attempt *p, const lexer *lx, const parsed *s, dim *d) {
     const clause *a = s->open->of;
     const bool own = kind_of(s) == HOLE_VALUE && !s->changed.len;
     const quantity *q = own ? quantity_find(a->name, strlen(a->name))
@@ -167,7 +167,7 @@ static bool wanted_dim(attempt *p, const lexer *lx, const said *s, dim *d) {
 
 /* Adds the units for the number before the cursor. Without a blank between them a single candidate is
  * dropped, for the editor would insert it unasked. */
-static void add_units_of_number(attempt *p, const lexer *lx, const said *s) {
+static void add_units_of_number(attempt *p, const lexer *lx, const parsed *s) {
     dim d = DIM_NONE;
     const bool known = wanted_dim(p, lx, s, &d);
     add_units(p, !known, d);
@@ -175,24 +175,24 @@ static void add_units_of_number(attempt *p, const lexer *lx, const said *s) {
         candidates_none(p->out);
 }
 
-static void add_next(attempt *p, const lexer *lx, const said *s);
+static void add_next(attempt *p, const lexer *lx, const parsed *s);
 
 /* In `along cycle ...`, adds the arguments of the load command; false if there is no such command. */
 static bool add_load(attempt *p, lexer own) {
-    said load;
+    parsed load;
     const command *c = command_find(own.text + own.at, own.len);
     own.error = error_quiet();
     lex_next(&own);
     if (!c)
         return false;
-    said_read_some(p->sh, &own, command_form(c), &load);
-    if (said_cut(&own))
+    parsed_read_some(p->sh, &own, command_form(c), &load);
+    if (parsed_at_cursor(&own))
         add_next(p, &own, &load);
     return true;
 }
 
 /* Adds what may follow a part that is complete. */
-static void add_further(attempt *p, const lexer *lx, const said *s) {
+static void add_further(attempt *p, const lexer *lx, const parsed *s) {
     const clause *a = s->open->of;
     const hole_kind kind = kind_of(s);
     const char before = s->hole + 1 < a->holes ? a->hole[s->hole + 1].before : 0;
@@ -214,7 +214,7 @@ static void add_further(attempt *p, const lexer *lx, const said *s) {
 }
 
 /* Adds what may come at the point where the statement was cut off. */
-static void add_next(attempt *p, const lexer *lx, const said *s) {
+static void add_next(attempt *p, const lexer *lx, const parsed *s) {
     if (!s->open) {
         add_clauses(p, lx, s, s->count == 0);
     } else if (s->end == PART_EMPTY) {
@@ -242,12 +242,12 @@ static void add_next(attempt *p, const lexer *lx, const said *s) {
 static void complete_at(attempt *p, size_t begin, size_t start) {
     calc_error error = ERROR_NONE;
     static const char values[] = "EXPR, ..."; /* a statement without a command: a print or an assignment */
-    said s = {.by = grammar_made("", NULL, values, "")};
+    parsed s = {.by = grammar_made("", NULL, values, "")};
     lexer lx;
     lex_start(&lx, p->line + begin, start - begin, &error);
     lx.cut = true;
     p->start = p->out->start = start;
-    if (said_cut(&lx)) {
+    if (parsed_at_cursor(&lx)) {
         add_all(p, command_name);
         add_values(p);
         return;
@@ -260,9 +260,9 @@ static void complete_at(attempt *p, size_t begin, size_t start) {
         if (c && lex_is(&lx, "map")) /* an expression follows */
             lex_next(&lx);
         error_clear(&error);
-        said_read_some(p->sh, &lx, row, &s);
+        parsed_read_some(p->sh, &lx, row, &s);
     } while (c && lx.kind == T_BAR);
-    if (said_cut(&lx))
+    if (parsed_at_cursor(&lx))
         add_next(p, &lx, &s);
 }
 

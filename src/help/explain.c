@@ -640,11 +640,11 @@ static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *
     return text_end(&text, ok) && ok;
 }
 
-bool do_explain(shell *sh, lexer *lx, said *all) {
+bool do_explain(shell *sh, lexer *lx, parsed *all) {
     const expr *e = NULL, *asked = NULL;
     trial *changed = NULL;
     value v = {0};
-    const bool conditioning = said_of(all, "conditioning", 0);
+    const bool conditioning = parsed_clause(all, "conditioning", 0);
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
     const bool alone = own.at + own.len == own.end && !conditioning;
     if (own.kind == T_END)

@@ -271,11 +271,11 @@ static void builtin_help(FILE *to, size_t i) {
 }
 
 static entry lead_entry(size_t i) {
-    return (entry){.name = lead_name(i), .summary = lead_text(i)};
+    return (entry){.name = hint_name(i), .summary = hint_text(i)};
 }
 
 static void lead_help(FILE *to, size_t i) {
-    fprintf(to, "%s: %s\n", lead_name(i), lead_text(i));
+    fprintf(to, "%s: %s\n", hint_name(i), hint_text(i));
 }
 
 static entry topic_entry(size_t i) {
@@ -306,7 +306,7 @@ static const subject subjects[] = {
     {quantity_name, quantity_entry, quantity_help},
     {builtin_name, builtin_entry, builtin_help},
     {figure_name, figure_entry, figure_help},
-    {lead_name, lead_entry, lead_help},
+    {hint_name, lead_entry, lead_help},
     {unit_name, unit_entry, NULL},
 };
 /* clang-format on */
@@ -431,7 +431,7 @@ static size_t list_about(FILE *to, char (*words)[LEX_NAME], bool deep) {
     return count;
 }
 
-const char *help_where(const char *word) {
+const char *help_command_for(const char *word) {
     enum { LEAST = 3 }; /* letters: one or two are found in nearly every entry */
     char words[2][LEX_NAME] = {"", ""};
     snprintf(words[0], LEX_NAME, "%s", word);
@@ -470,7 +470,7 @@ static const char *told_in(const char *word) {
 
 static bool no_help(lexer *lx, const char *word) {
     const char *told = told_in(word), *near = *word ? suggest(word, help_name) : NULL;
-    const bool about = help_where(word) != NULL;
+    const bool about = help_command_for(word) != NULL;
     if (told)
         return lex_fail(lx, "no help on '%s' alone; try: help %s", word, told);
     if (near)
@@ -481,7 +481,7 @@ static bool no_help(lexer *lx, const char *word) {
 }
 
 /* Gets the word that help is wanted on: the second of `geometry cone`, the name in p(r) and FN=100 N. */
-static bool read_word(lexer *lx, const said *all, char word[LEX_NAME]) {
+static bool read_word(lexer *lx, const parsed *all, char word[LEX_NAME]) {
     unsigned i = 0;
     hole_word(lx, &all->list[0], word);
     if (all->count > 1 && command_find(word, strlen(word)))
@@ -501,7 +501,7 @@ static bool read_word(lexer *lx, const said *all, char word[LEX_NAME]) {
     return at_end(lx);
 }
 
-bool do_help(shell *sh, lexer *lx, said *all) {
+bool do_help(shell *sh, lexer *lx, parsed *all) {
     char word[LEX_NAME] = "";
     text_out t;
     if (all->count && !read_word(lx, all, word))
@@ -515,7 +515,7 @@ bool do_help(shell *sh, lexer *lx, said *all) {
     return text_end(&t, true);
 }
 
-bool do_cite(shell *sh, lexer *lx, said *all) {
+bool do_cite(shell *sh, lexer *lx, parsed *all) {
     text_out t;
     (void)all;
     if (!text_begin(&t, sh, TEXT_WORDS, lx->error))
@@ -524,8 +524,8 @@ bool do_cite(shell *sh, lexer *lx, said *all) {
     return text_end(&t, true);
 }
 
-bool do_apropos(shell *sh, lexer *lx, said *all) {
-    char words[HEARD + 1][LEX_NAME] = {""};
+bool do_apropos(shell *sh, lexer *lx, parsed *all) {
+    char words[GIVEN_CLAUSES + 1][LEX_NAME] = {""};
     bool known = true; /* false: a word is too long to be in the name buffers, and so is nothing's name */
     text_out t;
     if (!all->list[0].hole[0].len)

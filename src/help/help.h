@@ -9,6 +9,6 @@
 const char *help_name(size_t i);
 
 /* The command that has something on a word, "help" or "apropos"; NULL if neither has. */
-const char *help_where(const char *word);
+const char *help_command_for(const char *word);
 
 #endif

@@ -85,7 +85,7 @@ static fret_real law_radius(const fret_memory *m) {
 static void law_slips(fret_memory *m, coordinate by, fret_real gain, const slip_front *a, const slip_front *b,
                       fret_real travel) {
     if (travel > 0)
-        fret_slips_add(m->slips, &(slip_phase){.kind = by == DEPTH ? BY_DEPTHS : BY_LOADS,
+        fret_slips_add(m->slips, &(slip_phase){.kind = by == DEPTH ? LINEAR_IN_DEPTH : LINEAR_IN_LOAD,
                                                .edge = {a->edge.y, b->edge.y},
                                                .front = {a->at.y, b->at.y},
                                                .gain = gain});

@@ -9,7 +9,7 @@
  * dm, dm = gain times the fall of the depth of the front. Front and edge move linearly in depth or in load.
  * GROSS: the front is at the centre, and the gain is the whole dm. */
 typedef struct slip_phase {
-    enum { BY_DEPTHS, BY_LOADS, GROSS, SWUNG } kind;
+    enum { LINEAR_IN_DEPTH, LINEAR_IN_LOAD, GROSS, SWUNG } kind;
     fret_real edge[2], front[2], gain;
     size_t swung; /* SWUNG: index into swung[]; the gain is 1 */
 } slip_phase;

@@ -226,8 +226,8 @@ static fret_real displacement_of_front(const fret_springs *s, fret_real z, fret_
                     all = s->held[inside] + touching, x = all > 0 ? missing / all : 0;
     if (deeper > 0 && fabsl(x) <= s->mu_eta * deeper)
         return x;
-    const fret_real way = deeper > 0 || inside == 0 ? x : s->u[inside - 1] + x, sign = way < 0 ? -1 : 1,
-                    want = sign * missing;
+    const fret_real load_path = deeper > 0 || inside == 0 ? x : s->u[inside - 1] + x,
+                    sign = load_path < 0 ? -1 : 1, want = sign * missing;
     slipping = touching * (s->mu_eta * deeper);
     for (size_t i = inside; i-- > 0;) {
         const fret_real sticks = s->held[i + 1];

@@ -12,7 +12,7 @@
 #include "number/real.h"
 
 /* True if two harmonic paths that meet while both coordinates rise are one: then their lags agree too. */
-static bool same_way(const way *a, const way *b) {
+static bool same_way(const load_path *a, const load_path *b) {
     return a->mean == b->mean && a->size[M] == b->size[M] && a->size[P] == b->size[P];
 }
 
@@ -32,7 +32,7 @@ static fret_real noise(const fret_swing *c) {
 fret_real fret_swing_other(const arc *p, int which, fret_real level) {
     const int other = 1 - which;
     if (p->curved)
-        return way_at(&p->way, other, way_when(&p->way, which, level, p->lo, p->hi));
+        return load_path_at(&p->path, other, load_path_when(&p->path, which, level, p->lo, p->hi));
     const fret_real part = (level - p->first[which]) / (p->last[which] - p->first[which]);
     return p->first[other] + (p->last[other] - p->first[other]) * part;
 }
@@ -77,7 +77,7 @@ static fret_status grow(fret_swing *c, const arc *p) {
     arc *top = &c->arcs[c->count - 1];
     if (top->curved != p->curved || fabsl(top->last[M] - p->first[M]) > noise(c) ||
         fabsl(top->last[P] - p->first[P]) > noise(c) ||
-        !(p->curved ? top->hi == p->lo && same_way(&top->way, &p->way) : in_line(c, top, p)))
+        !(p->curved ? top->hi == p->lo && same_way(&top->path, &p->path) : in_line(c, top, p)))
         return append(c, p);
     memcpy(top->last, p->last, sizeof top->last);
     top->hi = p->hi;
@@ -97,7 +97,7 @@ static fret_status cut(fret_swing *c, int which, fret_real level, const fret_rea
             top->last[1 - which] = fret_swing_other(top, which, level);
             top->last[which] = level;
             if (top->curved)
-                top->hi = way_when(&top->way, which, level, top->lo, top->hi);
+                top->hi = load_path_when(&top->path, which, level, top->lo, top->hi);
             top->known = false;
         }
         memcpy(corner, top->last, sizeof corner);
@@ -115,7 +115,7 @@ static fret_status cut(fret_swing *c, int which, fret_real level, const fret_rea
 
 typedef struct slip {
     const fret_swing *curve;
-    const way *way;
+    const load_path *path;
     int which;
     fret_real lo, hi, end; /* end: the level at hi */
 } slip;
@@ -136,11 +136,12 @@ static fret_real slip_rate(fret_real t, fret_real rest, void *context) {
     const slip *l = context;
     const fret_real s = l->lo * rest + l->hi * t;
     /* counted from the end, where the level may be 0 and the rate infinite */
-    const fret_real level = l->way->harmonic ? way_at(l->way, l->which, s)
-                                             : l->end - l->way->span[l->which] * ((l->hi - l->lo) * rest);
-    const fret_real other = way_at(l->way, 1 - l->which, s), inner = curve_other(l->curve, l->which, level);
+    const fret_real level = l->path->harmonic ? load_path_at(l->path, l->which, s)
+                                              : l->end - l->path->span[l->which] * ((l->hi - l->lo) * rest);
+    const fret_real other = load_path_at(l->path, 1 - l->which, s),
+                    inner = curve_other(l->curve, l->which, level);
     return loss_rate(l->curve->normal, (level + other) / 2, (level + inner) / 2, (other - inner) / 2) *
-           way_fall(l->way, l->which, s);
+           load_path_fall(l->path, l->which, s);
 }
 
 /* values of s closer than this, relative to the largest, are one */
@@ -148,19 +149,19 @@ static const fret_real CLOSE = 16 * LDBL_EPSILON;
 
 /* The first s after lo at which a falling coordinate (bits: 1 M, 2 P) reaches an end of one of `count` arcs,
  * or hi. */
-static fret_real next_crossing(const fret_swing *c, size_t count, const way *w, int coordinates, fret_real lo,
-                               fret_real hi) {
+static fret_real next_crossing(const fret_swing *c, size_t count, const load_path *w, int coordinates,
+                               fret_real lo, fret_real hi) {
     const fret_real close = CLOSE * fmaxl(1, fabsl(hi));
     fret_real next = hi;
     for (int which = M; which <= P; which++) {
-        const fret_real from = way_at(w, which, lo), to = way_at(w, which, hi);
+        const fret_real from = load_path_at(w, which, lo), to = load_path_at(w, which, hi);
         if (!(coordinates >> which & 1))
             continue;
         for (size_t i = count; i-- > 0 && c->arcs[i].last[which] > to;) {
             const fret_real level = c->arcs[i].first[which];
             if (!(level > to + noise(c) && level < from - noise(c)))
                 continue;
-            const fret_real s = way_when(w, which, level, lo, hi);
+            const fret_real s = load_path_when(w, which, level, lo, hi);
             if (s > lo + close && s < next - close)
                 next = s;
         }
@@ -171,8 +172,8 @@ static fret_real next_crossing(const fret_swing *c, size_t count, const way *w, 
 /* The end of the next part of an integral. The rate is a power of the level: if the front is near the centre
  * at hi, its singularity is about as near to hi in the complex plane of s. Parts longer than twice that
  * distance are halved. */
-static fret_real part_end(const way *w, int which, fret_real lo, fret_real hi) {
-    const fret_real level = way_at(w, which, hi);
+static fret_real part_end(const load_path *w, int which, fret_real lo, fret_real hi) {
+    const fret_real level = load_path_at(w, which, hi);
     const fret_real distance = w->harmonic ? sqrtl(2 * level / w->size[which]) : level / -w->span[which];
     return hi - lo > 2 * distance && hi - lo > 1e-6L ? (lo + hi) / 2 : hi;
 }
@@ -180,34 +181,34 @@ static fret_real part_end(const way *w, int which, fret_real lo, fret_real hi) {
 /* Adds a phase to the record of slip. */
 static void record(const fret_swing *c, const slip *l) {
     fret_slips *all = c->slips;
-    const arc *front = crossed(c, l->which, way_at(l->way, l->which, (l->lo + l->hi) / 2));
+    const arc *front = crossed(c, l->which, load_path_at(l->path, l->which, (l->lo + l->hi) / 2));
     if (!all || !front)
         return;
     all->failed |= !fret_array_room(&all->swung, &all->swing_room, all->swings + 1, sizeof *all->swung);
     if (all->failed)
         return;
-    all->swung[all->swings] = (swung_phase){*l->way, l->which, l->lo, l->hi, *front};
+    all->swung[all->swings] = (swung_phase){*l->path, l->which, l->lo, l->hi, *front};
     fret_slips_add(all, &(slip_phase){.kind = SWUNG, .gain = 1, .swung = all->swings++});
 }
 
 /* Slip between two values of s, with the front at the level of `which`, which falls. */
-static fret_status slip_between(fret_swing *c, const way *w, int which, fret_real lo, fret_real hi) {
-    slip l = {.curve = c, .way = w, .which = which, .lo = lo};
+static fret_status slip_between(fret_swing *c, const load_path *w, int which, fret_real lo, fret_real hi) {
+    slip l = {.curve = c, .path = w, .which = which, .lo = lo};
     while (l.lo < hi) {
         l.hi = part_end(w, which, l.lo, next_crossing(c, c->count, w, 1 << which, l.lo, hi));
-        l.end = way_at(w, which, l.hi);
+        l.end = load_path_at(w, which, l.hi);
         const fret_real loss = (l.hi - l.lo) * fret_swing_integral(c, slip_rate, &l);
         c->last_loss += loss > 0 ? loss : 0;
         record(c, &l);
         l.lo = l.hi;
     }
-    const fret_real end[2] = {way_at(w, M, hi), way_at(w, P, hi)};
+    const fret_real end[2] = {load_path_at(w, M, hi), load_path_at(w, P, hi)};
     return cut(c, which, end[which], end);
 }
 
 /* 1 if the point on the path lies above the curve, -1 if below, 0 if on it. */
-static int side_of(const fret_swing *c, const way *w, fret_real s) {
-    const fret_real above = way_at(w, P, s) - curve_other(c, M, way_at(w, M, s));
+static int side_of(const fret_swing *c, const load_path *w, fret_real s) {
+    const fret_real above = load_path_at(w, P, s) - curve_other(c, M, load_path_at(w, M, s));
     return fabsl(above) <= 4 * noise(c) ? 0 : above > 0 ? 1 : -1;
 }
 
@@ -226,7 +227,7 @@ static fret_real sample(int i) {
 
 /* Returns the side of the path after lo, and sets *hi to where it leaves that side. If the path begins on the
  * curve, its side is the first one that the first samples find. */
-static int side_until(const fret_swing *c, const way *w, fret_real lo, fret_real *hi) {
+static int side_until(const fret_swing *c, const load_path *w, fret_real lo, fret_real *hi) {
     const fret_real length = *hi - lo;
     fret_real before = lo;
     int side = 0;
@@ -255,7 +256,7 @@ static bool goes_along(const arc *p, int which) {
 
 /* Both coordinates fall: slip is forward above the curve, backward below; along it there is none. Slip
  * changes the curve. */
-static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
+static fret_status both_fall(fret_swing *c, const load_path *w, fret_real lo, fret_real hi) {
     fret_status st = fret_ok();
     const fret_real least = 1e-9L * (hi - lo);
     size_t left = 0; /* 1 if the last arc is the one that slip has just made: its end is no event */
@@ -265,7 +266,7 @@ static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_rea
         const int side = side_until(c, w, lo, &stop);
         stop = fminl(fmaxl(stop, lo + least), crossing); /* progress, against rounding */
         if (side == 0) {
-            const fret_real end[2] = {way_at(w, M, stop), way_at(w, P, stop)};
+            const fret_real end[2] = {load_path_at(w, M, stop), load_path_at(w, P, stop)};
             st = cut(c, M, end[M], end);
         } else {
             st = slip_between(c, w, side > 0 ? M : P, lo, stop);
@@ -277,9 +278,9 @@ static fret_status both_fall(fret_swing *c, const way *w, fret_real lo, fret_rea
 }
 
 /* Follows a part of the path in which both coordinates are monotone. */
-static fret_status go_between(fret_swing *c, const way *w, fret_real lo, fret_real hi) {
-    const fret_real begin[2] = {way_at(w, M, lo), way_at(w, P, lo)},
-                    end[2] = {way_at(w, M, hi), way_at(w, P, hi)};
+static fret_status go_between(fret_swing *c, const load_path *w, fret_real lo, fret_real hi) {
+    const fret_real begin[2] = {load_path_at(w, M, lo), load_path_at(w, P, lo)},
+                    end[2] = {load_path_at(w, M, hi), load_path_at(w, P, hi)};
     bool rises[2], falls[2];
     for (int i = M; i <= P; i++) {
         rises[i] = end[i] - begin[i] > noise(c);
@@ -294,7 +295,7 @@ static fret_status go_between(fret_swing *c, const way *w, fret_real lo, fret_re
     const arc grown = {.first = {begin[M], begin[P]},
                        .last = {end[M], end[P]},
                        .curved = w->harmonic && rises[M] && rises[P],
-                       .way = *w,
+                       .path = *w,
                        .lo = lo,
                        .hi = hi};
     return grow(c, &grown);
@@ -302,8 +303,8 @@ static fret_status go_between(fret_swing *c, const way *w, fret_real lo, fret_re
 
 /* ---- periods and steps ------------------------------------------------------------------------- */
 
-static void make_harmonic(const fret_swing *c, const fret_sine *sine, way *out) {
-    *out = (way){.harmonic = true, .mean = sine->FN};
+static void make_harmonic(const fret_swing *c, const fret_sine *sine, load_path *out) {
+    *out = (load_path){.harmonic = true, .mean = sine->FN};
     const fret_real y = -sine->FNA * sinl(sine->phase), normal = sine->FNA * cosl(sine->phase);
     for (int i = M; i <= P; i++) {
         const fret_real x = normal + (i == M ? -1 : 1) * sine->FA / (fret_real)c->mu;
@@ -313,7 +314,7 @@ static void make_harmonic(const fret_swing *c, const fret_sine *sine, way *out) 
 }
 
 bool fret_swing_fits(const fret_swing *c, const fret_sine *sine, double from) {
-    way w;
+    load_path w;
     make_harmonic(c, sine, &w);
     /* after another part: to the rounding of the time */
     const fret_real little = (from > 0 ? 16 : 4) * DBL_EPSILON * sine->FN, s = 2 * FRET_PI * from;
@@ -322,7 +323,7 @@ bool fret_swing_fits(const fret_swing *c, const fret_sine *sine, double from) {
         return false;
     const fret_real begin[2] = {c->FN - c->Fx / c->mu, c->FN + c->Fx / c->mu};
     for (int i = M; i <= P; i++)
-        if (!(w.size[i] < w.mean * (1 - 1e-12L)) || !(fabsl(way_at(&w, i, s) - begin[i]) <= little))
+        if (!(w.size[i] < w.mean * (1 - 1e-12L)) || !(fabsl(load_path_at(&w, i, s) - begin[i]) <= little))
             return false;
     return true;
 }
@@ -343,7 +344,7 @@ static void add_loss(fret_swing *c) {
 
 /* Finishes a motion. */
 static fret_status finish(fret_swing *c) {
-    fret_swing_know(c);
+    fret_swing_compute_sums(c);
     return fret_unless_stopped(c->normal, fret_ok());
 }
 
@@ -358,7 +359,7 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
     fret_real turn[8] = {lo};
     size_t turns = 1;
     fret_press p;
-    way w;
+    load_path w;
     if (!(from >= 0 && from < to && to <= 1))
         return fret_fail(FRET_OUTSIDE, from >= 0 && from < 1 ? "to" : "from",
                          from >= 0 && from < 1 ? to : from, 1);
@@ -396,7 +397,7 @@ fret_status fret_swing_part(fret_swing *c, const fret_sine *sine, double from, d
 
 /* A straight path in forces, to F_x = mu load. */
 static fret_status go_straight(fret_swing *c, const fret_press *p, fret_real load) {
-    way w = {.harmonic = false};
+    load_path w = {.harmonic = false};
     const fret_real old = c->Fx / c->mu, begin[2] = {c->FN - old, c->FN + old},
                     end[2] = {p->F - load, p->F + load};
     for (int i = M; i <= P; i++) {

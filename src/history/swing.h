@@ -39,17 +39,17 @@ fret_status fret_swing_memory(const fret_swing *swing, fret_memory *out);
 enum { M, P };
 
 /* A path of the load over s: straight over 0..1, or harmonic, each coordinate mean + size cos(s - lag). */
-typedef struct way {
+typedef struct load_path {
     bool harmonic;
     fret_real start[2], span[2];
     fret_real mean, size[2], lag[2];
-} way;
+} load_path;
 
 /* A part of the curve between two points: straight, or curved along a path from s = lo to hi. */
 typedef struct arc {
     fret_real first[2], last[2];
     bool curved;
-    way way;
+    load_path path;
     fret_real lo, hi;
     bool known; /* curved: true once its sums are computed, at the end of a motion */
     fret_real sum[2];
@@ -58,7 +58,7 @@ typedef struct arc {
 /* A phase of slip of a curve with arcs: the coordinate `which` of the path falls from s = lo to hi, and its
  * level crosses the arc `front`. */
 typedef struct swung_phase {
-    way way;
+    load_path path;
     int which;
     fret_real lo, hi;
     arc front;
@@ -91,7 +91,7 @@ static inline fret_real fret_swing_integral(const fret_swing *c, fret_integrand 
 }
 
 /* Computes the sums of changed arcs, so that later queries only read. */
-void fret_swing_know(fret_swing *c);
+void fret_swing_compute_sums(fret_swing *c);
 fret_real fret_swing_dx(const fret_swing *c);
 /* The level of `which` that a slip front reaches at constant F_N when delta_x moves by *left mu eta; *left
  * becomes what remains as gross slip. */
@@ -99,18 +99,18 @@ fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left);
 
 /* ---- ways -------------------------------------------------------------------------------------- */
 
-static inline fret_real way_at(const way *w, int which, fret_real s) {
+static inline fret_real load_path_at(const load_path *w, int which, fret_real s) {
     return w->harmonic ? w->mean + w->size[which] * cosl(s - w->lag[which])
                        : w->start[which] + w->span[which] * s;
 }
 
 /* -d/ds of a coordinate. */
-static inline fret_real way_fall(const way *w, int which, fret_real s) {
+static inline fret_real load_path_fall(const load_path *w, int which, fret_real s) {
     return w->harmonic ? w->size[which] * sinl(s - w->lag[which]) : -w->span[which];
 }
 
 /* A harmonic path in the coordinates N = (M+P)/2, in the place of M, and T = (P-M)/2, of P. */
-void fret_swing_loads(const way *w, way *out);
+void fret_swing_loads(const load_path *w, load_path *out);
 
 /* The angle, moved by whole turns to within pi of `middle`. */
 static inline fret_real turned_to(fret_real angle, fret_real middle) {
@@ -119,7 +119,8 @@ static inline fret_real turned_to(fret_real angle, fret_real middle) {
 }
 
 /* The s between lo and hi where a coordinate, monotone there, has the level. */
-static inline fret_real way_when(const way *w, int which, fret_real level, fret_real lo, fret_real hi) {
+static inline fret_real load_path_when(const load_path *w, int which, fret_real level, fret_real lo,
+                                       fret_real hi) {
     fret_real s;
     if (w->harmonic) {
         const fret_real c = fmaxl(-1, fminl(1, (level - w->mean) / w->size[which]));

@@ -28,13 +28,14 @@ static fret_real compliance(const fret_normal *n, fret_real N) {
 static fret_real along_rate(fret_real t, fret_real rest, void *context) {
     const along *l = context;
     const arc *p = l->arc;
-    const fret_real s = p->lo * rest + p->hi * t, m = way_at(&p->way, M, s), up = way_at(&p->way, P, s);
+    const fret_real s = p->lo * rest + p->hi * t, m = load_path_at(&p->path, M, s),
+                    up = load_path_at(&p->path, P, s);
     const fret_real N = (m + up) / 2, T = (up - m) / 2;
-    const fret_real dT = (way_fall(&p->way, M, s) - way_fall(&p->way, P, s)) / 2;
+    const fret_real dT = (load_path_fall(&p->path, M, s) - load_path_fall(&p->path, P, s)) / 2;
     return (l->energy ? T : 1) * dT * compliance(l->curve->normal, N);
 }
 
-void fret_swing_know(fret_swing *c) {
+void fret_swing_compute_sums(fret_swing *c) {
     for (size_t i = 0; i < c->count; i++) {
         arc *p = &c->arcs[i];
         for (int which = 0; which < 2 && p->curved && !p->known; which++)
@@ -77,8 +78,9 @@ typedef struct passing {
 static fret_real passing_rate(fret_real t, fret_real rest, void *context) {
     const passing *l = context;
     const arc *p = l->arc;
-    const fret_real s = l->from * rest + p->hi * t, N = (way_at(&p->way, M, s) + way_at(&p->way, P, s)) / 2;
-    return -way_fall(&p->way, l->which, s) * compliance(l->curve->normal, N);
+    const fret_real s = l->from * rest + p->hi * t,
+                    N = (load_path_at(&p->path, M, s) + load_path_at(&p->path, P, s)) / 2;
+    return -load_path_fall(&p->path, l->which, s) * compliance(l->curve->normal, N);
 }
 
 static fret_real passed(const fret_swing *c, const arc *p, int which, fret_real from) {
@@ -95,8 +97,9 @@ static fret_real passed_less(fret_real s, fret_real *slope, void *context) {
 /* The level at which the front has passed `rest` of a curved arc, whose whole is `whole`. */
 static fret_real curved_front(const fret_swing *c, const arc *p, int which, fret_real rest, fret_real whole) {
     passing l = {c, p, which, 0, rest};
-    return way_at(&p->way, which,
-                  fret_root(passed_less, &l, p->lo, p->hi, p->hi - (p->hi - p->lo) * sqrtl(rest / whole)));
+    return load_path_at(
+        &p->path, which,
+        fret_root(passed_less, &l, p->lo, p->hi, p->hi - (p->hi - p->lo) * sqrtl(rest / whole)));
 }
 
 fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left) {
@@ -123,8 +126,8 @@ fret_real fret_swing_front(const fret_swing *c, int which, fret_real *left) {
 
 /* ---- springs ----------------------------------------------------------------------------------- */
 
-void fret_swing_loads(const way *w, way *out) {
-    *out = (way){.harmonic = true, .mean = w->mean};
+void fret_swing_loads(const load_path *w, load_path *out) {
+    *out = (load_path){.harmonic = true, .mean = w->mean};
     for (int i = M; i <= P; i++) {
         fret_real x = 0, y = 0;
         for (int j = M; j <= P; j++) {
@@ -139,9 +142,9 @@ void fret_swing_loads(const way *w, way *out) {
 
 /* The s at which the load on a curved arc is N. */
 static fret_real time_of(const arc *p, fret_real N) {
-    way loads;
-    fret_swing_loads(&p->way, &loads);
-    return way_when(&loads, M, N, p->lo, p->hi);
+    load_path loads;
+    fret_swing_loads(&p->path, &loads);
+    return load_path_when(&loads, M, N, p->lo, p->hi);
 }
 
 /* int sigma dy over the part of an arc outside the depth y, where the load is N. */
@@ -268,8 +271,8 @@ fret_status fret_swing_memory(const fret_swing *c, fret_memory *m) {
         fret_real from[2] = {p->first[M], p->first[P]}, to[2];
         for (int j = 1; p->curved && j < SAMPLES; j++) {
             const fret_real s = p->lo + (p->hi - p->lo) * j / (fret_real)SAMPLES;
-            to[M] = way_at(&p->way, M, s);
-            to[P] = way_at(&p->way, P, s);
+            to[M] = load_path_at(&p->path, M, s);
+            to[P] = load_path_at(&p->path, P, s);
             put_layer(m, from, to);
             memcpy(from, to, sizeof from);
         }

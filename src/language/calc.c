@@ -339,7 +339,7 @@ static void note_new_name(calc *c, const char *text, size_t len) {
 
 static bool put_name(calc *c, lexer *lx, const assignment *a) {
     size_t i = a->own;
-    char way[CALC_ERROR_TEXT / 2];
+    char chain[CALC_ERROR_TEXT / 2];
     const char *text = lx->text + a->at;
     if (a->increment)
         return calc_fail(lx->error, a->at, a->len, "+= belongs to step; write %.*s = ...", LEX_SHOWN(a->len),
@@ -349,9 +349,9 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
         if (!names_add(&c->names, text, a->len, &i))
             return calc_no_memory(lx->error);
     }
-    if (a->d && expr_way(c, &a->d->body, a->d->label, way, sizeof way))
+    if (a->d && expr_chain(c, &a->d->body, a->d->label, chain, sizeof chain))
         return calc_fail(lx->error, a->value_at, a->value_len, "a circle of definitions: %s -> %s%s",
-                         a->d->label, way, a->d->label);
+                         a->d->label, chain, a->d->label);
     if (!undo_name(c, i))
         return calc_no_memory(lx->error);
     names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);

@@ -103,9 +103,9 @@ bool calc_undo(calc *c);
 void calc_answered(calc *c, value v);
 
 /* Words from elsewhere in the field, each with a hint to what serves here: row i, or the hint of a word. */
-const char *lead_name(size_t i); /* NULL after the last */
-const char *lead_text(size_t i);
-const char *lead_from(const char *word);
+const char *hint_name(size_t i); /* NULL after the last */
+const char *hint_text(size_t i);
+const char *hint_from(const char *word);
 
 /* Writes "3 um", in a unit that fits. */
 void calc_amount(dim d, long double v, int digits, char *text, size_t size);

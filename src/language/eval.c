@@ -143,7 +143,7 @@ static bool circle(calc *c, const char *label, calc_error *error) {
     while (from > 0 && strcmp(c->chain[from]->label, label))
         from--;
     for (size_t i = from; i < c->chain_length; i++)
-        n += way_step(chain + n, sizeof chain - n, c->chain[i]->label, c->chain[i]->text);
+        n += chain_step(chain + n, sizeof chain - n, c->chain[i]->label, c->chain[i]->text);
     error->circle = true;
     return calc_fail(error, 0, 0, "a circle of definitions: %s%s", chain, label);
 }

@@ -58,8 +58,8 @@ bool expr_value_as(struct calc *c, lexer *lx, const dim *want, value *out);
 bool expr_mentions(const struct calc *c, const expr *e, const quantity *q, const char *name);
 /* Does a live definition of an input mention the name? */
 bool bindings_mention(const struct calc *c, const inputs *in, const char *name);
-/* Does it depend on this name? way: the chain of definitions to it, as "b -> c -> ". */
-bool expr_way(const struct calc *c, const expr *e, const char *name, char *way, size_t size);
+/* Does it depend on this name? chain: the chain of definitions to it, as "b -> c -> ". */
+bool expr_chain(const struct calc *c, const expr *e, const char *name, char *chain, size_t size);
 /* Iterates over the quantities of an expression in order, i = 0, 1, ...: each once, and each call. call: as a
  * function; at: first place. NULL after the last. */
 const quantity *expr_quantity(const expr *e, size_t i, bool *call, size_t *at);

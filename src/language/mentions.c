@@ -5,30 +5,30 @@
 
 #include "language/tree.h"
 
-size_t way_step(char *way, size_t size, const char *name, const char *text) {
+size_t chain_step(char *chain, size_t size, const char *name, const char *text) {
     static const char dots[] = "... -> ";
     if (size < sizeof dots)
         return 0;
-    const int used = snprintf(way, size, text ? "%s := %.80s -> " : "%s -> ", name, text);
+    const int used = snprintf(chain, size, text ? "%s := %.80s -> " : "%s -> ", name, text);
     if (used >= 0 && (size_t)used + sizeof dots <= size)
         return (size_t)used;
-    memcpy(way, dots, sizeof dots);
+    memcpy(chain, dots, sizeof dots);
     return size;
 }
 
-/* way: NULL, or receives the chain of definitions to the name, as "b -> c -> ". Each definition is searched
+/* chain: NULL, or receives the chain of definitions to the name, as "b -> c -> ". Each definition is searched
  * once, and none deeper than CHAIN. */
-static bool mentions(const calc *c, const expr *e, const quantity *q, const char *name, char *way,
+static bool mentions(const calc *c, const expr *e, const quantity *q, const char *name, char *chain,
                      size_t size, int deep) {
     for (size_t i = 0; i < e->count; i++) {
         const expr_node *n = &e->nodes[i];
         if (q && (n->kind == N_QUANTITY || n->kind == N_CALL) && n->q == q)
             return true;
         const bool holds = n->kind == N_AT || n->kind == N_OVER;
-        if (holds && mentions(c, &n->changed->body, q, name, way, size, deep))
+        if (holds && mentions(c, &n->changed->body, q, name, chain, size, deep))
             return true;
         for (size_t j = 0; holds && j < n->changed->count; j++)
-            if (mentions(c, &n->changed->change[j].value, q, name, way, size, deep))
+            if (mentions(c, &n->changed->change[j].value, q, name, chain, size, deep))
                 return true;
         if (n->kind != N_NAME && n->kind != N_APPLY)
             continue;
@@ -39,25 +39,25 @@ static bool mentions(const calc *c, const expr *e, const quantity *q, const char
         if (row->seen || !d || deep > CHAIN)
             continue;
         row->seen = true;
-        const size_t step = way_step(way, size, row->text, NULL);
-        if (mentions(c, &d->body, q, name, way ? way + step : NULL, size - step, deep + 1))
+        const size_t step = chain_step(chain, size, row->text, NULL);
+        if (mentions(c, &d->body, q, name, chain ? chain + step : NULL, size - step, deep + 1))
             return true;
         if (step)
-            way[0] = 0;
+            chain[0] = 0;
     }
     return false;
 }
 
-static bool search(const calc *c, const expr *e, const quantity *q, const char *name, char *way,
+static bool search(const calc *c, const expr *e, const quantity *q, const char *name, char *chain,
                    size_t size) {
     for (size_t i = 0; i < c->names.count; i++)
         c->names.row[i].seen = false;
-    return mentions(c, e, q, name, way, size, 0);
+    return mentions(c, e, q, name, chain, size, 0);
 }
 
-bool expr_way(const calc *c, const expr *e, const char *name, char *way, size_t size) {
-    way[0] = 0;
-    return search(c, e, NULL, name, way, size);
+bool expr_chain(const calc *c, const expr *e, const char *name, char *chain, size_t size) {
+    chain[0] = 0;
+    return search(c, e, NULL, name, chain, size);
 }
 
 bool expr_mentions(const calc *c, const expr *e, const quantity *q, const char *name) {

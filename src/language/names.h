@@ -10,7 +10,7 @@ typedef struct own_name {
     value v;
     counted *definition; /* NULL: a value */
     bool known;          /* it has a value */
-    bool woken;          /* it had no value until a range lent it one */
+    bool lent;           /* it had no value until a range lent it one */
     bool seen;           /* mark of a search through definitions */
 } own_name;
 

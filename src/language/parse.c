@@ -83,7 +83,7 @@ static bool unknown_name(parser *p) {
     lex_word(lx, word);
     if (unit_lookup(lx->text + lx->at, lx->len, &u))
         return lex_fail(lx, "'%s' is a unit: it must follow a number", word);
-    const char *answer = lead_from(word);
+    const char *answer = hint_from(word);
     if (answer)
         return lex_fail(lx, "unknown name '%s': %s", word, answer);
     const char *near = suggest(word, quantity_name);

@@ -50,7 +50,7 @@ struct expr_at {
 
 /* Appends "name -> " or "name := text -> " to a chain of definitions; if there is no room, dots, as the last
  * step. Returns the number of characters used. */
-size_t way_step(char *way, size_t size, const char *name, const char *text);
+size_t chain_step(char *chain, size_t size, const char *name, const char *text);
 
 /* An elementary function of one argument (f) or two (f2). */
 typedef struct builtin {

@@ -11,7 +11,7 @@ enum { UNDO_LEVELS = 1000 }; /* at least kept */
 
 static void entry_end(undo_entry *e) {
     if (e->before)
-        scene_drop(e->before);
+        scene_keep(e->before);
     else
         counted_drop(e->old.definition);
     free(e->before);
@@ -74,9 +74,9 @@ void undo_unmark(calc *c, scene_mark *m) {
     c->undo.promised--;
     if (s->program == m->program && s->end.steps == m->end.steps &&
         inputs_same(&s->in, &m->in, ~(input_set)0))
-        scene_drop(m); /* results are still valid */
+        scene_keep(m); /* results are still valid */
     else
-        scene_back(&c->scene, m);
+        scene_restore(&c->scene, m);
     free(m);
 }
 
@@ -92,7 +92,7 @@ bool undo_name(calc *c, size_t name) {
 
 static void take_back(calc *c, undo_entry *e) {
     if (e->before) {
-        scene_back(&c->scene, e->before);
+        scene_restore(&c->scene, e->before);
         free(e->before);
         return;
     }

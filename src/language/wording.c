@@ -37,15 +37,15 @@ static const struct {
 };
 enum { LEADS = sizeof leads / sizeof *leads };
 
-const char *lead_name(size_t i) {
+const char *hint_name(size_t i) {
     return i < LEADS ? leads[i].word : NULL;
 }
 
-const char *lead_text(size_t i) {
+const char *hint_text(size_t i) {
     return leads[i].answer;
 }
 
-const char *lead_from(const char *word) {
+const char *hint_from(const char *word) {
     for (size_t i = 0; i < LEADS; i++)
         if (!strcmp(word, leads[i].word))
             return leads[i].answer;

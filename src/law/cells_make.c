@@ -270,7 +270,7 @@ static bool make_sphere(maker *mk) {
 static bool make_rows(maker *mk) {
     const struct fret_table *t = mk->gap->table;
     fret_term term[FRET_MOST_TERMS];
-    const size_t first = fret_table_row(t, 0), last = fret_table_rows(t, fret_table_end(t)) - 1;
+    const size_t first = fret_table_row(t, 0), last = fret_table_row_count(t, fret_table_end(t)) - 1;
     fret_real before = 0; /* radius where the last row begins */
     mk->failed = fret_transform_make(t, &mk->all->rule, mk->stop, &mk->rows);
     for (size_t i = first; i < last && mk->start + fret_table_distance(t, i) < mk->end && !mk->failed.code;
@@ -297,7 +297,7 @@ static bool make_rows(maker *mk) {
 static bool make_worn(maker *mk, const struct fret_worn *w, fret_real x) {
     const fret_real last = fminl((mk->end - w->inner) * (mk->end + w->inner), fret_table_end(w->g));
     fret_real at = (x - w->inner) * (x + w->inner), slope[3];
-    for (size_t i = fret_table_rows(w->g, at) - 1; at < last;) {
+    for (size_t i = fret_table_row_count(w->g, at) - 1; at < last;) {
         const fret_real d = at - fret_table_distance(w->g, i),
                         end = fminl(fret_table_distance(w->g, i + 1), last);
         const bool part = x > 0 && x * x / 2 < end - at;

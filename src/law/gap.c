@@ -182,7 +182,7 @@ static fret_profile worn_profile(const fret_gap *gap, const fret_rule *rule, fre
     fret_real c[3];
     if (!(v > 0))
         return fret_gap_profile(&w->of, rule, e);
-    const size_t row = fret_table_rows(w->g, v) - 1;
+    const size_t row = fret_table_row_count(w->g, v) - 1;
     const fret_real x = v - fret_table_distance(w->g, row);
     fret_table_slope(w->g, row, c);
     return (fret_profile){w->at_inner + fret_table_f(w->g, v) + w->lift * v,

@@ -233,7 +233,7 @@ fret_real fret_table_end(const struct fret_table *t) {
     return t->r[t->count - 1];
 }
 
-size_t fret_table_rows(const struct fret_table *t, fret_real r) {
+size_t fret_table_row_count(const struct fret_table *t, fret_real r) {
     return r < fret_table_end(t) ? table_piece(t, r) + 1 : t->count;
 }
 

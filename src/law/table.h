@@ -12,7 +12,7 @@ fret_real fret_table_end(const struct fret_table *table);
 bool fret_table_pointed(const struct fret_table *table); /* f'(0) > 0, like a cone */
 /* f as the sum of factors times r, r^2, r^3, valid up to r; false if there is none. */
 bool fret_table_tip(const struct fret_table *table, fret_real r, fret_real factor[3]);
-size_t fret_table_rows(const struct fret_table *table, fret_real r); /* the number of rows up to r */
+size_t fret_table_row_count(const struct fret_table *table, fret_real r); /* the number of rows up to r */
 fret_real fret_table_f(const struct fret_table *table, fret_real r);
 fret_profile fret_table_profile(const struct fret_table *table, const fret_rule *rule, fret_real e);
 

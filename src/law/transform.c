@@ -83,7 +83,8 @@ static void make_block(fret_transform *t, size_t first, size_t last, fret_stop s
 
 fret_status fret_transform_make(const struct fret_table *table, const fret_rule *rule, fret_stop stop,
                                 fret_transform **out) {
-    const size_t first = fret_table_row(table, 0), last = fret_table_rows(table, fret_table_end(table)) - 1;
+    const size_t first = fret_table_row(table, 0),
+                 last = fret_table_row_count(table, fret_table_end(table)) - 1;
     fret_transform *t = calloc(1, sizeof *t);
     block *blocks = t ? malloc(2 * (last - first) * sizeof *blocks) : NULL;
     if (!blocks) {

@@ -38,7 +38,7 @@ static void step_by(live *l, const char *name, double whole, double factor) {
     }
     live_amount(live_nice(whole / parts) * factor, l->by_displacement ? DIM_LENGTH : DIM_FORCE, by,
                 sizeof by);
-    live_say(l, "step %s+=%s", name, by);
+    live_statement(l, "step %s+=%s", name, by);
 }
 
 static void push(live *l, double factor) {
@@ -67,7 +67,7 @@ static void grade(live *l, double by) {
     char depth[40] = "";
     if (!l->host->calc->scene.in.set[IN_C0]) /* a depth about the contact radius, where the grading matters */
         live_amount(live_nice(number(l, "a", 1e-3)), DIM_LENGTH, depth, sizeof depth);
-    live_say(l, "k = %g%s%s", k, *depth ? ", c0 = " : "", depth);
+    live_statement(l, "k = %g%s%s", k, *depth ? ", c0 = " : "", depth);
 }
 
 static void deepen(live *l, double by) {
@@ -75,11 +75,11 @@ static void deepen(live *l, double by) {
     const double c0 =
         l->host->calc->scene.in.set[IN_C0] ? input_now(l, IN_C0) * by : live_nice(number(l, "a", 1e-3));
     live_amount(c0, DIM_LENGTH, depth, sizeof depth);
-    live_say(l, "c0 = %s", depth);
+    live_statement(l, "c0 = %s", depth);
 }
 
 static void rub(live *l, double by) {
-    live_say(l, "mu = %g", round(100 * (input_now(l, IN_MU) + by)) / 100);
+    live_statement(l, "mu = %g", round(100 * (input_now(l, IN_MU) + by)) / 100);
 }
 
 static void next_shape(live *l) {
@@ -90,7 +90,7 @@ static void next_shape(live *l) {
     size_t i = 0;
     while (g && i < SHAPES && strncmp(shapes[i], g->name, strlen(g->name)))
         i++;
-    live_say(l, "geometry %s", shapes[g ? (i + 1) % SHAPES : 0]);
+    live_statement(l, "geometry %s", shapes[g ? (i + 1) % SHAPES : 0]);
 }
 
 /* ---- the cycle --------------------------------------------------------------------------------- */
@@ -131,7 +131,7 @@ static void phase(live *l) {
 /* ---- the session ------------------------------------------------------------------------------- */
 
 static void undo_last(live *l) {
-    live_say(l, "undo");
+    live_statement(l, "undo");
 }
 
 /* Presses again, which drops all steps after the first press. */
@@ -145,7 +145,7 @@ static void reset(live *l) {
     const quantity *q = quantity_of_input(in);
     char unit_text[40];
     dim_unit(q->d, unit_text, sizeof unit_text);
-    live_say(l, "press %s=%.17g %s", q->name, s->in.v[in], unit_text);
+    live_statement(l, "press %s=%.17g %s", q->name, s->in.v[in], unit_text);
 }
 
 static void ask_line(live *l, const char *prompt, const char *text,
@@ -174,7 +174,7 @@ static void statement_entered(live *l, const char *line) {
     if (!line[strspn(line, " \t")])
         return;
     keep_line(l, line);
-    live_say(l, "%s", line);
+    live_statement(l, "%s", line);
 }
 
 static void statement(live *l) {
@@ -182,7 +182,7 @@ static void statement(live *l) {
 }
 
 static void save_entered(live *l, const char *line) {
-    if (live_say(l, "save \"%s\"", line))
+    if (live_statement(l, "save \"%s\"", line))
         live_tell(l, false, "wrote %.400s", line);
 }
 
@@ -205,8 +205,8 @@ static void picture_entered(live *l, const char *line) {
     char with[LIVE_TEXT] = "";
     if (l->compared.on)
         comparison_text(l, with, sizeof with);
-    if (pushed ? live_say(l, "plot springs%s | loop%s | traction%s to \"%s\"", with, with, with, line)
-               : live_say(l, "plot springs%s | pressure%s to \"%s\"", with, with, line))
+    if (pushed ? live_statement(l, "plot springs%s | loop%s | traction%s to \"%s\"", with, with, with, line)
+               : live_statement(l, "plot springs%s | pressure%s to \"%s\"", with, with, line))
         live_tell(l, false, "wrote %.400s", line);
 }
 
@@ -232,7 +232,7 @@ static void pull_to(live *l, int column) {
     const double x = (2.0 * (column - l->loop.left) + 1 - l->loop.cols) / (l->loop.cols - 1) * l->loop_dx;
     live_amount(x, DIM_LENGTH, to, sizeof to);
     if (fabs(x - now(l)->dx) > 0.6 * l->loop_dx / l->loop.cols)
-        live_say(l, "step dx=%s", to);
+        live_statement(l, "step dx=%s", to);
 }
 
 /* Dragging in the loop steps dx to the mouse. Curses may hand over several events at once, in any order. */

@@ -32,7 +32,7 @@ static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     free(answer);
 }
 
-/* The same as live_say_line, but what plays goes on. */
+/* The same as live_statement_line, but what plays goes on. */
 static bool run_line(live *l, const char *line) {
     char *answer = NULL;
     const bool ok = l->host->run(l->host->self, line, &answer);
@@ -46,7 +46,7 @@ static bool run_line(live *l, const char *line) {
     return ok;
 }
 
-bool live_say(live *l, const char *format, ...) {
+bool live_statement(live *l, const char *format, ...) {
     char line[LIVE_LINE];
     va_list args;
     va_start(args, format);
@@ -56,10 +56,10 @@ bool live_say(live *l, const char *format, ...) {
         live_tell(l, true, "the line is too long");
         return false;
     }
-    return live_say_line(l, line);
+    return live_statement_line(l, line);
 }
 
-bool live_say_line(live *l, const char *line) {
+bool live_statement_line(live *l, const char *line) {
     live_play_end(l);
     return run_line(l, line);
 }
@@ -83,7 +83,7 @@ static bool take_side(live *l, side *s, bool along, calc_error *error) {
         return false;
     }
     s->loses = shot_lost(c, s->now.a, s->lost);
-    return way_follow(&s->way, c, along && items ? items - 1 : NO_ITEM, error);
+    return playback_follow(&s->playback, c, along && items ? items - 1 : NO_ITEM, error);
 }
 
 static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *error) {
@@ -119,7 +119,7 @@ static void update_compared(live *l) {
         s->title[0] = 0;
         if (to->on)
             snprintf(s->title, sizeof s->title, "%s = %s", to->by.text, to_text);
-        way_end(&s->way);
+        playback_end(&s->playback);
     }
 }
 
@@ -160,7 +160,7 @@ void live_begin(live *l) {
             list_word(line, sizeof line, "; ", first[i].statement);
     if (!*line) {
         live_update(l);
-    } else if (live_say(l, "%s", line)) { /* an answer, as with `set timing on`, is not worth a page */
+    } else if (live_statement(l, "%s", line)) { /* an answer, as with `set timing on`, is not worth a page */
         free(l->page);
         l->page = NULL;
     }
@@ -168,17 +168,17 @@ void live_begin(live *l) {
 
 static void walk_side(live *l, side *s, bool (*late)(void)) {
     calc_error error = ERROR_NONE;
-    if (*s->trouble || way_rests(&s->way))
+    if (*s->trouble || playback_idle(&s->playback))
         return;
     l->changed = true;
-    if (!way_on(&s->way, l->host->calc, late, &error))
+    if (!playback_go_on(&s->playback, l->host->calc, late, &error))
         trouble(l, s, &error);
 }
 
 void live_walk(live *l, bool (*late)(void)) {
     for (size_t i = 0; i < live_sides(l); i++) {
         if (l->playing)
-            way_pass(&l->side[i].way, l->play_at);
+            playback_drop_before(&l->side[i].playback, l->play_at);
         walk_side(l, &l->side[i], late);
     }
 }
@@ -227,7 +227,7 @@ static bool goes_on(const live *l) {
 static void one_more(live *l) {
     for (size_t i = 0; i < live_sides(l); i++)
         if (!*l->side[i].trouble)
-            way_more(&l->side[i].way);
+            playback_add_period(&l->side[i].playback);
     l->periods++;
     live_tell(l, false, "%s times %u", l->cycle_as, l->periods);
 }
@@ -235,7 +235,7 @@ static void one_more(live *l) {
 static void start_cycle(live *l) {
     char text[LIVE_TEXT];
     cycle_text(l, text);
-    if (!live_say_line(l, text))
+    if (!live_statement_line(l, text))
         return;
     remember_cycle(l);
     memcpy(l->cycle_as, text, sizeof text);
@@ -281,7 +281,7 @@ void live_play_end(live *l) {
     l->playing = false;
     l->changed = true;
     for (size_t i = 0; i < live_sides(l); i++)
-        way_unwatch(&l->side[i].way);
+        playback_drop_states(&l->side[i].playback);
     if (more && run_line(l, "undo"))
         run_periods(l);
 }
@@ -290,7 +290,7 @@ void live_play_end(live *l) {
 static double ahead(const live *l) {
     double time = INFINITY;
     for (size_t i = 0; i < live_sides(l); i++) {
-        const load_way *w = &l->side[i].way;
+        const playback *w = &l->side[i].playback;
         if (!*l->side[i].trouble)
             time = fmin(time, w->play[w->shots - 1].time);
     }
@@ -301,14 +301,14 @@ static double ahead(const live *l) {
 static bool ready(const live *l) {
     for (size_t i = 0; i < live_sides(l); i++) {
         const side *s = &l->side[i];
-        if (s->stale || (!*s->trouble && s->way.shots + way_done(&s->way) < 2))
+        if (s->stale || (!*s->trouble && s->playback.shots + playback_done(&s->playback) < 2))
             return false;
     }
     return true;
 }
 
 void live_play_on(live *l, double seconds) {
-    const load_way *w = &l->side[0].way;
+    const playback *w = &l->side[0].playback;
     if (!l->playing || (!l->moves && !ready(l)))
         return;
     if (*l->side[0].trouble) {
@@ -320,7 +320,7 @@ void live_play_on(live *l, double seconds) {
         l->play_at = w->play[0].time;
     l->moves = true;
     l->play_at = fmin(l->play_at + seconds * l->speed, ahead(l));
-    if (!way_done(w) || l->play_at < w->play[w->shots - 1].time)
+    if (!playback_done(w) || l->play_at < w->play[w->shots - 1].time)
         return;
     if (l->stops_at_end) {
         live_play_end(l);

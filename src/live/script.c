@@ -53,7 +53,7 @@ void script_on(live *l) {
     const size_t steps = c->scene.end.steps;
     s->before[s->at++] = (struct live_before){c->undo.count, steps};
     take_note(l);
-    if (live_say_line(l, line) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
+    if (live_statement_line(l, line) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
         live_play_item(l);
 }
 
@@ -73,7 +73,7 @@ void script_back(live *l) {
     }
     l->note[0] = 0;
     while (c->undo.count > s->before[to - 1].undo || c->scene.end.steps > s->before[to - 1].steps)
-        if (!live_say(l, "undo"))
+        if (!live_statement(l, "undo"))
             return;
     s->at = to - 1;
     live_tell(l, false, "back before: %s", s->line[s->at]);

@@ -26,7 +26,7 @@ static bool late(void) {
 /* Is there a load to run on? */
 static bool walks(const live *l) {
     for (size_t i = 0; i < live_sides(l); i++)
-        if (!*l->side[i].trouble && !way_rests(&l->side[i].way))
+        if (!*l->side[i].trouble && !playback_idle(&l->side[i].playback))
             return true;
     return false;
 }
@@ -84,7 +84,7 @@ static char *play_script(live *l) {
 
 static void free_live(live *l) {
     for (size_t i = 0; i < COMPARED; i++)
-        way_end(&l->side[i].way);
+        playback_end(&l->side[i].playback);
     for (size_t i = 0; i < l->kept_count; i++)
         free(l->kept[i]);
     free(l->page);

@@ -33,7 +33,7 @@ size_t live_sides(const live *l) {
 }
 
 const shot *side_shown(const live *l, const side *s) {
-    const load_way *w = &s->way;
+    const playback *w = &s->playback;
     if (!l->playing)
         return &s->now;
     if (!w->shots)

@@ -5,7 +5,7 @@
 
 #include "live/canvas.h"
 #include "live/live.h"
-#include "live/way.h"
+#include "live/playback.h"
 
 enum { LIVE_TEXT = 256, LIVE_LINE = 512, KEPT_LINES = 50 };
 
@@ -17,7 +17,7 @@ typedef struct side {
     shot now, before;              /* the present state, and the one before the item that is played */
     bool loses;                    /* lost holds the work of friction in a cycle [J/m^2] */
     double lost[SHOT_SAMPLES + 1]; /* at r = now.a i/SHOT_SAMPLES */
-    load_way way;
+    playback playback;
 } side;
 
 /* A script that is stepped through. */
@@ -87,8 +87,8 @@ const shot *side_shown(const live *l, const side *s);
 
 /* Both end what plays, run a line of statements and show its answer; false: an error. */
 LIKE_PRINTF(2, 3)
-bool live_say(live *l, const char *format, ...);
-bool live_say_line(live *l, const char *line);
+bool live_statement(live *l, const char *format, ...);
+bool live_statement_line(live *l, const char *line);
 /* Call after a change of the scene: marks the sides as stale. live_refresh brings them up to date. */
 void live_update(live *l);
 void live_refresh(live *l);

@@ -60,7 +60,7 @@ static scales scales_of(const live *l) {
         const side *s = &l->side[i];
         if (*s->trouble)
             continue;
-        const extent curve = way_extent(&s->way);
+        const extent curve = playback_extent(&s->playback);
         most.a = fmax(most.a, fmax(curve.a, s->now.a));
         most.bound = fmax(most.bound, fmax(curve.bound, s->now.bound));
         most.dx = fmax(most.dx, fmax(curve.dx, s->now.bound));
@@ -205,7 +205,7 @@ static void draw_loop(const pane *p) {
     draw_dotted(p, INK_BOUND, 0, my - ky * s->slip, p->wide - 1, my - ky * s->slip);
     draw_dotted(p, INK_BOUND, 0, my + ky * s->slip, p->wide - 1, my + ky * s->slip);
     plot_pen path = pen_of(p, "1", INK_CURVE);
-    const track *t = &p->side->way.track;
+    const track *t = &p->side->playback.track;
     const double until = s->time + 1e-9;
     for (size_t i = 0; i + 1 < t->count && t->point[i].time <= until; i++) {
         const track_point *from = &t->point[i], *to = from + 1;
@@ -220,7 +220,7 @@ static void draw_loop(const pane *p) {
 }
 
 static void draw_energies(const pane *p) {
-    const track *t = &p->side->way.track;
+    const track *t = &p->side->playback.track;
     const double begin = t->point[0].time, end = fmax(t->point[t->count - 1].time, begin + 1);
     const double kx = (p->wide - 1) / (end - begin), bottom = p->high - 1, ky = bottom / p->most->energy;
     plot_pen W = pen_of(p, "1", INK_SLIP), U = pen_of(p, "10", INK_OTHER);

@@ -43,7 +43,7 @@ static void find_levels(branches *b, const size_t *at) {
         b->force[i] = turning_level(b->Fx, at[i], from, at[i], b->noise_Fx, false);
         turning wide = turning_about(b->dx, at[i], from, to, fmax(b->noise_dx, b->range / 24));
         if (wide.n > 1) {
-            round_left += turning_left(b->dx, &wide);
+            round_left += turning_residual(b->dx, &wide);
             sharp_left += turning_sharpen(b->dx, &wide);
         }
     }

@@ -183,7 +183,7 @@ double turning_sharpen(const double *v, turning *t) {
     return least;
 }
 
-double turning_left(const double *v, const turning *t) {
+double turning_residual(const double *v, const turning *t) {
     double at[TURNING_MOST] = {0}, c[3], squares = 0;
     for (size_t i = 0; i < t->n; i++)
         at[i] = (double)i;

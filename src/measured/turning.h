@@ -28,7 +28,7 @@ typedef struct turning {
 /* Collects these rows between `from` and `to` and fits a parabola. */
 turning turning_about(const double *v, size_t row, size_t from, size_t to, double noise);
 /* The residual sum of squares of the parabola; INFINITY for one row. */
-double turning_left(const double *v, const turning *t);
+double turning_residual(const double *v, const turning *t);
 /* Fits two lines instead, as a drive of constant speed gives; returns their residuals; INFINITY: failed. */
 double turning_sharpen(const double *v, turning *t);
 /* The value of the fitted curve at `top`, and the weight of row i in it. */

@@ -173,7 +173,7 @@ static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error 
     if (pages.braille)
         return play(NULL, &s, error);
     if (reel->count == 1) /* not for several: pictures cannot replace each other and would scroll */
-        s.kind = t->terminal == PLOT_SIXEL ? &sixel : t->terminal == PLOT_PAGE ? &in_page : NULL;
+        s.kind = t->terminal == PLOT_SIXEL ? &sixel : t->terminal == PLOT_SVG_INLINE ? &in_page : NULL;
     if (s.kind)
         s.pages = NULL;
     if (!plot_run_open(&r, error))

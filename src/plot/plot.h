@@ -121,8 +121,8 @@ bool plot_band(plot_series *s, double x, double y, double y2);
 
 /* ---- the target --------------------------------------------------------------------------------- */
 
-/* PLOT_PAGE: SVG to be embedded in an HTML page. */
-typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL, PLOT_PAGE } plot_terminal;
+/* PLOT_SVG_INLINE: SVG to be embedded in an HTML page. */
+typedef enum plot_terminal { PLOT_AUTO, PLOT_DUMB, PLOT_BLOCK, PLOT_SIXEL, PLOT_SVG_INLINE } plot_terminal;
 
 typedef struct plot_target {
     const char *caption;    /* lines below a picture, as typed, each with a newline; NULL: none */

@@ -134,14 +134,14 @@ static void tell_line(const lesson *l, page_part part, const char *line) {
     char text[LINE], on_page[LINE + 1];
     snprintf(text, sizeof text, "%s%s", part == PAGE_STATEMENT ? "fret> " : "", line);
     snprintf(on_page, sizeof on_page, "%s\n", text + (part == PAGE_WORDS ? strspn(text, "# ") : 0));
-    record_apart(l->sh, part, part == PAGE_TITLE ? text : on_page);
+    record_replace(l->sh, part, part == PAGE_TITLE ? text : on_page);
     answer_begin(&a, &l->set, l->sh->out);
     answer_words(&a, "%s\n", text);
     if (*text) {
         answer_message(&a, "text", text);
         answer_done(&a);
     }
-    record_together(l->sh);
+    record_replaced(l->sh);
 }
 
 static void tell_remark(const lesson *l, const char *line) {
@@ -202,7 +202,7 @@ static void tell_next(const lesson *l) {
 static bool play_lesson(lesson *l) {
     shell *sh = l->sh;
     const bool stopped = sh->stopped, refused = sh->refused, interactive = sh->interactive, waits = sh->waits;
-    const int depth = progress_apart();
+    const int depth = progress_suspend();
     sh->stopped = sh->refused = sh->interactive = false; /* not interactive: an error is one line */
     sh->waits = l->keys;
     tell_line(l, PAGE_TITLE, l->s->title);
@@ -217,7 +217,7 @@ static bool play_lesson(lesson *l) {
     sh->refused |= refused;
     sh->interactive = interactive;
     sh->waits = waits;
-    progress_together(depth);
+    progress_resume(depth);
     if (ok)
         tell_next(l);
     if (l->before)
@@ -255,7 +255,7 @@ static const script *built_in(const char *name, const span *at, calc_error *erro
 }
 
 /* Opens the page before the lesson is played, so that a bad name is known at once. */
-static bool open_page(const lexer *lx, const heard *to, target *t) {
+static bool open_page(const lexer *lx, const given_clause *to, target *t) {
     char name[FILE_NAME];
     hole_file(lx, &to->hole[0], name);
     if (!file_ends(name, ".html"))
@@ -288,16 +288,16 @@ static bool play(shell *sh, lexer *lx, const script *s, bool tour, target *page)
 }
 
 /* A name with a `.` or a `/` is a file, others are built-in lessons. */
-bool do_demo(shell *sh, lexer *lx, said *all) {
+bool do_demo(shell *sh, lexer *lx, parsed *all) {
     lesson_text own = {.title = NULL};
     target page = {.to = NULL};
     char name[FILE_NAME] = "tour";
-    const heard *named = said_of(all, "", 0), *to = said_of(all, "to", 0);
+    const given_clause *named = parsed_clause(all, "", 0), *to = parsed_clause(all, "to", 0);
     if (named)
         hole_file(lx, &named->hole[0], name);
     const bool file = strpbrk(name, "./") != NULL;
     const script *s = file ? NULL : built_in(name, &all->list[0].hole[0], lx->error);
-    bool ok = file ? lesson_read(sh, name, &own, lx->error) || heard_place(lx->error, named) : s != NULL;
+    bool ok = file ? lesson_read(sh, name, &own, lx->error) || given_place(lx->error, named) : s != NULL;
     const script taught = {.title = own.title, .line = (const char *const *)own.line};
     ok = ok && (!to || open_page(lx, to, &page)) && play(sh, lx, s ? s : &taught, !named, &page);
     ok = target_close(sh, lx, &page, ok);

@@ -41,7 +41,7 @@ static char *unquoted(const lexer *lx, size_t at, size_t len) {
     return text;
 }
 
-static bool read_choices(exercise *x, const lexer *lx, const heard *of) {
+static bool read_choices(exercise *x, const lexer *lx, const given_clause *of) {
     lexer own = hole_lexer(lx, &of->hole[0]);
     do {
         if (x->choices)
@@ -88,9 +88,9 @@ static bool name_answer(exercise *x) {
     return x->column.name != NULL;
 }
 
-static bool read_value(exercise *x, const lexer *lx, said *all, const heard *equals) {
+static bool read_value(exercise *x, const lexer *lx, parsed *all, const given_clause *equals) {
     shell *sh = x->sh;
-    const heard *within = said_of(all, "within", 0);
+    const given_clause *within = parsed_clause(all, "within", 0);
     lexer own = hole_lexer(lx, &equals->hole[0]);
     if (!within)
         return calc_fail(lx->error, lx->at, 0, "expected within 5 %%: how far off may a guess be?");
@@ -102,8 +102,9 @@ static bool read_value(exercise *x, const lexer *lx, said *all, const heard *equ
            (!number || sh->list[0].count > 1 || name_answer(x) || calc_no_memory(lx->error));
 }
 
-static bool read_exercise(exercise *x, lexer *lx, said *all) {
-    const heard *equals = said_of(all, "=", 0), *of = said_of(all, "of", 0), *hint = said_of(all, "hint", 0);
+static bool read_exercise(exercise *x, lexer *lx, parsed *all) {
+    const given_clause *equals = parsed_clause(all, "=", 0), *of = parsed_clause(all, "of", 0),
+                       *hint = parsed_clause(all, "hint", 0);
     const span *text = &all->list[0].hole[0];
     if (!(x->text = unquoted(lx, text->at, text->len)) ||
         (hint && !(x->hint = unquoted(lx, hint->hole[0].at, hint->hole[0].len))))
@@ -193,7 +194,7 @@ static bool take_guess(exercise *x, const char *line) {
 
 /* Takes guesses until one is right, or an empty line, the end of the input or Ctrl-C. */
 static void take_guesses(exercise *x) {
-    const int depth = progress_apart();
+    const int depth = progress_suspend();
     bool more = true;
     fflush(x->sh->out);
     printf(REPLY "%s%s, or Enter for the answer\n", x->choices ? "a number" : "a value",
@@ -204,17 +205,17 @@ static void take_guesses(exercise *x) {
         free(line);
     }
     fflush(stdout);
-    progress_together(depth);
+    progress_resume(depth);
 }
 
 /* ---- answers ----------------------------------------------------------------------------------- */
 
 static void tell(exercise *x, page_part part, const char *before, const char *text) {
-    record_apart(x->sh, part, text);
+    record_replace(x->sh, part, text);
     answer a;
     answer_begin(&a, &x->sh->set, x->sh->out);
     answer_words(&a, "%s%s\n", before, text);
-    record_together(x->sh);
+    record_replaced(x->sh);
 }
 
 static void tell_question(exercise *x) {
@@ -225,8 +226,8 @@ static void tell_question(exercise *x) {
         tell(x, PAGE_CHOICE, number, x->choice[i]);
     }
     if (!x->choices)
-        record_apart(x->sh, PAGE_ROOM, "");
-    record_together(x->sh);
+        record_replace(x->sh, PAGE_ROOM, "");
+    record_replaced(x->sh);
 }
 
 static bool write_answer(exercise *x, const settings *set, FILE *to) {
@@ -266,14 +267,14 @@ static bool tell_answer(exercise *x) {
     if (!ok)
         return false;
     text.text[strcspn(text.text, "\n")] = 0;
-    record_apart(x->sh, PAGE_SOLUTION, text.text);
+    record_replace(x->sh, PAGE_SOLUTION, text.text);
     ok = write_answer(x, &x->sh->set, x->sh->out);
-    record_together(x->sh);
+    record_replaced(x->sh);
     free(text.text);
     return ok;
 }
 
-bool do_ask(shell *sh, lexer *lx, said *all) {
+bool do_ask(shell *sh, lexer *lx, parsed *all) {
     exercise x = {.sh = sh};
     bool ok = read_exercise(&x, lx, all);
     if (ok) {

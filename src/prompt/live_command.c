@@ -105,7 +105,7 @@ bool shell_live(shell *sh, const char *path, calc_error *error) {
     return ok;
 }
 
-bool do_live(shell *sh, lexer *lx, said *all) {
+bool do_live(shell *sh, lexer *lx, parsed *all) {
     char name[FILE_NAME];
     const bool script = all->count > 0;
     if (script)

@@ -324,7 +324,7 @@ static int finish_output(shell *sh, int status) {
     status = status == EXIT_OK && sh->lost ? EXIT_ERROR : status;
     errno = 0;
     const bool bad = fflush(sh->out) || ferror(sh->out);
-    if (bad && shell_unread()) {
+    if (bad && output_closed()) {
         shell_free(sh);
         signal(SIGPIPE, SIG_DFL);
         raise(SIGPIPE);

@@ -66,7 +66,7 @@ static bool lacks_all(const calc_error *error) {
     return error->raised && error->kind == ERROR_WORDS && !strncmp(error->text, missing, sizeof missing - 1);
 }
 
-static bool run_row(shell *sh, lexer *lx, const command *c, said *all) {
+static bool run_row(shell *sh, lexer *lx, const command *c, parsed *all) {
     scene_mark *before = NULL;
     if (c->changes && !(before = undo_mark(&sh->calc)))
         return calc_no_memory(lx->error);
@@ -87,14 +87,14 @@ static bool run_row(shell *sh, lexer *lx, const command *c, said *all) {
 static bool run_command(shell *sh, lexer *lx, const command *c) {
     const size_t at = lx->at, len = lx->len;
     const grammar *form = command_form(c);
-    said all;
+    parsed all;
     lex_next(lx);
     const bool bare = lx->kind == T_END;
     if (lx->error->raised && !grammar_first(form, HOLE_FILE))
         return false;
-    said_begin(&all, form);
-    const bool ok = (c->reads || said_read(sh, lx, form, &all)) && run_row(sh, lx, c, &all);
-    said_drop(sh, &all);
+    parsed_begin(&all, form);
+    const bool ok = (c->reads || parsed_read(sh, lx, form, &all)) && run_row(sh, lx, c, &all);
+    parsed_drop(sh, &all);
     if (bare && lacks_all(lx->error))
         add_usage(lx->error, form);
     return ok || calc_place(lx->error, at, lx->end > at + len ? lx->end - at : len);
@@ -117,7 +117,7 @@ static bool assign(shell *sh, lexer *lx) {
 static bool raise_help_page(lexer *lx, const char *word, token_kind after) {
     if (after != T_NAME && after != T_NUMBER && after != T_END)
         return false;
-    const char *where = suggest(word, quantity_name) ? NULL : help_where(word);
+    const char *where = suggest(word, quantity_name) ? NULL : help_command_for(word);
     return where && !lex_fail(lx, "unknown name '%s'; try: %s %s", word, where, word);
 }
 
@@ -128,7 +128,7 @@ static bool raise_lead(lexer *lx, const char *before) {
     while (lx->at + n < lx->end && !strchr(" \t\r\n!", lx->text[lx->at + n]))
         n++;
     snprintf(word, sizeof word, "%s%.*s", before, LEX_SHOWN(n), lx->text + lx->at);
-    const char *lead = lead_from(word);
+    const char *lead = hint_from(word);
     if (!lead)
         return false;
     error_clear(lx->error);
@@ -143,7 +143,7 @@ static bool raise_misspelt(shell *sh, lexer *lx) {
     if (names_find(&sh->calc.names, lx->text + lx->at, lx->len, &i) || name_taken(lx->text + lx->at, lx->len))
         return false;
     lex_word(lx, word);
-    if (lead_from(word)) /* the look-up of the name raises a fuller error */
+    if (hint_from(word)) /* the look-up of the name raises a fuller error */
         return false;
     const token_kind after = lex_peek(lx);
     if (after == T_END && raise_lead(lx, ":"))
@@ -258,7 +258,7 @@ static void show_place(const shell *sh, bool aside, const char *text, size_t len
 void shell_report(shell *sh, const source *from, const char *text, size_t len, size_t line, size_t at,
                   const calc_error *error) {
     fflush(sh->out);
-    if (shell_unread()) /* not reported: the reader of the pipe has gone */
+    if (output_closed()) /* not reported: the reader of the pipe has gone */
         return;
     /* the physical line within a continued one */
     size_t begin = 0;

@@ -9,7 +9,7 @@
 #include "statement/setting_table.h"
 #include "statement/target.h"
 
-bool do_source(shell *sh, lexer *lx, said *all) {
+bool do_source(shell *sh, lexer *lx, parsed *all) {
     enum { NESTING = 16 };
     char name[FILE_NAME];
     hole_file(lx, &all->list[0].hole[0], name);
@@ -18,18 +18,18 @@ bool do_source(shell *sh, lexer *lx, said *all) {
                          NESTING);
     file_in in;
     if (!file_in_open(&in, name, &shell_stop, lx->error))
-        return heard_place(lx->error, &all->list[0]);
+        return given_place(lx->error, &all->list[0]);
     sh->nesting++;
     const int status = shell_stream(sh, &in);
     sh->nesting--;
     return status == EXIT_OK;
 }
 
-bool do_set(shell *sh, lexer *lx, said *all) {
+bool do_set(shell *sh, lexer *lx, parsed *all) {
     return all->by->shape ? setting_apply(sh, lx, all) : show_text(sh, show_settings, lx->error);
 }
 
-bool do_quit(shell *sh, lexer *lx, said *all) {
+bool do_quit(shell *sh, lexer *lx, parsed *all) {
     (void)lx, (void)all;
     sh->quit = true;
     return true;
@@ -48,7 +48,7 @@ static bool is_statements(const lexer *lx, const span *part) {
                      name);
 }
 
-bool do_save(shell *sh, lexer *lx, said *all) {
+bool do_save(shell *sh, lexer *lx, parsed *all) {
     target t;
     const bool history = *all->list[0].of->name;
     const span *name = &all->list[0].hole[0];
@@ -84,9 +84,9 @@ static char *beginning(shell *sh) {
     return NULL;
 }
 
-bool do_record(shell *sh, lexer *lx, said *all) {
+bool do_record(shell *sh, lexer *lx, parsed *all) {
     char name[FILE_NAME];
-    if (said_of(all, "off", 0))
+    if (parsed_clause(all, "off", 0))
         return record_end(sh, true) || lex_fail(lx, "nothing is being recorded");
     hole_file(lx, &all->list[0].hole[0], name);
     if (!record_as_page(name) && !is_statements(lx, &all->list[0].hole[0]))
@@ -96,10 +96,10 @@ bool do_record(shell *sh, lexer *lx, said *all) {
         return calc_no_memory(lx->error);
     const bool ok = record_begin(sh, name, text, lx->error);
     free(text);
-    return ok || heard_place(lx->error, &all->list[0]);
+    return ok || given_place(lx->error, &all->list[0]);
 }
 
-bool do_replay(shell *sh, lexer *lx, said *all) {
+bool do_replay(shell *sh, lexer *lx, parsed *all) {
     char name[FILE_NAME];
     hole_file(lx, &all->list[0].hole[0], name);
     const int status = shell_replay(sh, name, 0, lx->error);
@@ -107,5 +107,5 @@ bool do_replay(shell *sh, lexer *lx, said *all) {
         return true;
     if (!lx->error->raised)
         calc_fail(lx->error, 0, 0, "%s: answers differ", name);
-    return heard_place(lx->error, &all->list[0]);
+    return given_place(lx->error, &all->list[0]);
 }

@@ -406,6 +406,6 @@ bool show_text(shell *sh, show_part *part, calc_error *error) {
     return text_end(&t, ok) && ok;
 }
 
-bool do_show(shell *sh, lexer *lx, said *all) {
+bool do_show(shell *sh, lexer *lx, parsed *all) {
     return show_text(sh, shown[all->count ? all->list[0].choice : 0].show, lx->error); /* 0: the scene */
 }

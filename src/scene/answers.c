@@ -105,7 +105,7 @@ static bool springs_state(scene *s, calc_error *error) {
             st = run_to(r, load.end);
     }
     if (!st.code)
-        run_sight(run, levels, &s->answers.end);
+        run_view_now(run, levels, &s->answers.end);
     runs_end(run, &made);
     return calc_status(error, st);
 }
@@ -123,7 +123,7 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
         if (springs && !springs_state(s, error))
             return false;
         if (!springs)
-            run_sight(s->now ? s->now->run : a->run, s->now ? s->now->levels : a->levels, &a->end);
+            run_view_now(s->now ? s->now->run : a->run, s->now ? s->now->levels : a->levels, &a->end);
         a->state_ready = true;
     }
     s->used = used | USED(springs ? MODEL_SPRINGS : MODEL_MEMORY);

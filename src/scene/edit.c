@@ -45,12 +45,12 @@ bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_er
     if (same)
         answers_pass_contact(&s->answers, &before.answers);
     if (all_holds(s, &mine)) {
-        scene_drop(&before);
+        scene_keep(&before);
         return true;
     }
     if (same)
         answers_pass_contact(&before.answers, &s->answers);
-    scene_back(s, &before);
+    scene_restore(s, &before);
     *error = mine;
     return false;
 }
@@ -60,10 +60,10 @@ static bool start_program(scene *s, const load_step *press, calc_error *error) {
     const fret_press *p;
     scene_save(s, &before, true);
     if (scene_append(s, press, NULL, error) && scene_press(s, &p, error)) {
-        scene_drop(&before);
+        scene_keep(&before);
         return true;
     }
-    scene_back(s, &before);
+    scene_restore(s, &before);
     return false;
 }
 

@@ -326,7 +326,7 @@ static bool next_chord(runner *r) {
 }
 
 /* Do two periods end equally, so that W is exact to 1e-15 if the second stands for `left` more? */
-static bool periods_repeat(const sight *a, const sight *b, unsigned left) {
+static bool periods_repeat(const run_view *a, const run_view *b, unsigned left) {
     const long double little = 1e-15L, reach = fabsl(b->state.dx) + fabsl(b->state.dz);
     return a->state.slices == b->state.slices && fabsl(a->state.FN - b->state.FN) <= little * b->state.FN &&
            fabsl(a->state.Fx - b->state.Fx) <= little * fabsl(b->state.Fx) &&
@@ -341,7 +341,7 @@ static void skip_repeats(runner *r) {
     const bool seen = r->watch.kind != WATCH_NOTHING && !r->watch.once;
     if (seen || !left)
         return;
-    sight now = {.loss = r->cycle_loss};
+    run_view now = {.loss = r->cycle_loss};
     engine_forces(&r->engine, &now.state);
     k->alike = k->period > 1 && periods_repeat(&k->last, &now, left) ? k->alike + 1 : 0;
     k->last = now;
@@ -578,7 +578,7 @@ long double run_unsure(const long double at[LEVELS]) {
 }
 
 /* Writes the limit of one member of the states at all levels. */
-static void to_limit(const sight at[LEVELS], size_t member, fret_state *out) {
+static void to_limit(const run_view at[LEVELS], size_t member, fret_state *out) {
     long double v[LEVELS], unused;
     for (unsigned i = 0; i < LEVELS; i++)
         memcpy(&v[i], (const char *)&at[i].state + member, sizeof v[i]);
@@ -586,7 +586,7 @@ static void to_limit(const sight at[LEVELS], size_t member, fret_state *out) {
     memcpy((char *)out + member, &v[0], sizeof v[0]);
 }
 
-static void sight_limit(const sight at[LEVELS], sight *out) {
+static void sight_limit(const run_view at[LEVELS], run_view *out) {
     const long double loss[LEVELS] = {at[0].loss, at[1].loss, at[2].loss};
     long double unused;
     out->state = at[LEVELS - 1].state;
@@ -597,8 +597,8 @@ static void sight_limit(const sight at[LEVELS], sight *out) {
     out->loss = run_limit(loss, &unused);
 }
 
-void run_sight(const runner run[], unsigned levels, sight *out) {
-    sight at[LEVELS];
+void run_view_now(const runner run[], unsigned levels, run_view *out) {
+    run_view at[LEVELS];
     unsigned i = 0;
     do {
         engine_state(&run[i].engine, &at[i].state);

@@ -69,10 +69,10 @@ long double run_limit(const long double at[LEVELS], long double *moved);
 long double run_unsure(const long double at[LEVELS]);
 
 /* What a look shows: the state, and the loss of the last period. */
-typedef struct sight {
+typedef struct run_view {
     fret_state state;
     long double loss;
-} sight;
+} run_view;
 
 /* The position of a run within a cycle. */
 enum { RUN_NODES = 24 };
@@ -87,7 +87,7 @@ typedef struct run_place {
     unsigned part, parts; /* chords done in it, and all; at constant F_N: branches */
     size_t node, nodes;
     double at[RUN_NODES];
-    sight last; /* at the end of the period before */
+    run_view last; /* at the end of the period before */
 } run_place;
 
 typedef struct runner {
@@ -113,7 +113,7 @@ typedef struct runner {
 } runner;
 
 /* The present state of one run, or the limit of runs at all levels at the same instant. */
-void run_sight(const runner run[], unsigned levels, sight *out);
+void run_view_now(const runner run[], unsigned levels, run_view *out);
 /* Ends all runs and sets *levels to 0. */
 void runs_end(runner run[], unsigned *levels);
 

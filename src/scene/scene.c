@@ -148,14 +148,14 @@ void scene_save(scene *s, scene_mark *m, bool move) {
     }
 }
 
-void scene_drop(scene_mark *m) {
+void scene_keep(scene_mark *m) {
     inputs_drop(&m->in);
     counted_drop(m->program);
     m->program = NULL;
     answers_end(&m->answers, false);
 }
 
-void scene_back(scene *s, scene_mark *m) {
+void scene_restore(scene *s, scene_mark *m) {
     wear_path *wears = s->wears;
     s->wears = NULL;
     scene_free(s);

@@ -61,7 +61,7 @@ typedef struct answers {
     unsigned levels;
     bool chords; /* the program's harmonic load cannot be run as a sine */
     load_reach reach;
-    sight end; /* present state */
+    run_view end; /* present state */
 } answers;
 
 typedef struct scene scene;
@@ -139,8 +139,8 @@ typedef struct scene_mark {
 } scene_mark;
 /* move: the mark takes the answers; the scene starts with none. */
 void scene_save(scene *s, scene_mark *m, bool move);
-void scene_back(scene *s, scene_mark *m); /* restores the scene, and ends the mark */
-void scene_drop(scene_mark *m);           /* ends the mark; the change stays */
+void scene_restore(scene *s, scene_mark *m); /* restores the scene, and ends the mark */
+void scene_keep(scene_mark *m);              /* ends the mark; the change stays */
 
 /* ---- inputs ---- */
 

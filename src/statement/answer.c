@@ -125,13 +125,13 @@ void answer_line(answer *a, const char *text) {
 
 /* ---- tables ------------------------------------------------------------------------------------ */
 
-void answer_goes_on(answer *a, const column *columns, size_t count) {
+void answer_columns_shared(answer *a, const column *columns, size_t count) {
     a->columns = columns;
     a->count = count;
 }
 
 bool answer_columns(answer *a, const char *event, const column *columns, size_t count) {
-    answer_goes_on(a, columns, count);
+    answer_columns_shared(a, columns, count);
     return a->form->columns(a, event);
 }
 

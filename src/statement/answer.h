@@ -117,7 +117,7 @@ void answer_line(answer *a, const char *text);
 /* Begins a table; `columns` must outlive it, `event` names it. False: out of memory; no answer_end then. */
 bool answer_columns(answer *a, const char *event, const column *columns, size_t count);
 /* The same in CSV and JSON without the header, which another share of the run writes. */
-void answer_goes_on(answer *a, const column *columns, size_t count);
+void answer_columns_shared(answer *a, const column *columns, size_t count);
 void answer_row(answer *a, const long double *si);
 /* Will the next row be written at once, not held? */
 bool answer_shows_next(const answer *a);

@@ -7,7 +7,7 @@
 #include "statement/reader.h"
 
 /* Executes a statement. all: its clauses, the cursor behind them; the caller drops them. */
-typedef bool command_run(shell *sh, lexer *lx, said *all);
+typedef bool command_run(shell *sh, lexer *lx, parsed *all);
 
 typedef struct command {
     const char *name;

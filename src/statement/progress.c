@@ -102,14 +102,14 @@ void progress_end(void) {
         now.on = false;
 }
 
-int progress_apart(void) {
+int progress_suspend(void) {
     const int depth = now.depth;
     progress_hide();
     now.depth = 0;
     return depth;
 }
 
-void progress_together(int depth) {
+void progress_resume(int depth) {
     progress_hide();
     now.depth = depth;
 }

@@ -12,8 +12,8 @@ void progress_end(void);
 
 /* Between the two calls each nested statement has a progress line of its own. For lessons and questions,
  * which wait for the user between statements. `together` takes what `apart` returned. */
-int progress_apart(void);
-void progress_together(int depth);
+int progress_suspend(void);
+void progress_resume(int depth);
 
 /* Reports the part done, 0 to 1; negative: unknown. */
 void progress_part(double part);

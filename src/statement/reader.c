@@ -38,7 +38,7 @@ static const hole_row *first_hole(const clause *a) {
     return a->holes ? a->hole[0].row : NULL;
 }
 
-bool names_wake(shell *sh, const lexer *lx, size_t before) {
+bool names_show(shell *sh, const lexer *lx, size_t before) {
     own_names *n = &sh->calc.names;
     const char *text = lx->text + lx->at;
     size_t i;
@@ -46,7 +46,7 @@ bool names_wake(shell *sh, const lexer *lx, size_t before) {
         return true;
     if (!names_add(n, text, lx->len, &i))
         return calc_no_memory(lx->error);
-    n->row[i].woken = i < before;
+    n->row[i].lent = i < before;
     n->row[i].known = true;
     return true;
 }
@@ -55,42 +55,42 @@ static void names_forget(shell *sh, size_t before) {
     own_names *n = &sh->calc.names;
     names_drop(n, before);
     for (size_t i = 0; i < n->count; i++)
-        if (n->row[i].woken)
-            n->row[i].known = n->row[i].woken = false;
+        if (n->row[i].lent)
+            n->row[i].known = n->row[i].lent = false;
 }
 
-void said_drop(shell *sh, said *s) {
+void parsed_drop(shell *sh, parsed *s) {
     for (unsigned i = 0; i < s->count; i++) {
         counted_drop(s->list[i].live);
         s->list[i].live = NULL;
     }
-    said_sleep(sh, s);
+    parsed_hide_names(sh, s);
 }
 
-void said_sleep(shell *sh, said *s) {
-    if (s->wakes)
+void parsed_hide_names(shell *sh, parsed *s) {
+    if (s->shows_names)
         names_forget(sh, s->names);
-    s->wakes = false;
+    s->shows_names = false;
 }
 
-bool said_wake(shell *sh, const lexer *lx, said *s) {
+bool parsed_show_names(shell *sh, const lexer *lx, parsed *s) {
     s->names = sh->calc.names.count;
-    for (const heard *h = s->list; h < s->list + s->count; h++) {
+    for (const given_clause *h = s->list; h < s->list + s->count; h++) {
         const hole_row *row = first_hole(h->of);
         if (!row || row->kind != HOLE_NAME)
             continue;
         const lexer name = hole_lexer(lx, &h->hole[0]);
         if (name.len >= LEX_NAME)
             continue;
-        s->wakes = true;
-        if (!names_wake(sh, &name, s->names))
+        s->shows_names = true;
+        if (!names_show(sh, &name, s->names))
             return false;
     }
     return true;
 }
 
-heard *said_of(said *s, const char *name, size_t i) {
-    for (heard *h = s->list; h < s->list + s->count; h++)
+given_clause *parsed_clause(parsed *s, const char *name, size_t i) {
+    for (given_clause *h = s->list; h < s->list + s->count; h++)
         if (!strcmp(h->of->name, name) && i-- == 0)
             return h;
     return NULL;
@@ -107,7 +107,7 @@ lexer hole_lexer(const lexer *lx, const span *part) {
     return own;
 }
 
-void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]) {
+void hole_word(const lexer *lx, const given_clause *h, char word[LEX_NAME]) {
     const span *part = &h->hole[0];
     snprintf(word, LEX_NAME, "%.*s", part->len < LEX_NAME ? (int)part->len : 0, lx->text + part->at);
 }
@@ -149,9 +149,9 @@ static void alternative_text(const grammar *f, const clause *of, char *buf, size
         }
 }
 
-bool said_may_come(const lexer *lx, const said *s, const clause *a) {
+bool parsed_allows(const lexer *lx, const parsed *s, const clause *a) {
     char one[80], other[80];
-    for (const heard *h = s->list; h < s->list + s->count; h++) {
+    for (const given_clause *h = s->list; h < s->list + s->count; h++) {
         if (h->of == a && !a->again)
             return calc_fail(lx->error, lx->at, lx->len, "%s is given twice", a->name);
         if (!a->group || h->of->group != a->group || h->of->alternative == a->alternative)
@@ -165,20 +165,20 @@ bool said_may_come(const lexer *lx, const said *s, const clause *a) {
     return true;
 }
 
-static heard *add_heard(const lexer *lx, said *s, const clause *a) {
-    if (s->count == HEARD) {
-        calc_raise(lx->error, lx->at, lx->len, "more than %d clauses", HEARD);
+static given_clause *add_heard(const lexer *lx, parsed *s, const clause *a) {
+    if (s->count == GIVEN_CLAUSES) {
+        calc_raise(lx->error, lx->at, lx->len, "more than %d clauses", GIVEN_CLAUSES);
         return NULL;
     }
-    heard *h = &s->list[s->count++];
-    *h = (heard){.of = a, .at = lx->at, .len = lx->len};
+    given_clause *h = &s->list[s->count++];
+    *h = (given_clause){.of = a, .at = lx->at, .len = lx->len};
     s->open = NULL;
     return h;
 }
 
 /* ---- values ------------------------------------------------------------------------------------ */
 
-static bool in_range(lexer *lx, const heard *h) {
+static bool in_range(lexer *lx, const given_clause *h) {
     const clause *a = h->of;
     if (a->in == 1 + IN_A || (!a->in && a->must == POSITIVE)) {
         char unit_text[128];
@@ -188,13 +188,13 @@ static bool in_range(lexer *lx, const heard *h) {
                          h->v.v, *unit_text ? " " : "", unit_text);
     }
     if (a->in)
-        return input_check((input)(a->in - 1), (double)h->v.v, lx->error) || heard_place(lx->error, h);
+        return input_check((input)(a->in - 1), (double)h->v.v, lx->error) || given_place(lx->error, h);
     if (a->must == CURVED && h->v.v == 0)
         return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s must not be 0", a->name);
     return true;
 }
 
-static bool read_operand(shell *sh, lexer *lx, const dim *want, heard *h) {
+static bool read_operand(shell *sh, lexer *lx, const dim *want, given_clause *h) {
     h->hole[0].at = lx->at;
     const bool ok = expr_value_as(&sh->calc, lx, want, &h->v);
     h->hole[0].len = lx->last - h->hole[0].at;
@@ -202,19 +202,19 @@ static bool read_operand(shell *sh, lexer *lx, const dim *want, heard *h) {
 }
 
 /* Reads a value of dimension d within its range; `name` is for error messages. */
-static bool read_value(shell *sh, lexer *lx, const char *name, dim d, heard *h) {
+static bool read_value(shell *sh, lexer *lx, const char *name, dim d, given_clause *h) {
     return read_operand(sh, lx, &d, h) && value_dim(lx, name, h->hole[0].at, h->hole[0].len, h->v, d) &&
            in_range(lx, h);
 }
 
 /* The dimension of an argument. A, of the gap A r^n, has length^(1-n), so n must come first. */
-static bool argument_dim(shell *sh, lexer *lx, said *s, const clause *a, dim *d) {
+static bool argument_dim(shell *sh, lexer *lx, parsed *s, const clause *a, dim *d) {
     *d = a->d;
     if (a->in != 1 + IN_A)
         return true;
-    heard *n = said_of(s, "n", 0);
+    given_clause *n = parsed_clause(s, "n", 0);
     if (n && n->live && !definition_value(&sh->calc, (definition *)n->live, &n->v, lx->error))
-        return heard_place(lx->error, n);
+        return given_place(lx->error, n);
     if (n)
         *d = (dim){0, 1 - (double)n->v.v, 0, 0};
     return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
@@ -228,10 +228,10 @@ static const clause *argument_named(const lexer *lx, const grammar *f) {
     return NULL;
 }
 
-static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i);
+static bool read_hole(shell *sh, lexer *lx, parsed *s, given_clause *h, unsigned i);
 static const clause *clause_named(const lexer *lx, const grammar *f);
 
-static bool read_argument(shell *sh, lexer *lx, said *s) {
+static bool read_argument(shell *sh, lexer *lx, parsed *s) {
     const token_kind how = lex_peek(lx);
     const grammar *f = s->by;
     const clause *a = argument_named(lx, f);
@@ -243,11 +243,11 @@ static bool read_argument(shell *sh, lexer *lx, said *s) {
         return lex_fail(lx, "%s has no %s '%.*s'", statement_name(f), f->shape ? "parameter" : "argument",
                         LEX_WORD(lx)) ||
                add_usage(lx->error, f);
-    if (!said_may_come(lx, s, a))
+    if (!parsed_allows(lx, s, a))
         return false;
     if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
         return not_taken(lx, f, a->name, how);
-    heard *h = lx->cut || argument_dim(sh, lx, s, a, &d) ? add_heard(lx, s, a) : NULL;
+    given_clause *h = lx->cut || argument_dim(sh, lx, s, a, &d) ? add_heard(lx, s, a) : NULL;
     if (!h)
         return false;
     h->increment = how == T_INCREMENT;
@@ -269,14 +269,14 @@ static bool read_argument(shell *sh, lexer *lx, said *s) {
     return ok;
 }
 
-static bool read_seconds(shell *sh, lexer *lx, const hole *of, heard *h) {
+static bool read_seconds(shell *sh, lexer *lx, const hole *of, given_clause *h) {
     return read_operand(sh, lx, NULL, h) &&
            ((dim_equal(h->v.d, DIM_NONE) && h->v.v > 0 && h->v.v <= of->most) ||
             calc_fail(lx->error, h->hole[0].at, h->hole[0].len,
                       "the seconds must be a positive number up to %u", of->most));
 }
 
-static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
+static bool read_choice(lexer *lx, const hole_row *row, given_clause *h) {
     enum { LISTED = 8 };
     char word[LEX_NAME], list[CALC_ERROR_TEXT - 64] = "";
     const size_t len = bytes_to(lx, word_ends);
@@ -300,7 +300,7 @@ static bool read_choice(lexer *lx, const hole_row *row, heard *h) {
         list_word(list, sizeof list, ", ", "...");
     if (!len)
         return lex_fail(lx, "which %s? one of %s", row->noun, list);
-    const char *lead = lead_from(word), *near = lead ? lead : suggest(word, row->words);
+    const char *lead = hint_from(word), *near = lead ? lead : suggest(word, row->words);
     return lex_fail(lx,
                     lead   ? "unknown %s '%s': %s"
                     : near ? "unknown %s '%s': did you mean %s?"
@@ -363,7 +363,7 @@ static bool is_unit(const lexer *lx, const grammar *f) {
 /* Finds the end of the expressions in the i-th hole of the clause. Outside parentheses it is, behind an
  * operand, a word that begins a clause, or a name that no expression can have there; it is also a |, a comma
  * that repeats the clause, and an `=` before the next hole, unless that belongs to `at`. */
-static void skip_expression(lexer *lx, said *s, const clause *a, unsigned i) {
+static void skip_expression(lexer *lx, parsed *s, const clause *a, unsigned i) {
     calc_error *const error = lx->error, *const no_token = error_quiet();
     const grammar *f = s->by;
     const hole_kind kind = a->hole[i].row->kind;
@@ -419,7 +419,7 @@ static void skip_expression(lexer *lx, said *s, const clause *a, unsigned i) {
 }
 
 /* One name; where a list of names stands first, all of it. */
-static bool skip_names(lexer *lx, said *s, const clause *a) {
+static bool skip_names(lexer *lx, parsed *s, const clause *a) {
     if (lx->kind != T_NAME)
         return *a->name ? lex_fail(lx, "expected a name after %s", a->name) : lex_fail(lx, "expected a name");
     if (a->list && !*a->name) {
@@ -431,7 +431,7 @@ static bool skip_names(lexer *lx, said *s, const clause *a) {
 }
 
 /* `3 um`, `"Load On Sample"`: a column and perhaps a unit. Its name may contain what is no token. */
-static bool skip_column(lexer *lx, const said *s, span *part) {
+static bool skip_column(lexer *lx, const parsed *s, span *part) {
     unit unused;
     error_clear(lx->error);
     part->len = lx->kind == T_STRING || lx->kind == T_NUMBER ? lx->len : bytes_to(lx, word_ends);
@@ -443,7 +443,7 @@ static bool skip_column(lexer *lx, const said *s, span *part) {
     return ok;
 }
 
-static bool skip_load(lexer *lx, said *s, const clause *a) {
+static bool skip_load(lexer *lx, parsed *s, const clause *a) {
     size_t load;
     if (!word_among(a->hole[0].row->words, lx->text + lx->at, lx->len, &load))
         return lex_fail(lx, "along what? program, cycle, step ... or cycle ...");
@@ -492,7 +492,7 @@ static const char *count_name(const grammar *f, const clause *a) {
     return !*a->name ? statement_name(f) : a->optional || a->group ? a->name : a->hole[0].row->name;
 }
 
-static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
+static bool read_hole(shell *sh, lexer *lx, parsed *s, given_clause *h, unsigned i) {
     const clause *a = h->of;
     const hole *of = &a->hole[i];
     const hole_row *row = of->row;
@@ -501,7 +501,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
     h->hole[i] = (span){lx->at, 0};
     s->open = h;
     s->hole = i;
-    s->end = said_cut(lx) ? PART_EMPTY : PART_WHOLE;
+    s->end = parsed_at_cursor(lx) ? PART_EMPTY : PART_WHOLE;
     if (s->end == PART_EMPTY)
         return false;
     switch (evaluated && lx->cut ? HOLE_EXPR : row->kind) {
@@ -551,7 +551,7 @@ static bool read_hole(shell *sh, lexer *lx, said *s, heard *h, unsigned i) {
 }
 
 /* Skips the `=` or `+-` between a hole and the one before. */
-static bool read_between(lexer *lx, const heard *h, unsigned i) {
+static bool read_between(lexer *lx, const given_clause *h, unsigned i) {
     const char before = h->of->hole[i].before;
     const span *name = &h->hole[i - 1];
     const bool named = h->of->hole[i - 1].row->kind != HOLE_EXPR;
@@ -573,7 +573,7 @@ static bool read_between(lexer *lx, const heard *h, unsigned i) {
     return !lx->error->raised;
 }
 
-static bool read_holes(shell *sh, lexer *lx, said *s, heard *h) {
+static bool read_holes(shell *sh, lexer *lx, parsed *s, given_clause *h) {
     for (unsigned i = 0; i < h->of->holes; i++)
         if ((i && !read_between(lx, h, i)) || !read_hole(sh, lx, s, h, i))
             return false;
@@ -585,16 +585,17 @@ static bool read_holes(shell *sh, lexer *lx, said *s, heard *h) {
 /* Of two clauses with the same word, `log` and `log AXES`, the second if a choice follows at the cursor. */
 static const clause *with_choice(const lexer *lx, const grammar *f, const clause *a) {
     for (const clause *b = a + 1; b < f->clause + f->count; b++)
-        if (!strcmp(a->name, b->name) && (said_cut(lx) || (lx->kind == T_NAME && !clause_named(lx, f))))
+        if (!strcmp(a->name, b->name) &&
+            (parsed_at_cursor(lx) || (lx->kind == T_NAME && !clause_named(lx, f))))
             return b;
     return a;
 }
 
-static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
+static bool read_clause(shell *sh, lexer *lx, parsed *s, const clause *a) {
     const lexer word = *lx;
     lex_next(lx);
     a = with_choice(lx, s->by, a);
-    heard *h = said_may_come(&word, s, a) ? add_heard(&word, s, a) : NULL;
+    given_clause *h = parsed_allows(&word, s, a) ? add_heard(&word, s, a) : NULL;
     const hole_row *row = first_hole(a);
     if (!h)
         return false;
@@ -612,11 +613,12 @@ static bool read_clause(shell *sh, lexer *lx, said *s, const clause *a) {
 }
 
 /* Reads a first word that has a grammar of its own, such as the shape of a geometry, and switches to that. */
-static bool read_head(lexer *lx, said *s) {
+static bool read_head(lexer *lx, parsed *s) {
     const clause *a = s->by->clause;
     const hole_row *row = s->by->count && !*a->name ? first_hole(a) : NULL;
-    heard h = {.of = a};
-    if (!row || !row->form || said_cut(lx) || (a->optional && lx->kind == T_END && !lx->error->raised))
+    given_clause h = {.of = a};
+    if (!row || !row->form || parsed_at_cursor(lx) ||
+        (a->optional && lx->kind == T_END && !lx->error->raised))
         return true;
     if (row->kind == HOLE_WORD) { /* or an expression, whose first name is none of the words */
         size_t i;
@@ -638,18 +640,18 @@ static bool begins_clause(const lexer *lx, const clause *a, hole_kind first) {
 }
 
 /* Reads the holes that stand first, without a word before them. */
-static bool read_first(shell *sh, lexer *lx, said *s) {
+static bool read_first(shell *sh, lexer *lx, parsed *s) {
     const clause *a = s->by->clause, *end = a + s->by->count;
     while (a + 1 < end && !*a[1].name) /* the last of these alternatives: EXPR takes any WORD, too */
         a++;
     const hole_row *row = a < end && !*a->name ? first_hole(a) : NULL;
-    if (!row || said_cut(lx) || begins_clause(lx, clause_named(lx, s->by), row->kind) ||
+    if (!row || parsed_at_cursor(lx) || begins_clause(lx, clause_named(lx, s->by), row->kind) ||
         (a->optional && lx->kind == T_END && !lx->error->raised))
         return true;
     if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || lex_assigns(lx)))
         return true;
     do {
-        heard *h = add_heard(lx, s, a);
+        given_clause *h = add_heard(lx, s, a);
         if (!h || !read_holes(sh, lx, s, h))
             return false;
     } while (a->again && (lx->kind != T_END || lx->error->raised));
@@ -662,8 +664,8 @@ static bool lacks_name(const lexer *lx, const grammar *f) {
     return a && a->holes && (a->hole[0].row->kind == HOLE_NAME || a->hole[0].row->kind == HOLE_INPUT);
 }
 
-bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
-    said_begin(out, f);
+bool parsed_read_some(shell *sh, lexer *lx, const grammar *f, parsed *out) {
+    parsed_begin(out, f);
     if (!read_head(lx, out) || !read_first(sh, lx, out))
         return false;
     f = out->by;
@@ -678,20 +680,20 @@ bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out) {
             return false;
         }
     }
-    return !lx->error->raised && (lx->cut || said_wake(sh, lx, out));
+    return !lx->error->raised && (lx->cut || parsed_show_names(sh, lx, out));
 }
 
-bool said_cut(const lexer *lx) {
+bool parsed_at_cursor(const lexer *lx) {
     return lx->cut && lx->kind == T_END && (lx->at == lx->end || strchr(blanks, lx->text[lx->at]));
 }
 
-static bool misspelt(lexer *lx, const said *s) {
+static bool misspelt(lexer *lx, const parsed *s) {
     const clause *meant = clause_near(lx, s->by);
     return meant && !lex_fail(lx, "unexpected '%.*s': did you mean %s?", LEX_WORD(lx), meant->name);
 }
 
 /* Reports `sphere 10 mm` or `nu 0.3`: an argument without its name or its `=`. */
-static bool half_named(lexer *lx, const said *s) {
+static bool half_named(lexer *lx, const parsed *s) {
     const clause *a = s->by->clause, *end = a + s->by->count;
     const bool bare = lx->kind == T_NUMBER || lx->kind == T_MINUS || lx->kind == T_OPEN;
     while (a < end && !(a->argument && (bare || lex_is(lx, a->name))))
@@ -703,8 +705,8 @@ static bool half_named(lexer *lx, const said *s) {
 }
 
 /* Reports `to my loop.png`. */
-static bool has_blank_in_file(lexer *lx, const said *s) {
-    const heard *h = s->count ? s->list + s->count - 1 : NULL;
+static bool has_blank_in_file(lexer *lx, const parsed *s) {
+    const given_clause *h = s->count ? s->list + s->count - 1 : NULL;
     const hole_row *row = h ? first_hole(h->of) : NULL;
     return row && row->kind == HOLE_FILE && (lx->kind == T_NAME || lx->kind == T_NUMBER) &&
            lx->text[h->hole[0].at] != '"' &&
@@ -712,7 +714,7 @@ static bool has_blank_in_file(lexer *lx, const said *s) {
                      LEX_WORD(lx));
 }
 
-bool said_end(lexer *lx, const said *s) {
+bool parsed_end(lexer *lx, const parsed *s) {
     if (lx->kind == T_COMMA)
         return lex_fail(lx, "unexpected ',': blanks separate the arguments of %s", s->by->command);
     if (misspelt(lx, s) || half_named(lx, s) || has_blank_in_file(lx, s))
@@ -720,8 +722,8 @@ bool said_end(lexer *lx, const said *s) {
     return at_end(lx) || (lx->kind != T_END && !s->count && *s->by->takes && add_usage(lx->error, s->by));
 }
 
-bool said_hides(const lexer *lx, const said *s, const char *word) {
-    for (const heard *h = s->list; h < s->list + s->count; h++) {
+bool parsed_swallowed(const lexer *lx, const parsed *s, const char *word) {
+    for (const given_clause *h = s->list; h < s->list + s->count; h++) {
         if (!first_hole(h->of) || first_hole(h->of)->kind != HOLE_EXPR)
             continue;
         lexer own = hole_lexer(lx, &h->hole[0]);
@@ -735,7 +737,7 @@ bool said_hides(const lexer *lx, const said *s, const char *word) {
 }
 
 /* Of alternatives that are not optional one must be given: `auto | off | on`. */
-static bool has_alternative(lexer *lx, const said *s) {
+static bool has_alternative(lexer *lx, const parsed *s) {
     const clause *a = s->by->clause, *end = a + s->by->count;
     char list[CALC_ERROR_TEXT / 2] = "";
     if (a == end || s->count || a->optional || a->argument || !a->group)
@@ -746,14 +748,14 @@ static bool has_alternative(lexer *lx, const said *s) {
 }
 
 /* Are all clauses given that are not optional? Else an error. */
-static bool is_whole(lexer *lx, said *s) {
+static bool is_whole(lexer *lx, parsed *s) {
     char text[GRAMMAR_USAGE];
     for (const clause *a = s->by->clause; a < s->by->clause + s->by->count; a++) {
-        if (a->argument || a->optional || a->group || !*a->name || said_of(s, a->name, 0))
+        if (a->argument || a->optional || a->group || !*a->name || parsed_clause(s, a->name, 0))
             continue;
         if (s->count && !*s->list[0].of->name && !s->list[0].hole[0].len)
             return lex_fail(lx, "expected a value here");
-        if (said_hides(lx, s, a->name))
+        if (parsed_swallowed(lx, s, a->name))
             return false;
         clause_text(a, text);
         return lex_fail(lx, "expected %s", text);
@@ -761,7 +763,8 @@ static bool is_whole(lexer *lx, said *s) {
     return has_alternative(lx, s);
 }
 
-bool said_read(shell *sh, lexer *lx, const grammar *f, said *out) {
-    return (said_read_some(sh, lx, f, out) && !misspelt(lx, out) && is_whole(lx, out) && said_end(lx, out)) ||
-           (said_drop(sh, out), false);
+bool parsed_read(shell *sh, lexer *lx, const grammar *f, parsed *out) {
+    return (parsed_read_some(sh, lx, f, out) && !misspelt(lx, out) && is_whole(lx, out) &&
+            parsed_end(lx, out)) ||
+           (parsed_drop(sh, out), false);
 }

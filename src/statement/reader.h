@@ -24,16 +24,16 @@ typedef struct span {
 } span;
 
 /* One clause as a statement gives it. */
-typedef struct heard {
+typedef struct given_clause {
     const clause *of;        /* its clause of the grammar */
     size_t at, len;          /* place of the clause's word, or of the argument's name */
     span hole[CLAUSE_HOLES]; /* place of the text in each hole */
     bool increment;          /* an argument given by += */
     value v;                 /* of an argument, HOLE_VALUE or HOLE_SECONDS */
-    counted *live;           /* definition of an argument given by :=; said_drop releases it */
+    counted *live;           /* definition of an argument given by :=; parsed_drop releases it */
     unsigned count;          /* of HOLE_COUNT */
     size_t choice;           /* index of the word of HOLE_CHOICE */
-} heard;
+} given_clause;
 
 /* What is still missing, or may follow, where the text of a hole ends: for completion. */
 typedef enum part_end {
@@ -45,61 +45,64 @@ typedef enum part_end {
     PART_WHOLE   /* nothing is missing */
 } part_end;
 
-enum { HEARD = 40, FILE_NAME = 4096 };
+enum { GIVEN_CLAUSES = 40, FILE_NAME = 4096 };
 /* A statement: all clauses that it gives. */
-typedef struct said {
+typedef struct parsed {
     const grammar *by; /* of the row, or of the word after the command (a shape), where that has its own */
     size_t row;        /* index of that word in its table */
-    bool wakes;        /* names of its own (`for NAME =`) have been made known: see said_wake */
+    bool shows_names;  /* names of its own (`for NAME =`) have been made known: see parsed_show_names */
     size_t names;      /* how many names the session had before them */
     unsigned count;    /* of `list` */
-    heard list[HEARD]; /* in the order of the statement */
-    const heard *open; /* the clause of the hole read last; NULL: none, or a clause without one came after */
-    unsigned hole;     /* index of that hole */
-    part_end end;      /* how its text ends */
-    span changed;      /* the NAME, where its text ends within the value of `NAME =`; len 0: it does not */
-} said;
+    given_clause list[GIVEN_CLAUSES]; /* in the order of the statement */
+    const given_clause
+        *open;     /* the clause of the hole read last; NULL: none, or a clause without one came after */
+    unsigned hole; /* index of that hole */
+    part_end end;  /* how its text ends */
+    span changed;  /* the NAME, where its text ends within the value of `NAME =`; len 0: it does not */
+} parsed;
 
 /* Begins an empty statement of this grammar. */
-static inline void said_begin(said *s, const grammar *f) {
+static inline void parsed_begin(parsed *s, const grammar *f) {
     s->by = f;
-    s->wakes = false;
+    s->shows_names = false;
     s->count = 0;
     s->open = NULL;
 }
-/* Reads the whole statement behind the command word (at the cursor). False with an error, after said_drop. */
-bool said_read(shell *sh, lexer *lx, const grammar *f, said *out);
+/* Reads the whole statement behind the command word (at the cursor). False with an error, after parsed_drop.
+ */
+bool parsed_read(shell *sh, lexer *lx, const grammar *f, parsed *out);
 /* Reads clauses as far as they go, without a check of missing ones or of the rest. If lx->cut, nothing is
- * evaluated; if also said_cut(lx) after it, out->open and below tell how the text ends, even on false. */
-bool said_read_some(shell *sh, lexer *lx, const grammar *f, said *out);
+ * evaluated; if also parsed_at_cursor(lx) after it, out->open and below tell how the text ends, even on
+ * false. */
+bool parsed_read_some(shell *sh, lexer *lx, const grammar *f, parsed *out);
 /* Is the cursor at the end of a text that is still being typed (lx->cut), behind all its tokens? */
-bool said_cut(const lexer *lx);
+bool parsed_at_cursor(const lexer *lx);
 /* May the clause be given, or be given again, after those of `s`? Else an error. */
-bool said_may_come(const lexer *lx, const said *s, const clause *a);
+bool parsed_allows(const lexer *lx, const parsed *s, const clause *a);
 /* Does the statement end at the cursor? Else an error: a misspelt word, an argument without its name, ... */
-bool said_end(lexer *lx, const said *s);
+bool parsed_end(lexer *lx, const parsed *s);
 /* Releases live definitions (a command that keeps one holds it), and forgets the statement's own names. */
-void said_drop(shell *sh, said *s);
-/* The statement's own names (`for NAME = ...`), which the session may not know: said_wake makes them known,
- * so that its expressions can be parsed, said_sleep forgets them. False: out of memory. */
-void said_sleep(shell *sh, said *s);
-bool said_wake(shell *sh, const lexer *lx, said *s);
+void parsed_drop(shell *sh, parsed *s);
+/* The statement's own names (`for NAME = ...`), which the session may not know: parsed_show_names makes them
+ * known, so that its expressions can be parsed, parsed_hide_names forgets them. False: out of memory. */
+void parsed_hide_names(shell *sh, parsed *s);
+bool parsed_show_names(shell *sh, const lexer *lx, parsed *s);
 
 /* Has an expression swallowed the word of a clause, as in `a*for FN = ..`? Then an error says so. */
-bool said_hides(const lexer *lx, const said *s, const char *word);
+bool parsed_swallowed(const lexer *lx, const parsed *s, const char *word);
 
-/* Makes the name at the cursor known until said_sleep of the statement whose `names` is `before`. */
-bool names_wake(shell *sh, const lexer *lx, size_t before);
+/* Makes the name at the cursor known until parsed_hide_names of the statement whose `names` is `before`. */
+bool names_show(shell *sh, const lexer *lx, size_t before);
 
 /* The i-th clause of this name, or NULL; name "": the clause without a word, which stands first. */
-heard *said_of(said *s, const char *name, size_t i);
+given_clause *parsed_clause(parsed *s, const char *name, size_t i);
 /* A lexer over the text of one hole. */
 lexer hole_lexer(const lexer *lx, const span *part);
 /* The text of the first hole; empty if it is longer than any name. */
-void hole_word(const lexer *lx, const heard *h, char word[LEX_NAME]);
+void hole_word(const lexer *lx, const given_clause *h, char word[LEX_NAME]);
 /* The file name in a HOLE_FILE, without quotation marks. */
 void hole_file(const lexer *lx, const span *part, char name[FILE_NAME]);
 /* Points an error that has no place yet at the first hole; false. */
-#define heard_place(error, h) calc_place(error, (h)->hole[0].at, (h)->hole[0].len)
+#define given_place(error, h) calc_place(error, (h)->hole[0].at, (h)->hole[0].len)
 
 #endif

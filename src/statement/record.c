@@ -309,13 +309,13 @@ static void set_apart(shell *sh, bool apart) {
     r->apart = apart;
 }
 
-void record_apart(shell *sh, page_part part, const char *text) {
+void record_replace(shell *sh, page_part part, const char *text) {
     set_apart(sh, true);
     if (record_on_page(sh))
         handout_put(&sh->record->page, part, text, strlen(text));
 }
 
-void record_together(shell *sh) {
+void record_replaced(shell *sh) {
     set_apart(sh, false);
 }
 

@@ -16,7 +16,7 @@ struct recorder {
     FILE *kept;                /* writes to the page or the transcript; without colours */
     handout page;              /* page.to is NULL: a transcript is written */
     FILE *to_log;           /* page.to of a recording, writes to `log`; NULL: transcript or lesson's page */
-    bool apart;             /* output is not recorded: the page has it in another way (record_apart) */
+    bool apart;             /* output is not recorded: the page has it in another way (record_replace) */
     struct recorder *outer; /* of a lesson's page: the recorder that goes on after it, or NULL */
     FILE *outer_out, *outer_err;
     bool escape; /* within an escape sequence (a colour), which is not recorded */
@@ -53,9 +53,9 @@ bool record_on_page(const shell *sh);
 bool record_alone(const shell *sh);
 /* Reports an error that ends the lesson on the streams outside the page of record_page; else does nothing. */
 void record_tell(shell *sh, const char *text);
-/* Puts a part on the page, if there is one, in place of what the session writes before record_together. */
-void record_apart(shell *sh, page_part part, const char *text);
-void record_together(shell *sh);
+/* Puts a part on the page, if there is one, in place of what the session writes before record_replaced. */
+void record_replace(shell *sh, page_part part, const char *text);
+void record_replaced(shell *sh);
 
 /* Keeps a line typed at the prompt, for `save history`. */
 void typed_keep(shell *sh, const char *line);

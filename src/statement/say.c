@@ -72,7 +72,7 @@ FILE *shell_nowhere(calc_error *error) {
     return nowhere;
 }
 
-bool shell_unread(void) {
+bool output_closed(void) {
     struct pollfd out = {.fd = STDOUT_FILENO};
     return ferror(stdout) && poll(&out, 1, 0) > 0 && out.revents & (POLLERR | POLLHUP);
 }

@@ -20,9 +20,9 @@ const char *switch_name(size_t i) {
     return i < sizeof switches / sizeof *switches ? switches[i] : NULL;
 }
 
-static bool set_plot(shell *sh, lexer *lx, const said *all) {
+static bool set_plot(shell *sh, lexer *lx, const parsed *all) {
     enum { LEAST_WIDTH = 20, LEAST_HEIGHT = 8, SIZE = 30 };
-    const heard *h = &all->list[0];
+    const given_clause *h = &all->list[0];
     const size_t len = h->hole[0].len;
     char text[SIZE + 1] = "";
     int width = 0, height = 0, used = 0;
@@ -70,8 +70,8 @@ static void show_plot(const shell *sh, FILE *to) {
 }
 
 /* The model belongs to the scene. */
-static bool set_model(shell *sh, lexer *lx, const said *all) {
-    const heard *h = &all->list[0];
+static bool set_model(shell *sh, lexer *lx, const parsed *all) {
+    const given_clause *h = &all->list[0];
     model_id id = 0;
     (void)lx;
     while (id != MODEL_AUTO && strcmp(models[id].name, h->of->name) != 0)
@@ -195,9 +195,9 @@ static int first_word(const grammar *f) {
     return *f->clause->name ? 0 : 1;
 }
 
-bool setting_apply(shell *sh, lexer *lx, const said *all) {
+bool setting_apply(shell *sh, lexer *lx, const parsed *all) {
     const setting *row = &rows[all->row];
-    const heard *h = &all->list[0];
+    const given_clause *h = &all->list[0];
     if (row->apply)
         return row->apply(sh, lx, all);
     *value_of(sh, row) = h->of->holes ? (int)h->count : (int)(h->of - all->by->clause) - first_word(all->by);

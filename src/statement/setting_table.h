@@ -13,7 +13,7 @@ typedef struct setting {
     size_t at;           /* offset in `shell` of an int: the number, or the index of the word */
     int initial;         /* its first value */
     /* for settings that are no int; apply sets it, show prints its value */
-    bool (*apply)(shell *sh, lexer *lx, const said *all);
+    bool (*apply)(shell *sh, lexer *lx, const parsed *all);
     void (*show)(const shell *sh, FILE *to);
     bool (*differs)(const shell *sh); /* from its first value; NULL: settings_write leaves it out */
 } setting;
@@ -27,7 +27,7 @@ const grammar *setting_form(size_t i);
 const char *terminal_name(size_t i); /* words of TERMINAL in `set plot terminal` */
 const char *switch_name(size_t i);   /* off, on */
 /* Runs `set`; on error nothing has changed. */
-bool setting_apply(shell *sh, lexer *lx, const said *all);
+bool setting_apply(shell *sh, lexer *lx, const parsed *all);
 /* Sets the format named by the word; false: there is none. */
 bool setting_format(settings *set, const char *word);
 /* Writes a `set` statement for each setting that differs from its first value, but for the model. */

@@ -65,7 +65,7 @@ void shell_print_error(const shell *sh, const char *text);
 /* A stream that discards what is written (/dev/null); it stays open. NULL with the error. */
 FILE *shell_nowhere(calc_error *error);
 /* Has the reader of standard output closed the pipe, as `head` does? Such a write error is not reported. */
-bool shell_unread(void);
+bool output_closed(void);
 /* Writes a message that is no error to standard error, after the prefix `before`; in JSON also among the
  * answers, as an object of this kind ("note", "warning"). */
 LIKE_PRINTF(4, 5)
@@ -93,7 +93,7 @@ void shell_warn(shell *sh);
 /* The warning of elastically dissimilar bodies alone: for statements that ask for something tangential. */
 void shell_warn_dissimilar(shell *sh);
 /* Called after a load step: the warnings of dissimilar bodies, yield, and a contact too wide. */
-void shell_pressed(shell *sh, const load_step *step);
+void shell_warn_load(shell *sh, const load_step *step);
 
 /* ---- prompt/run.c: statements, lines and streams ---- */
 

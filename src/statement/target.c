@@ -40,8 +40,8 @@ bool target_file(const lexer *lx, const span *part, target *t) {
     return true;
 }
 
-bool target_open(shell *sh, const lexer *lx, said *all, target *t) {
-    const heard *to = said_of(all, "to", 0);
+bool target_open(shell *sh, const lexer *lx, parsed *all, target *t) {
+    const given_clause *to = parsed_clause(all, "to", 0);
     *t = (target){.to = sh->out, .format = sh->set.format};
     return !to || (choose_form(lx, &to->hole[0], t) && target_file(lx, &to->hole[0], t));
 }

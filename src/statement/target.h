@@ -16,12 +16,12 @@ typedef struct target {
 } target;
 
 /* Opens the file of `to FILE`, or takes the session's output if the statement has no such clause. */
-bool target_open(shell *sh, const lexer *lx, said *all, target *t);
+bool target_open(shell *sh, const lexer *lx, parsed *all, target *t);
 /* Called before the first of `rows` rows: those with *from <= index < *to are to be written. That is all
  * rows, unless a share of them is run (--part). False with an error. */
 bool target_share(shell *sh, target *t, size_t rows, size_t *from, size_t *to, calc_error *error);
 /* Does another share of the run write the table's header? */
-static inline bool target_goes_on(const shell *sh, const target *t) {
+static inline bool target_is_continued(const shell *sh, const target *t) {
     return t->shared && sh->share.number > 1;
 }
 /* Opens the file named there, whatever its name extension; the format stays. */

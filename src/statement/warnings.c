@@ -159,7 +159,7 @@ static void find_widest(shell *sh) {
         sh->widest = (fret_press){.F = 0, .dz = 0};
 }
 
-void shell_pressed(shell *sh, const load_step *step) {
+void shell_warn_load(shell *sh, const load_step *step) {
     if (step->tangential && !(sh->warned & DISSIMILAR))
         shell_warn_dissimilar(sh);
     note_yield(sh, false);

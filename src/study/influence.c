@@ -177,7 +177,7 @@ static bool probe_all(probe *p, influence_study *out) {
         if (clock_worked() - start < (double)INFLUENCE_SECONDS)
             find_influence(p, &out->cause[i]);
         else
-            out->cause[i].influence = INFLUENCE_LEFT;
+            out->cause[i].influence = INFLUENCE_SKIPPED;
         if (p->error->raised || calc_stopped(p->t->scene.stop, p->error))
             return false;
     }

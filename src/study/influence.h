@@ -9,11 +9,11 @@
 /* The effect of a cause on the result. */
 typedef enum influence {
     INFLUENCE_NONE,
-    INFLUENCE_SMALL,  /* condition number below 0.01 */
-    INFLUENCE_HIDDEN, /* not smooth here, or hidden by rounding */
-    INFLUENCE_LEFT,   /* not computed: time is up */
-    INFLUENCE_ZERO,   /* not computed: the name is 0, which has no last digit and no relative change */
-    INFLUENCE_SHOWN   /* `change` holds it */
+    INFLUENCE_SMALL,   /* condition number below 0.01 */
+    INFLUENCE_HIDDEN,  /* not smooth here, or hidden by rounding */
+    INFLUENCE_SKIPPED, /* not computed: time is up */
+    INFLUENCE_ZERO,    /* not computed: the name is 0, which has no last digit and no relative change */
+    INFLUENCE_SHOWN    /* `change` holds it */
 } influence;
 
 /* A number that the result depends on. Changing it by `digit` changes the result by `change`, relatively. */
@@ -32,7 +32,7 @@ typedef struct cause {
 } cause;
 
 enum { CAUSE_NAMES = 8, CAUSES = INPUTS + 3 + CAUSE_NAMES + 1 };
-enum { INFLUENCE_SECONDS = 3 }; /* processor time after which further causes are INFLUENCE_LEFT */
+enum { INFLUENCE_SECONDS = 3 }; /* processor time after which further causes are INFLUENCE_SKIPPED */
 
 typedef struct influence_study {
     cause cause[CAUSES];

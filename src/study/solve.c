@@ -306,8 +306,8 @@ static bool no_root(search *s, calc_error *error) {
         points_at(&s->p, &(long double){s->lo}, v);
         if (!strcmp(last.text, s->p.none.text)) /* it is not for the value of the knob */
             return calc_fail(error, left->at, left->len, "%s", last.text);
-        return calc_fail(error, left->at, left->len, "no value at any place tried from %s = %s to %s: %s", k->text,
-                         from, to, last.text);
+        return calc_fail(error, left->at, left->len, "no value at any place tried from %s = %s to %s: %s",
+                         k->text, from, to, last.text);
     }
     if (alike)
         return calc_fail(error, left->at, left->len, "the two sides %s for every %s from %s to %s",

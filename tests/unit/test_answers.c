@@ -95,11 +95,11 @@ static bool ask_loss(scene *s, double v[VALUES]) {
 
 static bool ask_trace(scene *s, double v[VALUES]) {
     scene_trace t;
-    sight now;
+    run_view now;
     if (!trace_begin(&t, s, watch_points(100), true, fresh()))
         return false;
     while (trace_next(&t, &error)) {
-        run_sight(t.run, t.levels, &now);
+        run_view_now(t.run, t.levels, &now);
         v[0] += (double)now.state.dx * trace_now(&t)->time;
         v[1] += (double)now.state.W;
         v[2]++;

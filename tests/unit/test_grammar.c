@@ -6,12 +6,12 @@
 #include "statement/setting_table.h"
 #undef unit
 
-static grammar parsed;
+static grammar row;
 
 static bool parses(const char *takes) {
     const char *at;
-    parsed = (grammar){.command = "test", .takes = takes};
-    return grammar_parse(&parsed, holes, &at);
+    row = (grammar){.command = "test", .takes = takes};
+    return grammar_parse(&row, holes, &at);
 }
 
 static void all_rows(void) {
@@ -29,7 +29,7 @@ static void all_rows(void) {
         for (size_t i = 0; h->kind == HOLE_CLAUSES && h->words(i); i++)
             CHECK(parses(h->words(i)));
     CHECK(shapes > 0 && parses(""));
-    CHECK(parsed.count == 0);
+    CHECK(row.count == 0);
 }
 
 static void malformed(void) {
@@ -45,51 +45,51 @@ static void malformed(void) {
 
 static void arguments(void) {
     CHECK(parses("[Fx+=20 N | dx+=0.5 um] [FN:=120 N steel] dz=1 um [steps N:1000]"));
-    CHECK(parsed.count == 5);
-    const clause *Fx = &parsed.clause[0], *dx = &parsed.clause[1], *FN = &parsed.clause[2],
-                 *dz = &parsed.clause[3], *steps = &parsed.clause[4];
+    CHECK(row.count == 5);
+    const clause *Fx = &row.clause[0], *dx = &row.clause[1], *FN = &row.clause[2], *dz = &row.clause[3],
+                 *steps = &row.clause[4];
     CHECK(Fx->argument && Fx->increment && !Fx->live && Fx->optional && dim_equal(Fx->d, DIM_FORCE));
     CHECK(Fx->group && Fx->group == dx->group && Fx->alternative != dx->alternative && Fx->in == 0 &&
           Fx->must == ANY);
     CHECK(FN->live && !FN->increment && FN->in == 1 + IN_FN && FN->group == 0);
     CHECK(!dz->optional && dz->in == 1 + IN_DZ);
     CHECK(!steps->argument && steps->holes == 1 && steps->hole[0].most == 1000);
-    CHECK(grammar_clause(&parsed, "steps") == steps && !grammar_clause(&parsed, "step"));
+    CHECK(grammar_clause(&row, "steps") == steps && !grammar_clause(&row, "step"));
 }
 
 static void ways(void) {
     CHECK(parses("R:=10 mm | R1=20 mm R2=20 mm"));
-    CHECK(parsed.clause[1].alternative == parsed.clause[2].alternative &&
-          parsed.clause[0].alternative != parsed.clause[1].alternative);
-    CHECK(parsed.clause[0].group == parsed.clause[2].group && parsed.clause[2].must == CURVED);
+    CHECK(row.clause[1].alternative == row.clause[2].alternative &&
+          row.clause[0].alternative != row.clause[1].alternative);
+    CHECK(row.clause[0].group == row.clause[2].group && row.clause[2].must == CURVED);
     CHECK(parses("n:=3 [A:=50 m^-2 | h:=1 um r0:=1 mm] [all]"));
-    CHECK(parsed.clause[0].group == 0 && parsed.clause[4].group == 0);
-    CHECK(parsed.clause[1].group && parsed.clause[1].group == parsed.clause[3].group);
+    CHECK(row.clause[0].group == 0 && row.clause[4].group == 0);
+    CHECK(row.clause[1].group && row.clause[1].group == row.clause[3].group);
 }
 
 static void clauses_with_holes(void) {
     CHECK(parses("EXPR, ... over NAME = LO .. HI, ... [log AXES]*"));
-    CHECK(parsed.count == 3 && parsed.clause[0].list && !*parsed.clause[0].name);
-    CHECK(parsed.clause[1].list && parsed.clause[1].holes == 2 && parsed.clause[1].hole[1].before == '=');
-    CHECK(parsed.clause[1].hole[1].row->kind == HOLE_SPAN);
-    CHECK(parsed.clause[2].again && !parsed.clause[1].again);
+    CHECK(row.count == 3 && row.clause[0].list && !*row.clause[0].name);
+    CHECK(row.clause[1].list && row.clause[1].holes == 2 && row.clause[1].hole[1].before == '=');
+    CHECK(row.clause[1].hole[1].row->kind == HOLE_SPAN);
+    CHECK(row.clause[2].again && !row.clause[1].again);
     CHECK(parses("EXPR RANGE [to FILE.png|svg]"));
-    CHECK(grammar_clause(&parsed, "for")->again && grammar_clause(&parsed, "to")->optional);
-    CHECK(parses("WORD ...") && parsed.clause[0].again && !parsed.clause[0].list);
+    CHECK(grammar_clause(&row, "for")->again && grammar_clause(&row, "to")->optional);
+    CHECK(parses("WORD ...") && row.clause[0].again && !row.clause[0].list);
     CHECK(parses("EXPR RANGE [to FILE.png|svg]"));
-    CHECK(grammar_first(&parsed, HOLE_EXPR) && !grammar_first(&parsed, HOLE_FILE));
+    CHECK(grammar_first(&row, HOLE_EXPR) && !grammar_first(&row, HOLE_FILE));
 }
 
 static void usage(void) {
     char text[GRAMMAR_USAGE];
     CHECK(parses("[Fx+=20 N | dx+=0.5 um] [steps N:1000]"));
-    grammar_usage(&parsed, text);
+    grammar_usage(&row, text);
     CHECK(!strcmp(text, "test [Fx=20 N | dx=0.5 um] [steps N], += for an increment"));
-    parsed = (grammar){.command = "geometry", .shape = "cone", .takes = "slope:=0.05 | angle=3 deg"};
-    grammar_usage(&parsed, text);
+    row = (grammar){.command = "geometry", .shape = "cone", .takes = "slope:=0.05 | angle=3 deg"};
+    grammar_usage(&row, text);
     CHECK(!strcmp(text, "geometry cone slope=0.05 | angle=3 deg"));
-    parsed = (grammar){.command = "undo", .takes = ""};
-    grammar_usage(&parsed, text);
+    row = (grammar){.command = "undo", .takes = ""};
+    grammar_usage(&row, text);
     CHECK(!strcmp(text, "undo"));
 }
 

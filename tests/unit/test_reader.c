@@ -10,7 +10,7 @@
 static shell sh;
 static calc_error wrong;
 static lexer lx;
-static said all;
+static parsed all;
 
 /* The statement by its row. */
 static bool reads(const char *text) {
@@ -18,7 +18,7 @@ static bool reads(const char *text) {
     lex_start(&lx, text, strlen(text), &wrong);
     const command *c = command_find(text, strcspn(text, " "));
     lex_next(&lx);
-    return said_read(&sh, &lx, command_form(c), &all);
+    return parsed_read(&sh, &lx, command_form(c), &all);
 }
 
 static bool fails(const char *text, const char *why) {
@@ -31,7 +31,7 @@ static bool fails(const char *text, const char *why) {
 /* Does the i-th clause of this name have these holes? other: NULL where it has one. */
 static bool has(const char *name, size_t i, const char *first, const char *other) {
     const char *want[CLAUSE_HOLES] = {first, other};
-    const heard *h = said_of(&all, name, i);
+    const given_clause *h = parsed_clause(&all, name, i);
     for (size_t k = 0; h && k < CLAUSE_HOLES && want[k]; k++) {
         const span *part = &h->hole[k];
         if (strlen(want[k]) != part->len || memcmp(lx.text + part->at, want[k], part->len) != 0) {
@@ -48,30 +48,31 @@ static void cut(void) {
     CHECK(reads("table with*x, (x for) in mm for x = 1 .. log(3) with with = 1, 2 steps 7 to a,b.csv"));
     CHECK(has("", 0, "with*x, (x for) in mm", NULL) && has("for", 0, "x", "1 .. log(3)"));
     CHECK(has("with", 0, "with", "1, 2") && has("to", 0, "a,b.csv", NULL));
-    CHECK(said_of(&all, "steps", 0)->count == 7 && !said_of(&all, "steps", 1) && !said_of(&all, "along", 0));
-    said_drop(&sh, &all);
+    CHECK(parsed_clause(&all, "steps", 0)->count == 7 && !parsed_clause(&all, "steps", 1) &&
+          !parsed_clause(&all, "along", 0));
+    parsed_drop(&sh, &all);
     CHECK(reads("solve mu for dW at k=0, FN = 3 N = 5 uJ from 0.3 to 1"));
     CHECK(has("for", 0, "dW at k=0, FN = 3 N", "5 uJ") && has("from", 0, "0.3 to 1", NULL));
-    said_drop(&sh, &all);
+    parsed_drop(&sh, &all);
     CHECK(
         reads("plot Fx along cycle FA=20 N times 3 steps 40 log y log flip xy title \"a | b\" over \"c d\""));
     CHECK(has("along", 0, "cycle FA=20 N times 3", NULL) && has("title", 0, "\"a | b\"", NULL));
-    CHECK(said_of(&all, "log", 0)->of->holes == 1 && said_of(&all, "log", 1)->of->holes == 0);
-    CHECK(said_of(&all, "log", 0)->choice == 1 && said_of(&all, "flip", 0)->choice == 2);
+    CHECK(parsed_clause(&all, "log", 0)->of->holes == 1 && parsed_clause(&all, "log", 1)->of->holes == 0);
+    CHECK(parsed_clause(&all, "log", 0)->choice == 1 && parsed_clause(&all, "flip", 0)->choice == 2);
     CHECK(has("over", 0, "\"c d\"", NULL));
-    said_drop(&sh, &all);
+    parsed_drop(&sh, &all);
 }
 
 static void lists(void) {
     CHECK(reads("maximize x*y over x = 1 .. 2, y = 3 .. 4"));
-    CHECK(has("over", 0, "x", "1 .. 2") && has("over", 1, "y", "3 .. 4") && !said_of(&all, "over", 2));
-    said_drop(&sh, &all);
+    CHECK(has("over", 0, "x", "1 .. 2") && has("over", 1, "y", "3 .. 4") && !parsed_clause(&all, "over", 2));
+    parsed_drop(&sh, &all);
     CHECK(reads("uncertainty a, dz with mu +- 0.02, E0 +- 5 % seed 3"));
     CHECK(has("", 0, "a, dz", NULL) && has("with", 0, "mu", "0.02") && has("with", 1, "E0", "5 %"));
-    said_drop(&sh, &all);
+    parsed_drop(&sh, &all);
     CHECK(reads("fit E0, mu for a = b to c.csv"));
     CHECK(has("", 0, "E0, mu", NULL) && has("for", 0, "a", "b"));
-    said_drop(&sh, &all);
+    parsed_drop(&sh, &all);
 }
 
 /* The row of the word that stands first; words up to blanks. */
@@ -86,8 +87,8 @@ static void heads(void) {
           fails("set timing on off", "give either off or on"));
     CHECK(fails("table a*for x = 1 .. 2 to b.csv", "something is missing") ==
           false); /* its command says it */
-    CHECK(said_hides(&lx, &all, "for") && !said_hides(&lx, &all, "along"));
-    said_drop(&sh, &all);
+    CHECK(parsed_swallowed(&lx, &all, "for") && !parsed_swallowed(&lx, &all, "along"));
+    parsed_drop(&sh, &all);
 }
 
 /* Names of a range are known while what has been said is, and no longer. */
@@ -95,7 +96,7 @@ static void names(void) {
     size_t i;
     CHECK(!names_find(&sh.calc.names, "x", 1, &i));
     CHECK(reads("table x for x = 1 .. 2") && names_find(&sh.calc.names, "x", 1, &i));
-    said_drop(&sh, &all);
+    parsed_drop(&sh, &all);
     CHECK(!names_find(&sh.calc.names, "x", 1, &i) && sh.calc.names.count == 0);
     CHECK(fails("table x for x = 1 .. 2 | 3", "unexpected '|'"));
     CHECK(!names_find(&sh.calc.names, "x", 1, &i));
@@ -103,15 +104,15 @@ static void names(void) {
 
 static void arguments(void) {
     CHECK(reads("step Fx+=2*3 N FN=1 kN steps 4") && all.count == 3);
-    const heard *Fx = said_of(&all, "Fx", 0), *FN = said_of(&all, "FN", 0);
+    const given_clause *Fx = parsed_clause(&all, "Fx", 0), *FN = parsed_clause(&all, "FN", 0);
     CHECK(Fx->increment && Fx->v.v == 6 && !FN->increment && FN->v.v == 1000);
-    CHECK(reads("cycle FA:=0.9*mu*FN") && said_of(&all, "FA", 0)->live);
-    said_drop(&sh, &all);
-    CHECK(!said_of(&all, "FA", 0)->live);
-    CHECK(reads("material steel nu=0.28") && said_of(&all, "", 0) && said_of(&all, "nu", 0));
-    CHECK(reads("record off") && said_of(&all, "off", 0));
+    CHECK(reads("cycle FA:=0.9*mu*FN") && parsed_clause(&all, "FA", 0)->live);
+    parsed_drop(&sh, &all);
+    CHECK(!parsed_clause(&all, "FA", 0)->live);
+    CHECK(reads("material steel nu=0.28") && parsed_clause(&all, "", 0) && parsed_clause(&all, "nu", 0));
+    CHECK(reads("record off") && parsed_clause(&all, "off", 0));
     CHECK(reads("record off.txt") && has("", 0, "off.txt", NULL));
-    CHECK(reads("friction mu=0.3") && said_of(&all, "", 0)->v.v == 0.3);
+    CHECK(reads("friction mu=0.3") && parsed_clause(&all, "", 0)->v.v == 0.3);
 }
 
 static void errors(void) {
@@ -130,7 +131,7 @@ static void errors(void) {
     CHECK(fails("plot a for x = 1 .. 2 title b", "expected title \"TEXT\""));
     CHECK(fails("material steal", "did you mean steel?"));
     char many[600] = "plot a for x = 1 .. 2";
-    for (int i = 0; i < HEARD; i++)
+    for (int i = 0; i < GIVEN_CLAUSES; i++)
         strcat(many, " points");
     CHECK(fails(many, "more than 40 clauses"));
     CHECK(fails("accuracy within 4000", "the seconds must be a positive number"));
@@ -143,9 +144,9 @@ static bool stops(const char *text, const char *name, unsigned at, part_end end,
     lx.cut = true;
     const command *c = command_find(text, strcspn(text, " "));
     lex_next(&lx);
-    said_read_some(&sh, &lx, command_form(c), &all);
+    parsed_read_some(&sh, &lx, command_form(c), &all);
     const bool open = name != NULL,
-               ok = said_cut(&lx) && (all.open != NULL) == open &&
+               ok = parsed_at_cursor(&lx) && (all.open != NULL) == open &&
                     (!open || (!strcmp(all.open->of->name, name) && all.hole == at && all.end == end));
     if (!ok || !changed)
         return ok;

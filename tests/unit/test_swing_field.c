@@ -223,10 +223,11 @@ static void straight_line(const fret_gap *gap, double grading) {
  * begins, beyond r. */
 static fret_real rate_by_hand(fret_real t, fret_real rest, void *context) {
     const hand *h = context;
-    const way *w = &h->p->way;
+    const load_path *w = &h->p->path;
     const fret_real at = h->from + h->lo * rest + h->hi * t;
-    const fret_point x = fret_law_at_force(h->s->normal, (way_at(w, M, at) + way_at(w, P, at)) / 2);
-    const fret_real rise = (way_fall(w, M, at) - way_fall(w, P, at)) / 2 / x.K,
+    const fret_point x =
+        fret_law_at_force(h->s->normal, (load_path_at(w, M, at) + load_path_at(w, P, at)) / 2);
+    const fret_real rise = (load_path_fall(w, M, at) - load_path_fall(w, P, at)) / 2 / x.K,
                     power = (h->s->normal->foundation.k - 1) / 2;
     return x.a > h->r ? rise * powl((x.a - h->r) * (x.a + h->r), power) : 0;
 }

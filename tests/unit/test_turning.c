@@ -25,7 +25,7 @@ static void round_crests(void) {
     CHECK(t.n == 11 && t.first == 22 && !t.sharp);
     CHECK_REL(t.top, 5.3, 1e-12);
     CHECK_REL(turning_crest(v, &t), 3, 1e-14);
-    CHECK_ABS(turning_left(v, &t), 0, 1, 1e-24);
+    CHECK_ABS(turning_residual(v, &t), 0, 1, 1e-24);
     for (size_t i = 0; i < t.n; i++)
         CHECK_ABS(turning_weight(&t, i), weight(t.n, t.top, i), 1, 1e-13);
     CHECK_REL(turning_level(v, 30, 0, ROWS - 1, 0.1, false), v[30], 1e-13);
@@ -38,7 +38,7 @@ static void sharp_crests(void) {
     for (size_t i = 0; i < ROWS; i++)
         v[i] = 3 - 0.1 * fabs((double)i - 27.25);
     turning t = turning_about(v, 27, 0, ROWS - 1, 0.1);
-    const double round_left = turning_left(v, &t);
+    const double round_left = turning_residual(v, &t);
     CHECK(turning_crest(v, &t) < 2.95);
     CHECK_ABS(turning_sharpen(v, &t), 0, 1, 1e-24);
     CHECK(t.sharp && round_left > 0.01);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The way of a load: its curve, and states of its last item to play. The load is run (language/walk) a little
  * in each frame, so that no frame waits for it. Uses no screen. */
-#ifndef LIVE_WAY_H
-#define LIVE_WAY_H
+#ifndef LIVE_PLAYBACK_H
+#define LIVE_PLAYBACK_H
 
 #include "language/walk.h"
 #include "live/shot.h"
@@ -24,7 +24,7 @@ typedef struct track {
 enum { PLAY_SHOTS = 256 };
 #define NO_ITEM ((size_t)-1)
 
-typedef struct load_way {
+typedef struct playback {
     walk walk;
     track track;
     size_t item;  /* states of this item of the load and the following are kept; NO_ITEM: none are */
@@ -32,25 +32,25 @@ typedef struct load_way {
     bool reached; /* the walk has reached the item */
     shot *play;   /* the states to play, PLAY_SHOTS at most */
     size_t shots;
-} load_way;
+} playback;
 
 /* Prepares for the load of the scene that expressions see; goes on where the load that has been run is its
  * beginning. item: keep the states of this item and the following, from its first motion, or NO_ITEM. */
-bool way_follow(load_way *w, calc *c, size_t item, calc_error *error);
+bool playback_follow(playback *w, calc *c, size_t item, calc_error *error);
 /* Runs the load on until late() is true (NULL: never), its end, or PLAY_SHOTS states to play. False with the
  * error. */
-bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error);
+bool playback_go_on(playback *w, calc *c, bool (*late)(void), calc_error *error);
 /* Has the load been run to its end? */
-bool way_done(const load_way *w);
-/* Has way_on nothing to do: the end is reached, or there are enough states to play? */
-bool way_rests(const load_way *w);
+bool playback_done(const playback *w);
+/* Has playback_go_on nothing to do: the end is reached, or there are enough states to play? */
+bool playback_idle(const playback *w);
 /* Adds one more period of the cycle that the load ends with, and keeps its states. */
-void way_more(load_way *w);
+void playback_add_period(playback *w);
 /* Drops the states to play and keeps no more of them. */
-void way_unwatch(load_way *w);
+void playback_drop_states(playback *w);
 /* Drops the states before this time, but for the last of them. */
-void way_pass(load_way *w, double time);
-extent way_extent(const load_way *w);
-void way_end(load_way *w);
+void playback_drop_before(playback *w, double time);
+extent playback_extent(const playback *w);
+void playback_end(playback *w);
 
 #endif

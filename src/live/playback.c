@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs a load in slices and keeps points for its curve and states to play. */
-#include "live/way.h"
+#include "live/playback.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -37,14 +37,14 @@ static void begin_track(track *t) {
 /* ---- what is kept of a run --------------------------------------------------------------------- */
 
 /* Has nothing moved since the first state kept? */
-static bool stands_still(const load_way *w, const fret_state *s) {
+static bool stands_still(const playback *w, const fret_state *s) {
     return w->shots == 1 && (double)s->Fx == w->play[0].Fx && (double)s->a == w->play[0].a;
 }
 
 /* Correct digits where chords replace a sine. */
 enum { CHORD_DIGITS = 4 };
 
-static bool keep_shot(load_way *w, calc *c, calc_error *error) {
+static bool keep_shot(playback *w, calc *c, calc_error *error) {
     if (!w->play)
         w->play = calloc(PLAY_SHOTS, sizeof *w->play);
     if (!w->play)
@@ -71,7 +71,7 @@ static track_point point_of(track *t, const runner *r, fret_state *s) {
 
 /* Adds a point to the curve and keeps its state, if it is to be played. Leaves out points too close to see: a
  * swinging period has many chords, and each state costs time. */
-static bool take_point(load_way *w, calc *c, calc_error *error) {
+static bool take_point(playback *w, calc *c, calc_error *error) {
     static const double APART = 1.0 / 64; /* in time: a period takes 1 */
     const runner *r = &w->walk.run;
     track *t = &w->track;
@@ -90,16 +90,16 @@ static bool take_point(load_way *w, calc *c, calc_error *error) {
 
 /* ---- walking ----------------------------------------------------------------------------------- */
 
-void way_unwatch(load_way *w) {
+void playback_drop_states(playback *w) {
     w->item = NO_ITEM;
     w->from = 0;
     w->reached = false;
     w->shots = 0;
 }
 
-bool way_follow(load_way *w, calc *c, size_t item, calc_error *error) {
+bool playback_follow(playback *w, calc *c, size_t item, calc_error *error) {
     bool anew;
-    way_unwatch(w);
+    playback_drop_states(w);
     w->item = item;
     if (item != NO_ITEM && w->walk.run.at.steps + w->walk.run.within > item)
         walk_end(&w->walk); /* run again: it is past the beginning of the item */
@@ -126,13 +126,13 @@ static unsigned parts_of(const scene *s) {
 }
 
 /* Periods that repeat the one before are skipped: the last point is moved to the end of the load. */
-static void move_last_point(load_way *w) {
+static void move_last_point(playback *w) {
     track *t = &w->track;
     fret_state s;
     t->point[t->count - 1] = point_of(t, &w->walk.run, &s);
 }
 
-bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
+bool playback_go_on(playback *w, calc *c, bool (*late)(void), calc_error *error) {
     enum { PARTS = 38 }; /* of each leg that is played */
     walk *k = &w->walk;
     const size_t end = k->scene.end.steps;
@@ -147,25 +147,25 @@ bool way_on(load_way *w, calc *c, bool (*late)(void), calc_error *error) {
                             w->reached, error))
             ok = take_point(w, c, error);
         ok = ok && !error->raised;
-    } while (ok && !way_rests(w) && !(late && late()));
+    } while (ok && !playback_idle(w) && !(late && late()));
     if (!ok) {
         walk_end(k); /* a run that failed within a step cannot go on */
-    } else if (way_done(w)) {
+    } else if (playback_done(w)) {
         move_last_point(w);
         w->track.before = (extent){0, 0, 0, 0, 0};
     }
     return ok;
 }
 
-bool way_done(const load_way *w) {
+bool playback_done(const playback *w) {
     return w->walk.run.at.steps == w->walk.scene.end.steps;
 }
 
-bool way_rests(const load_way *w) {
-    return way_done(w) || (w->reached && w->shots == PLAY_SHOTS);
+bool playback_idle(const playback *w) {
+    return playback_done(w) || (w->reached && w->shots == PLAY_SHOTS);
 }
 
-void way_more(load_way *w) {
+void playback_add_period(playback *w) {
     static const double LITTLE = 1e-9;
     const scene *s = &w->walk.scene;
     if (w->item == NO_ITEM) {
@@ -175,7 +175,7 @@ void way_more(load_way *w) {
     walk_more(&w->walk);
 }
 
-void way_pass(load_way *w, double time) {
+void playback_drop_before(playback *w, double time) {
     size_t i = 0;
     while (i + 1 < w->shots && w->play[i + 1].time <= time)
         i++;
@@ -185,13 +185,13 @@ void way_pass(load_way *w, double time) {
     }
 }
 
-extent way_extent(const load_way *w) {
+extent playback_extent(const playback *w) {
     return larger(w->track.most, w->track.before);
 }
 
-void way_end(load_way *w) {
+void playback_end(playback *w) {
     walk_end(&w->walk);
     free(w->track.point);
     free(w->play);
-    *w = (load_way){.item = NO_ITEM};
+    *w = (playback){.item = NO_ITEM};
 }
