@@ -108,7 +108,7 @@ static double complex mirrored(const place_inside *a, double complex lambda) {
     return lambda != 0 ? -a->r * a->r / lambda : 0;
 }
 
-/* Does the piece begin at the kink, with the two singular places apart? Then its nodes are rooted. */
+/* Does the piece begin at the kink, with the two singularities apart? Then its nodes are rooted. */
 static bool is_rooted(const place_inside *a, const profile_part *p, double t0, double complex from) {
     static const double ONE = 1e-7;
     return p->kinked && t0 == p->lo && !(cabs(from - mirrored(a, from)) < ONE);

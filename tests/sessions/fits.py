@@ -201,6 +201,8 @@ def by_cycle(tests):
     for said, want in ((" by rows", "by cycle gives a row for each cycle"), ("", None)):
         done = tests.run("-c", SETUP % (210, 0.4) + "; fit mu along " + name + said)
         tests.check("fit:%s" % (said or " all cycles at once"), (want or "") in done.stderr and (done.returncode == 1) == (want is not None), tests.report(done))
+    done = tests.run("-c", SETUP % (210, 0.4) + "; k = 0.05, c0 = 1 mm; fit E0, c0 along " + name + " by cycle")
+    tests.check("fit: cycles that all fail", done.returncode == 1 and "E0 and c0 apart" in done.stderr, tests.report(done))
     half = write(tests, "no-cycle.csv", "dx [um],Fx [N]", rows[:40])
     done = tests.run("-c", SETUP % (210, 0.4) + "; fit mu along " + half + " by cycle")
     tests.check("fit: no cycle", done.returncode == 1 and "no cycle is closed" in done.stderr, tests.report(done))

@@ -505,6 +505,7 @@ def own_lessons(tests):
         tests.check("mistakes in JSON", [row["line"] for row in rows] == [line for line, _ in MISTAKES], tests.report(done))
     for name, text, want in (("empty", "", "holds no statement"), ("words alone", "A title\n# words\n", "holds no statement"), ("no title", "fret> 1 + 1\n", "begins with its title"),
                              ("bytes", bytes(range(256)) * 40, "mistakes"), ("a long line", "T\n# %s\n1\n" % ("x" * 500), "at most 400 bytes"),
+                             ("a long statement", "T\n%s\n" % ("x" * 500), "error: 1 mistake in"),
                              ("many mistakes", "T\n" + "foo(\n" * 1000, "20 mistakes or more")):
         with tests.file(text, ".txt") as path:
             done = tests.run("-c", "demo " + path)

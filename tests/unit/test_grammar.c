@@ -34,10 +34,10 @@ static void all_rows(void) {
 
 static void malformed(void) {
     static const char *const lines[] = {
-        "[steps N", "steps N]",          "[]",          "[[all]]",    "| all",
-        "all |",    "all | | off",       "steps NIX",   "nix=1 N",    "Fx:=1 N",
-        "=EXPR",    "for NAME = x",      "for NAME +-", "mu=0.3 | ]", "a_word_that_is_far_too_long",
-        "?",        "for EXPR EXPR EXPR"};
+        "[steps N", "steps N]",           "[]",          "[[all]]",    "| all",
+        "all |",    "all | | off",        "steps NIX",   "nix=1 N",    "Fx:=1 N",
+        "=EXPR",    "for NAME = x",       "for NAME +-", "mu=0.3 | ]", "a_word_that_is_far_too_long",
+        "?",        "for EXPR EXPR EXPR", "nix=1"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
         if (!CHECK(!parses(lines[i])))
             printf("%s\n", lines[i]);
@@ -91,6 +91,14 @@ static void usage(void) {
     row = (grammar){.command = "undo", .takes = ""};
     grammar_usage(&row, text);
     CHECK(!strcmp(text, "undo"));
+    struct {
+        char text[GRAMMAR_USAGE], behind[2 * GRAMMAR_USAGE];
+    } room = {.behind = ""};
+    char takes[GRAMMAR_USAGE + 20] = "";
+    memset(takes, 'a', sizeof takes - 1);
+    row = (grammar){.command = takes + GRAMMAR_USAGE / 2, .takes = takes};
+    grammar_usage(&row, room.text);
+    CHECK(strlen(room.text) > GRAMMAR_USAGE - 40 && strlen(room.text) < GRAMMAR_USAGE && !*room.behind);
 }
 
 int main(int argc, char **argv) {
