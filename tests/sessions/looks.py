@@ -223,6 +223,9 @@ def maps(tests):
                      "title \"m\"")
     rows = [line.split() for line in re.search(r"\$map0_0 << END\n(.*?)END", text, re.S).group(1).splitlines() if line]
     tests.check("a map holds its grid", len(rows) == 12 and float(rows[0][0]) == 5 and float(rows[-1][1]) == 0.5, str(rows))
+    for high, margin in (("1e5 .. 9e5", 0.15), ("1e-5 .. 3e-5", 0.0127 * (5.5 + 11))):  # 11 columns: 1.5x10^-05, as wide as it is set
+        text, _ = script(tests, "a map from " + high, "plot map x*y for x = 1 .. 2 for y = " + high)
+        tests.check("room for the labels of y = " + high, abs(float(re.search("set lmargin at screen ([0-9.]+)", text)[1]) - margin) < 1e-4, text[:600])
     text, _ = script(tests, "contours and their values", "plot map dW(F) for F = 1 N .. 30 N for mu = 0.4 .. 0.8")
     values = re.findall(r"^set label '(\S+)' at graph (\S+),graph (\S+) ", text, re.M)
     levels = re.search(r"^set cntrparam levels discrete (.*)$", text, re.M).group(1).split(",")
