@@ -74,7 +74,7 @@ static bool apply_using(csv *c, const lexer *lx, const given_clause *h) {
         return false;
     if (own.kind != T_END) {
         const size_t at = own.at;
-        if (!unit_parse(&own, &u) || !at_end(&own))
+        if (!unit_parse(&own, &u)) /* the reader has seen that nothing follows it */
             return false;
         if (column->has_unit && !(same_dim(u.d, column->d) && unit_scale(&u) == unit_scale(&column->u)))
             return calc_fail(own.error, at, own.last - at, "the file has another unit for it: \"%s\"",

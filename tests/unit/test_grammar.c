@@ -34,10 +34,10 @@ static void all_rows(void) {
 
 static void malformed(void) {
     static const char *const lines[] = {
-        "[steps N", "steps N]",           "[]",          "[[all]]",    "| all",
-        "all |",    "all | | off",        "steps NIX",   "nix=1 N",    "Fx:=1 N",
-        "=EXPR",    "for NAME = x",       "for NAME +-", "mu=0.3 | ]", "a_word_that_is_far_too_long",
-        "?",        "for EXPR EXPR EXPR", "nix=1"};
+        "[steps N", "steps N]",          "[]",          "[[all]]",    "| all",
+        "all |",    "all | | off",       "steps NIX",   "nix=1 N",    "Fx:=1 N",
+        "=EXPR",    "for NAME = x",      "for NAME +-", "mu=0.3 | ]", "a_word_that_is_far_too_long",
+        "?",        "for EXPR EXPR EXPR"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
         if (!CHECK(!parses(lines[i])))
             printf("%s\n", lines[i]);
