@@ -22,7 +22,7 @@ static fret_real load_of(const load_path *w, fret_real s) {
     return (load_path_at(w, M, s) + load_path_at(w, P, s)) / 2;
 }
 
-/* Does the normal force of a way turn in (lo, hi), and when? Once at most while M or P falls. */
+/* Does the normal force of a path turn in (lo, hi), and when? Once at most while M or P falls. */
 static bool turns(const load_path *w, fret_real lo, fret_real hi, fret_real *when) {
     load_path loads;
     if (!w->harmonic)

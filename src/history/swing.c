@@ -12,7 +12,7 @@
 #include "number/real.h"
 
 /* True if two harmonic paths that meet while both coordinates rise are one: then their lags agree too. */
-static bool same_way(const load_path *a, const load_path *b) {
+static bool same_path(const load_path *a, const load_path *b) {
     return a->mean == b->mean && a->size[M] == b->size[M] && a->size[P] == b->size[P];
 }
 
@@ -77,7 +77,7 @@ static fret_status grow(fret_swing *c, const arc *p) {
     arc *top = &c->arcs[c->count - 1];
     if (top->curved != p->curved || fabsl(top->last[M] - p->first[M]) > noise(c) ||
         fabsl(top->last[P] - p->first[P]) > noise(c) ||
-        !(p->curved ? top->hi == p->lo && same_way(&top->path, &p->path) : in_line(c, top, p)))
+        !(p->curved ? top->hi == p->lo && same_path(&top->path, &p->path) : in_line(c, top, p)))
         return append(c, p);
     memcpy(top->last, p->last, sizeof top->last);
     top->hi = p->hi;

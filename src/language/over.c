@@ -195,7 +195,7 @@ bool over_integral(over *o, long double *out, long double *error) {
     long double edge[EDGES], size = 0, off = 0, sum = 0;
     bool worn;
     const size_t count = edges(o, &worn, edge);
-    const int way = o->lo < o->hi ? 1 : -1;
+    const int sign = o->lo < o->hi ? 1 : -1;
     const long double poor = worn ? 1e-4L : 1e-6L;
     if (scene_work_chords(&o->t->scene))
         return calc_fail(
@@ -206,7 +206,7 @@ bool over_integral(over *o, long double *out, long double *error) {
         long double own;
         hi = o->hi;
         for (size_t i = 0; i < count; i++)
-            if (way * (edge[i] - lo) > alike * fabsl(o->hi - o->lo) && way * edge[i] < way * hi)
+            if (sign * (edge[i] - lo) > alike * fabsl(o->hi - o->lo) && sign * edge[i] < sign * hi)
                 hi = edge[i];
         const fret_estimate here = integrate_part(o, worn, lo, hi, &own);
         sum += here.value;

@@ -71,7 +71,7 @@ static bool take_scene(walk *w, const scene *s, size_t last_cycle, bool all, cal
 
 static bool make_run(walk *w, calc_error *error) {
     engine_end(&w->run.engine);
-    w->run = (runner){.load = &w->load, .watch = watch_way(1)};
+    w->run = (runner){.load = &w->load, .watch = watch_path(1)};
     return calc_status(error, engine_make(&w->run.engine, w->load.normal, w->load.mu));
 }
 

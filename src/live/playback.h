@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The way of a load: its curve, and states of its last item to play. The load is run (language/walk) a little
- * in each frame, so that no frame waits for it. Uses no screen. */
+/* The playback of a load: its curve, and states of its last item to play. The load is run (language/walk) a
+ * little in each frame, so that no frame waits for it. Uses no screen. */
 #ifndef LIVE_PLAYBACK_H
 #define LIVE_PLAYBACK_H
 

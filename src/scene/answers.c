@@ -67,7 +67,7 @@ bool scene_contact(scene *s, fret_pressed *out, calc_error *error) {
 
 bool scene_widest(scene *s, double *radius, calc_error *error) {
     scene_trace t;
-    watch ends = watch_way(1);
+    watch ends = watch_path(1);
     long double a = 0;
     fret_state state;
     ends.once = true;

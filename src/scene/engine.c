@@ -131,20 +131,20 @@ fret_status engine_at_rig(const engine *e, double K_rig, fret_step *step) {
     fret_state now;
     fret_real slope = 0;
     engine_state(e, &now);
-    const fret_real way = s.d - now.dx - now.Fx / s.K,
+    const fret_real travel = s.d - now.dx - now.Fx / s.K,
                     digits = fabsl(now.dx) * (1 + now.kt / s.K) + fabsl(now.Fx) / s.K;
-    if (keeps && fabsl(way) <= 2 * (fret_real)DBL_EPSILON * digits) {
+    if (keeps && fabsl(travel) <= 2 * (fret_real)DBL_EPSILON * digits) {
         step->tangential_by = FRET_KEEP_DX; /* rounding must not cause a reversal */
         return s.st;
     }
     const fret_real off = off_at_rig(s.d, &slope, &s),
                     beyond = s.d - off - copysignl(DBL_EPSILON * (fabsl(s.d) + fabsl(off)), off);
     fret_real lo = fminl(s.d, beyond), hi = fmaxl(s.d, beyond);
-    if (keeps && way > 0)
+    if (keeps && travel > 0)
         lo = fmaxl(lo, now.dx);
     else if (keeps)
         hi = fminl(hi, now.dx);
-    step->tangential = (double)fret_root(off_at_rig, &s, lo, hi, now.dx + way / (1 + now.kt / s.K));
+    step->tangential = (double)fret_root(off_at_rig, &s, lo, hi, now.dx + travel / (1 + now.kt / s.K));
     engine_end(&s.tried);
     return s.st;
 }

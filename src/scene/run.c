@@ -51,7 +51,7 @@ static double next_part(const watch *w, const leg *l, double after) {
 /* The part of the leg, 0..1, of the next look after the part `after`; > 1: none. */
 static double next_look(const watch *w, const leg *l, double after) {
     return w->kind == WATCH_POINTS  ? next_point(w, l, after)
-           : w->kind == WATCH_WAY   ? next_part(w, l, after)
+           : w->kind == WATCH_PATH  ? next_part(w, l, after)
            : w->kind == WATCH_TIMES ? next_time(w, l)
                                     : 2;
 }
@@ -60,8 +60,8 @@ watch watch_points(unsigned points) {
     return (watch){WATCH_POINTS, .points = points};
 }
 
-watch watch_way(unsigned points) {
-    return (watch){WATCH_WAY, .points = points};
+watch watch_path(unsigned points) {
+    return (watch){WATCH_PATH, .points = points};
 }
 
 watch watch_times(double first, double every, size_t last, bool turns) {
@@ -111,9 +111,9 @@ static fret_real at_rig(const runner *r, const fret_state *now) {
 static void start_leg(runner *r) {
     fret_state from;
     engine_forces(&r->engine, &from);
-    r->way = straight_step(r, &r->leg.to);
-    r->n = (double)(r->way.normal_by == FRET_TO_FORCE ? from.FN : from.dz);
-    r->t = (double)(r->leg.rig ? at_rig(r, &from) : r->way.tangential_by == FRET_TO_FX ? from.Fx : from.dx);
+    r->goal = straight_step(r, &r->leg.to);
+    r->n = (double)(r->goal.normal_by == FRET_TO_FORCE ? from.FN : from.dz);
+    r->t = (double)(r->leg.rig ? at_rig(r, &from) : r->goal.tangential_by == FRET_TO_FX ? from.Fx : from.dx);
 }
 
 static fret_status swing_part(runner *r) {
@@ -139,7 +139,7 @@ static fret_status take_part(runner *r, double x) {
     if (r->part == 0)
         start_leg(r);
     const long double part = (long double)progress(l, x);
-    fret_step step = r->way;
+    fret_step step = r->goal;
     step.normal = (double)(r->n + (step.normal - r->n) * part);
     step.tangential = (double)(r->t + (step.tangential - r->t) * part);
     r->part = x;

@@ -43,8 +43,8 @@ typedef struct leg {
 
 /* Where a run stops for a look; made by the functions below. */
 typedef struct watch {
-    enum { WATCH_NOTHING, WATCH_POINTS, WATCH_WAY, WATCH_TIMES } kind;
-    unsigned points;     /* WATCH_POINTS, WATCH_WAY: points of a leg that names none */
+    enum { WATCH_NOTHING, WATCH_POINTS, WATCH_PATH, WATCH_TIMES } kind;
+    unsigned points;     /* WATCH_POINTS, WATCH_PATH: points of a leg that names none */
     double first, every; /* WATCH_TIMES: times first + i every */
     size_t sample, last; /* next and last i */
     bool turns;          /* look at turning points too */
@@ -54,7 +54,7 @@ typedef struct watch {
 /* Looks that divide every leg into `points` parts. */
 watch watch_points(unsigned points);
 /* Looks at the end of every chord, and in other legs at `points` parts even in time. */
-watch watch_way(unsigned points);
+watch watch_path(unsigned points);
 /* Looks at the times first + i every, i = 0..last; turns: and at turning points. */
 watch watch_times(double first, double every, size_t last, bool turns);
 
@@ -109,7 +109,7 @@ typedef struct runner {
     leg leg;
     bool moving;       /* within the leg */
     double part, n, t; /* part of the leg done; normal and tangential load at its start */
-    fret_step way;     /* the leg's target in the coordinates in which it is straight */
+    fret_step goal;    /* the leg's target in the coordinates in which it is straight */
 } runner;
 
 /* The present state of one run, or the limit of runs at all levels at the same instant. */

@@ -250,7 +250,7 @@ static bool measure_model(bench *b, model_family family, unsigned size, unsigned
     if (!calc_status(b->error, st))
         return false;
     if (loop)
-        m.run[0].watch = watch_way(size);
+        m.run[0].watch = watch_path(size);
     const double setting_up = clock_worked() - start;
     const bool ok = measure(b, family, size, loop ? area_cycle : stepped_cycle, &m);
     if (ok && loop)
