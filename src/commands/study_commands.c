@@ -70,8 +70,8 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
     if (a->touches)
         shell_note(sh, "the two sides touch there without crossing: at most 8 digits are certain");
     if (a->jumps)
-        shell_note(sh,
-                   "elsewhere the two sides jump past each other; a root close to the jump may be missed");
+        shell_note(sh, "elsewhere the difference of the two sides jumps through 0; a root close to the jump "
+                       "may be missed");
     if (!sh->set.timing)
         return;
     calc_value_text(q->name.d, a->lo, lo);

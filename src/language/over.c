@@ -198,10 +198,9 @@ bool over_integral(over *o, long double *out, long double *error) {
     const int sign = o->lo < o->hi ? 1 : -1;
     const long double poor = worn ? 1e-4L : 1e-6L;
     if (scene_work_chords(&o->t->scene))
-        return calc_fail(
-            o->error, 0, 0,
-            "this load goes in chords, at whose ends friction's work has kinks by the thousand: W "
-            "and dW are the integrals of WdA and dWdA");
+        return calc_fail(o->error, 0, 0,
+                         "friction's work is not smooth in r under this load, which is run in chords: "
+                         "the integrals of WdA and dWdA are W and dW");
     for (long double lo = o->lo, hi; lo != o->hi && !o->error->raised; lo = hi) {
         long double own;
         hi = o->hi;
@@ -331,7 +330,7 @@ bool over_extreme(over *o, bool largest, long double *out) {
     if (!scan(&s, o->lo, o->hi, (size_t)fminl(fmaxl(many, PLACES), AT_MOST)))
         return false;
     if (!s.peaks)
-        return calc_fail(o->error, 0, 0, "there is no instant to look at");
+        return calc_fail(o->error, 0, 0, "the part of the load has no instant");
     peak found[PEAKS];
     const size_t count = o->name || s.peaks < FEW ? s.peaks : FEW; /* periods of a load have equal peaks */
     long double most = s.peak[0].v;

@@ -142,7 +142,7 @@ static bool open_seen(calc_error *error) {
         const char *name = getenv("TERM");
         return calc_fail(error, 0, 0,
                          own.screen
-                             ? "the full-screen mode cannot be had on this terminal (TERM=%s)"
+                             ? "this terminal cannot move its cursor, as the full-screen mode needs (TERM=%s)"
                              : "the full-screen mode does not know this terminal (TERM=%s); most are of "
                                "the kind of xterm, try: TERM=xterm-256color fret --live",
                          name ? name : "");

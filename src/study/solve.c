@@ -362,7 +362,7 @@ static bool only_jumps(search *s, double x, calc_error *error) {
     char there[KNOB_TEXT];
     knob_text(&s->of->name, x, there);
     return calc_fail(error, s->of->sides->at, s->of->sides->len,
-                     "no root: the sides jump past each other at %s", there);
+                     "no root: the difference of the two sides jumps through 0 at %s", there);
 }
 
 /* Keeps the brackets that hold a root, not a jump, and replaces s->root by the sorted roots. */
