@@ -38,8 +38,6 @@ fret_status fret_field_pressure(const fret_field *field, fret_real r, fret_real 
  * search: some 300 pressures, tables three more a row. Accuracy: that of p. FRET_SINGULAR: value is the place
  * where p is infinite. */
 fret_status fret_field_peak(const fret_field *field, fret_real *r, fret_real *p);
-/* The largest pressure [Pa] of a contact that is only pressed. Errors also as of fret_field_of_press. */
-fret_status fret_press_peak(const fret_normal *normal, const fret_press *press, fret_real *p);
 /* The normal contact with the largest pressure p0 [Pa] > 0, or with the mean pressure F_N/(pi a^2), by the
  * root of ln p(ln F_N). Errors: FRET_NOT_POSITIVE, FRET_NOT_FINITE; FRET_OUTSIDE if no load has that
  * pressure, FRET_TABLE_SHORT if the gap ends before; FRET_SINGULAR. If several loads have that mean pressure

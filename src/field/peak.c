@@ -78,21 +78,21 @@ fret_status fret_field_peak(const fret_field *f, fret_real *r, fret_real *p) {
 
 /* ---- presses ----------------------------------------------------------------------------------- */
 
-fret_status fret_press_peak(const fret_normal *n, const fret_press *press, fret_real *p) {
-    fret_field *f;
-    fret_status st = fret_field_of_press(n, press, &f);
-    if (!st.code)
-        st = fret_field_peak(f, NULL, p);
-    fret_field_free(f);
-    return st;
-}
-
 typedef fret_status pressure_of(const fret_normal *, const fret_press *, fret_real *p);
 
 static fret_status mean_of(const fret_normal *n, const fret_press *press, fret_real *p) {
     (void)n;
     *p = press->F / (FRET_PI * press->a * press->a);
     return fret_ok();
+}
+
+static fret_status peak_of(const fret_normal *n, const fret_press *press, fret_real *p) {
+    fret_field *f;
+    fret_status st = fret_field_of_press(n, press, &f);
+    if (!st.code)
+        st = fret_field_peak(f, NULL, p);
+    fret_field_free(f);
+    return st;
 }
 
 typedef struct search {
@@ -182,6 +182,6 @@ fret_status fret_press_by_mean(const fret_normal *n, double pmean, fret_press *o
 }
 
 fret_status fret_press_by_peak(const fret_normal *n, double p0, fret_press *out) {
-    search s = {.normal = n, .of = fret_press_peak, .target = p0};
+    search s = {.normal = n, .of = peak_of, .target = p0};
     return press_to(&s, "p0", out);
 }

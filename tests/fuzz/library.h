@@ -514,10 +514,6 @@ CALL(fret_press_by_radius) {
     if (have_normal(w))
         take_press(w, x[1], fret_press_by_radius(w->normal, x[0], &w->press));
 }
-CALL(fret_press_peak) {
-    if (have_normal(w))
-        (void)known_code(fret_press_peak(w->normal, &(fret_press){.dz = x[0]}, w->sink));
-}
 CALL(fret_press_by_peak) {
     if (have_normal(w))
         take_press(w, x[1], fret_press_by_peak(w->normal, x[0], &w->press));
@@ -795,7 +791,6 @@ static const struct row {
     ROW(fret_press_by_force),
     ROW(fret_press_by_depth),
     ROW(fret_press_by_radius),
-    ROW(fret_press_peak),
     ROW(fret_press_by_peak),
     ROW(fret_press_by_mean),
     ROW(fret_normal_energy),

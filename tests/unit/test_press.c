@@ -77,9 +77,6 @@ static void hertz(void) {
     CHECK_REL(p.F, FRET_PI * FRET_PI * FRET_PI * R * R * 1e27L / (6 * E * E), 1e-15);
     CHECK_REL(peak_of(n, &p, &r), 1e9L, 1e-15);
     CHECK(r == 0);
-    fret_real p0 = 0;
-    CHECK_OK(fret_press_peak(n, &p, &p0));
-    CHECK(p0 == peak_of(n, &p, &r));
     CHECK_REL(fret_normal_energy(n, &p), 0.4L * p.F * p.dz, 1e-18);
     CHECK_OK(fret_press_by_mean(n, 1e9, &p));
     CHECK_REL(mean_of(&p), 1e9L, 1e-15);
