@@ -165,7 +165,7 @@ bool parsed_allows(const lexer *lx, const parsed *s, const clause *a) {
     return true;
 }
 
-static given_clause *add_heard(const lexer *lx, parsed *s, const clause *a) {
+static given_clause *add_given(const lexer *lx, parsed *s, const clause *a) {
     if (s->count == GIVEN_CLAUSES) {
         calc_raise(lx->error, lx->at, lx->len, "more than %d clauses", GIVEN_CLAUSES);
         return NULL;
@@ -220,6 +220,26 @@ static bool argument_dim(shell *sh, lexer *lx, parsed *s, const clause *a, dim *
     return n || lex_fail(lx, "give n before A: the dimension of A depends on it");
 }
 
+/* Is the cursor on `at NAME =`? It belongs to the expression before it, `at FILE` is a clause. */
+static bool is_at_change(const lexer *lx) {
+    if (!lex_is(lx, "at"))
+        return false;
+    lexer next = *lx;
+    next.error = error_quiet();
+    lex_next(&next);
+    return next.kind == T_NAME && lex_peek(&next) == T_ASSIGN;
+}
+
+/* The clause that the word at the cursor begins, or NULL. */
+static const clause *clause_named(const lexer *lx, const grammar *f) {
+    if (is_at_change(lx))
+        return NULL;
+    for (const clause *a = f->clause; a < f->clause + f->count; a++)
+        if (!a->argument && *a->name && (lex_is(lx, a->name) || (lx->kind == T_ASSIGN && *a->name == '=')))
+            return a;
+    return NULL;
+}
+
 /* The argument at the cursor, or NULL. */
 static const clause *argument_named(const lexer *lx, const grammar *f) {
     for (const clause *a = f->clause; a < f->clause + f->count; a++)
@@ -229,7 +249,6 @@ static const clause *argument_named(const lexer *lx, const grammar *f) {
 }
 
 static bool read_hole(shell *sh, lexer *lx, parsed *s, given_clause *h, unsigned i);
-static const clause *clause_named(const lexer *lx, const grammar *f);
 
 static bool read_argument(shell *sh, lexer *lx, parsed *s) {
     const token_kind how = lex_peek(lx);
@@ -247,7 +266,7 @@ static bool read_argument(shell *sh, lexer *lx, parsed *s) {
         return false;
     if ((how == T_INCREMENT && !a->increment) || (how == T_DEFINE && !a->live))
         return not_taken(lx, f, a->name, how);
-    given_clause *h = lx->cut || argument_dim(sh, lx, s, a, &d) ? add_heard(lx, s, a) : NULL;
+    given_clause *h = lx->cut || argument_dim(sh, lx, s, a, &d) ? add_given(lx, s, a) : NULL;
     if (!h)
         return false;
     h->increment = how == T_INCREMENT;
@@ -306,28 +325,6 @@ static bool read_choice(lexer *lx, const hole_row *row, given_clause *h) {
                     : near ? "unknown %s '%s': did you mean %s?"
                            : "unknown %s '%s' (%s)",
                     row->noun, word, near ? near : list);
-}
-
-/* ---- clauses ----------------------------------------------------------------------------------- */
-
-/* Is the cursor on `at NAME =`? It belongs to the expression before it, `at FILE` is a clause. */
-static bool is_at_change(const lexer *lx) {
-    if (!lex_is(lx, "at"))
-        return false;
-    lexer next = *lx;
-    next.error = error_quiet();
-    lex_next(&next);
-    return next.kind == T_NAME && lex_peek(&next) == T_ASSIGN;
-}
-
-/* The clause that the word at the cursor begins, or NULL. */
-static const clause *clause_named(const lexer *lx, const grammar *f) {
-    if (is_at_change(lx))
-        return NULL;
-    for (const clause *a = f->clause; a < f->clause + f->count; a++)
-        if (!a->argument && *a->name && (lex_is(lx, a->name) || (lx->kind == T_ASSIGN && *a->name == '=')))
-            return a;
-    return NULL;
 }
 
 /* ---- holes that the command reads --------------------------------------------------------------- */
@@ -595,7 +592,7 @@ static bool read_clause(shell *sh, lexer *lx, parsed *s, const clause *a) {
     const lexer word = *lx;
     lex_next(lx);
     a = with_choice(lx, s->by, a);
-    given_clause *h = parsed_allows(&word, s, a) ? add_heard(&word, s, a) : NULL;
+    given_clause *h = parsed_allows(&word, s, a) ? add_given(&word, s, a) : NULL;
     const hole_row *row = first_hole(a);
     if (!h)
         return false;
@@ -605,7 +602,7 @@ static bool read_clause(shell *sh, lexer *lx, parsed *s, const clause *a) {
         return false;
     while (a->list && lx->kind == T_COMMA) {
         lex_next(lx);
-        h = add_heard(lx, s, a);
+        h = add_given(lx, s, a);
         if (!h || !read_holes(sh, lx, s, h))
             return false;
     }
@@ -651,7 +648,7 @@ static bool read_first(shell *sh, lexer *lx, parsed *s) {
     if (row->kind == HOLE_CHOICE && (lx->kind != T_NAME || lex_assigns(lx)))
         return true;
     do {
-        given_clause *h = add_heard(lx, s, a);
+        given_clause *h = add_given(lx, s, a);
         if (!h || !read_holes(sh, lx, s, h))
             return false;
     } while (a->again && (lx->kind != T_END || lx->error->raised));
