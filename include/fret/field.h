@@ -84,8 +84,8 @@ typedef struct fret_stress {
 fret_status fret_field_stress(const fret_field *field, double nu, double x, double y, double z,
                               fret_stress *out);
 
-/* The equivalent stress of von Mises; the principal stresses, the largest first (to 1e-8 of it where two are
- * equal); the equivalent stress of Tresca, the largest principal stress less the smallest. */
+/* The equivalent stress of von Mises; the principal stresses, the largest first, to 1e-15 of the largest in
+ * magnitude; the equivalent stress of Tresca, the largest principal stress less the smallest. */
 double fret_stress_mises(const fret_stress *stress);
 void fret_stress_principal(const fret_stress *stress, double out[3]);
 double fret_stress_tresca(const fret_stress *stress);

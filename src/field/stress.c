@@ -276,17 +276,37 @@ double fret_stress_mises(const fret_stress *s) {
     return sqrt((a * a + b * b + c * c) / 2 + 3 * (s->xy * s->xy + s->xz * s->xz + s->yz * s->yz));
 }
 
-/* By the trigonometric solution (Lode angle) of the deviator's cubic. */
-void fret_stress_principal(const fret_stress *s, double out[3]) {
-    const double mean = (s->xx + s->yy + s->zz) / 3, size = fret_stress_mises(s) * 2 / 3;
-    const double x = s->xx - mean, y = s->yy - mean, z = s->zz - mean;
-    const double det = x * (y * z - s->yz * s->yz) - s->xy * (s->xy * z - s->yz * s->xz) +
-                       s->xz * (s->xy * s->yz - y * s->xz),
-                 cosine = size > 0 ? 4 * det / size / size / size : 1,
-                 angle = acos(fmax(-1, fmin(1, cosine))) / 3, turn = 2 * (double)FRET_PI / 3;
-    out[0] = mean + size * cos(angle);
-    out[2] = mean + size * cos(angle + turn);
-    out[1] = 3 * mean - out[0] - out[2];
+/* A rotation in the plane of p and q that makes s[p][q] zero: t = tan of its angle, the smaller root of
+ * t^2 + 2 t (s[q][q]-s[p][p])/(2 s[p][q]) - 1 = 0 (Jacobi 1846; Golub, Van Loan, Matrix computations, 8.5).
+ */
+static void rotate(double s[3][3], int p, int q) {
+    const int r = 3 - p - q;
+    if (s[p][q] == 0)
+        return;
+    const double half = (s[q][q] - s[p][p]) / (2 * s[p][q]),
+                 t = copysign(1, half) / (fabs(half) + hypot(1, half)), cosine = 1 / hypot(1, t),
+                 sine = t * cosine, pr = s[p][r], qr = s[q][r];
+    s[p][p] -= t * s[p][q];
+    s[q][q] += t * s[p][q];
+    s[p][q] = s[q][p] = 0;
+    s[p][r] = s[r][p] = cosine * pr - sine * qr;
+    s[q][r] = s[r][q] = sine * pr + cosine * qr;
+}
+
+/* By rotations: the roots of the deviator's cubic would lose half of the digits where two are equal, as on
+ * the axis. They converge quadratically; four sweeps suffice. */
+void fret_stress_principal(const fret_stress *of, double out[3]) {
+    enum { SWEEPS = 6 };
+    double s[3][3] = {{of->xx, of->xy, of->xz}, {of->xy, of->yy, of->yz}, {of->xz, of->yz, of->zz}};
+    for (int i = 0; i < SWEEPS; i++) {
+        rotate(s, 0, 1);
+        rotate(s, 0, 2);
+        rotate(s, 1, 2);
+    }
+    const double low = fmin(s[0][0], s[1][1]), high = fmax(s[0][0], s[1][1]), last = s[2][2];
+    out[0] = fmax(high, last);
+    out[1] = fmax(low, fmin(high, last));
+    out[2] = fmin(low, last);
 }
 
 double fret_stress_tresca(const fret_stress *s) {

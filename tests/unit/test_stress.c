@@ -286,6 +286,25 @@ static void principal(void) {
         CHECK_ABS(fret_stress_mises(&s), sqrt((a * a + b * b + c * c) / 2), 1, 1e-13L);
         CHECK_ABS(fret_stress_tresca(&s), p[0] - p[2], 1, 1e-15L);
     }
+    for (int i = 0; i < 100; i++) { /* 1, 1 - apart and -3 along turned axes */
+        const double apart = i % 4 ? pow(10, unit_random(&state, -16, -2)) : 0;
+        const long double a = (long double)unit_random(&state, -3, 3),
+                          b = (long double)unit_random(&state, -3, 3);
+        const long double u[3] = {cosl(a) * cosl(b), sinl(a) * cosl(b), -sinl(b)},
+                          v[3] = {-sinl(a), cosl(a), 0},
+                          w[3] = {cosl(a) * sinl(b), sinl(a) * sinl(b), cosl(b)};
+        long double t[3][3];
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++)
+                t[j][k] = u[j] * u[k] + (1 - (long double)apart) * v[j] * v[k] - 3 * w[j] * w[k];
+        const fret_stress s = {(double)t[0][0], (double)t[1][1], (double)t[2][2],
+                               (double)t[0][1], (double)t[0][2], (double)t[1][2]};
+        double p[3];
+        fret_stress_principal(&s, p);
+        CHECK_ABS(p[0], 1, 3, 1e-15L);
+        CHECK_ABS(p[1], 1 - apart, 3, 1e-15L);
+        CHECK_ABS(p[2], -3, 3, 1e-15L);
+    }
     const fret_stress even = {-2, -2, -2, 0, 0, 0};
     double p[3];
     fret_stress_principal(&even, p);
