@@ -139,8 +139,7 @@ static void report_optimum(shell *sh, const optimise_question *q, const optimise
                        a->end[i] == END_LOW ? "lower" : "upper");
     }
     if (sh->set.timing)
-        shell_say(sh, "%s: grid, %s%s, %u evaluations", word,
-                  q->count == 1 ? "golden section" : "simplex of Nelder and Mead",
+        shell_say(sh, "%s: grid, golden section%s, %u evaluations", word,
                   a->sharp && inner ? ", Newton's method" : "", a->evaluations);
 }
 

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Grid, golden section, simplex and Newton's method. Depends on points.h, number/least and GSL. */
+/* Scans, golden section and Newton's method. Depends on points.h, number/least and GSL. */
 #include "study/optimise.h"
 
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
-#include <gsl/gsl_multimin.h>
 #include <math.h>
 
 #include "number/least.h"
 
-/* LINE, FINE: steps of a scan along one name; EDGE: halvings; ROUNDS: of the golden section. */
-enum { N = OPTIMISE_NAMES, LINE = 16, FINE = 8 * LINE, EDGE = 43, ROUNDS = 8, SIMPLEX_STEPS = 400 };
+/* LINE, FINE: steps of a scan along the only name; EDGE: halvings; ROUNDS: of the golden section. */
+enum { N = OPTIMISE_NAMES, LINE = 16, FINE = 8 * LINE, EDGE = 16, ROUNDS = 8 };
 
 /* Width of a bracket, relative to its distance from the ends, that suffices for Newton's method. */
 #define NARROW 2e-3
@@ -28,10 +27,12 @@ typedef struct search {
     bool ratios[N];
     bool known, varies; /* `d` is known; two values have differed */
     dim d;
-    long double seen; /* the first value */
-    bool fixed[N];    /* the name stays at an end of its range */
-    place best;       /* so far */
-    calc_error why;   /* why the latest place without a value has none */
+    long double seen;      /* the first value */
+    bool fixed[N];         /* the name stays at an end of its range */
+    int steps;             /* of a scan along one name */
+    double from[N], to[N]; /* the window that is searched, in parts of the ranges */
+    place best;            /* so far */
+    calc_error why;        /* why the latest place without a value has none */
 } search;
 
 static double knob_of(const search *s, size_t i, double u) {
@@ -75,19 +76,14 @@ static bool is_less(long double f, long double than) {
     return f < than - 1e-9L * fabsl(than) || isnan(than);
 }
 
-static bool better_there(search *s, place to) {
-    to.f = at_parts(s, to.u);
-    return better(&s->best, &to);
-}
-
 /* ---- many places at once ----------------------------------------------------------------------- */
 
 enum { PLACES = FINE + 1 };
 
-/* A grid with `side` places along each name; the first name runs fastest. */
+/* Places along one name, in ascending order. */
 typedef struct places {
     search *s;
-    size_t count, side;
+    size_t count;
     place at[PLACES];
 } places;
 
@@ -117,19 +113,14 @@ static size_t best_of(const places *p) {
 }
 
 /* May the optimum lie near place i, which is not the best? Yes if no neighbour is better and one is worse by
- * more than i is worse than the best. */
+ * more than i is worse than the best, or has no value: f may go on falling up to the limit of the scene. */
 static bool is_rival(const places *p, size_t i, size_t best) {
-    const long double f = p->at[i].f;
-    long double rise = 0;
-    for (size_t step = 1; step < p->count && best < p->count; step *= p->side) {
-        const size_t along = i / step % p->side;
-        const long double before = along > 0 ? p->at[i - step].f : f,
-                          after = along + 1 < p->side ? p->at[i + step].f : f;
-        if (before < f || after < f)
-            return false;
-        rise = fmaxl(rise, fmaxl(before, after) - f);
-    }
-    return rise > 0 && i != best && f - rise < p->at[best].f;
+    const long double f = p->at[i].f, before = i > 0 ? p->at[i - 1].f : f,
+                      after = i + 1 < p->count ? p->at[i + 1].f : f;
+    if (isnan(f) || i == best || before < f || after < f)
+        return false;
+    const long double rise = fmaxl(before, after) - f;
+    return isnan(before) || isnan(after) || (rise > 0 && f - rise < p->at[best].f);
 }
 
 static bool has_rivals(const places *p) {
@@ -142,16 +133,12 @@ static bool has_rivals(const places *p) {
 
 /* ---- along one name ---------------------------------------------------------------------------- */
 
-/* A search along one name, the others held. Nested: at each place the names after it are optimised, which is
- * slow but follows the limit of a scene. */
+/* A search along one name. At each place the names after it are optimised by searches of their own, which
+ * follows steep valleys and the limit of a scene; the names before it are held. */
 typedef struct line {
     search *s;
     size_t axis;
-    bool nested;
-    place base, best; /* the other names; the best place so far */
-    double lo, hi;    /* bracket around the best place; lo = hi: none */
-    optimise_end end;
-    calc_error why; /* for END_SCENE */
+    place base, best; /* the names held; the best place so far */
 } line;
 
 static bool search_line(line *l);
@@ -168,19 +155,19 @@ static place line_place(const line *l, double u) {
 
 static const place nowhere = {.f = (long double)NAN};
 
-static bool goes_within(const line *l) {
-    return l->nested && l->axis + 1 < l->s->of->count;
+static bool is_innermost(const line *l) {
+    return l->axis + 1 == l->s->of->count;
 }
 
 static place line_at(line *l, double u) {
     place at = line_place(l, u);
-    if (goes_within(l)) {
+    if (is_innermost(l)) {
+        at.f = at_parts(l->s, at.u);
+    } else {
         at.f = (long double)NAN;
-        line inner = {.s = l->s, .axis = l->axis + 1, .nested = true, .base = at, .best = at};
+        line inner = {.s = l->s, .axis = l->axis + 1, .base = at, .best = at};
         search_line(&inner);
         at = inner.best;
-    } else {
-        at.f = at_parts(l->s, at.u);
     }
     better(&l->best, &at);
     return at;
@@ -192,17 +179,18 @@ static fret_real line_value(fret_real u, fret_real *slope, void *context) {
     return l->s->p.error->raised ? 0 : line_at(l, (double)u).f;
 }
 
-/* Golden section within lo .. hi about the best place, to `part` times its distance from the ends. */
-static bool narrow(line *l, double lo, double hi, double part) {
+/* Golden section within lo .. hi about the best place, to NARROW times its distance from the ends of the
+ * range or times the window. */
+static bool narrow(line *l, double lo, double hi) {
     static const double round = 1e-2; /* relative tolerance of one round */
-    for (int i = 0; i < ROUNDS && hi - lo > part * fmin(best_part(l), 1 - best_part(l)); i++) {
+    const double window = l->s->to[l->axis] - l->s->from[l->axis];
+    for (int i = 0; i < ROUNDS && hi - lo > NARROW * fmin(window, fmin(best_part(l), 1 - best_part(l)));
+         i++) {
         const double apart = round * (hi - lo);
         fret_least(line_value, l, lo, hi, best_part(l), round);
         lo = fmax(lo, best_part(l) - apart);
         hi = fmin(hi, best_part(l) + apart);
     }
-    l->lo = lo;
-    l->hi = hi;
     return !l->s->p.error->raised;
 }
 
@@ -212,43 +200,35 @@ static bool leave_end(line *l, double next) {
     line_at(l, end + (next - end) * 1e-4);
     if (l->s->p.error->raised)
         return false;
-    if (best_part(l) == end) {
-        l->end = end > 0 ? END_HIGH : END_LOW;
-        return true;
-    }
-    return narrow(l, fmin(end, next), fmax(end, next), NARROW);
+    return best_part(l) == end || narrow(l, fmin(end, next), fmax(end, next));
 }
 
 /* Goes towards `bad`, a neighbour without a value. other: that on the far side, or the place itself. */
 static bool approach_edge(line *l, double bad, double other) {
-    calc_error why = l->s->why;
-    for (int i = 0; i < EDGE; i++) { /* too few halvings to reach neighbouring numbers */
+    for (int i = 0; i < EDGE; i++) {
         const double good = best_part(l), mid = bad + (good - bad) / 2;
         const long double f = line_at(l, mid).f;
         if (l->s->p.error->raised)
             return false;
-        if (isnan(f)) {
+        if (isnan(f))
             bad = mid;
-            why = l->s->why;
-        } else if (best_part(l) == mid) {
+        else if (best_part(l) == mid)
             other = good;
-        } else {
-            return other == good ? leave_end(l, mid) : narrow(l, fmin(mid, other), fmax(mid, other), NARROW);
-        }
+        else
+            return other == good ? leave_end(l, mid) : narrow(l, fmin(mid, other), fmax(mid, other));
     }
-    l->end = END_SCENE;
-    l->why = why;
     return true;
 }
 
 static bool scan_line(line *l, places *all, int parts) {
-    all->side = all->count = (size_t)parts + 1;
+    const double from = l->s->from[l->axis], to = l->s->to[l->axis];
+    all->count = (size_t)parts + 1;
     for (int i = 0; i <= parts; i++)
-        all->at[i] = line_place(l, i / (double)parts);
-    if (!goes_within(l))
+        all->at[i] = line_place(l, i < parts ? from + (to - from) * i / parts : to);
+    if (is_innermost(l))
         return at_all(all);
     for (int i = 0; i <= parts && !l->s->p.error->raised; i++)
-        all->at[i] = line_at(l, i / (double)parts);
+        all->at[i] = line_at(l, all->at[i].u[l->axis]);
     return !l->s->p.error->raised;
 }
 
@@ -263,20 +243,21 @@ static bool go_about(line *l, const places *all, size_t i) {
         return approach_edge(l, hi, lo);
     if (u == lo || u == hi)
         return leave_end(l, u == lo ? hi : lo);
-    return narrow(l, lo, hi, NARROW);
+    return narrow(l, lo, hi);
 }
 
 static bool search_line(line *l) {
     places all = {.s = l->s};
     const line begin = *l;
     line found = begin;
-    if (!scan_line(l, &all, LINE) || (!l->nested && has_rivals(&all) && !scan_line(l, &all, FINE)))
+    if (!scan_line(l, &all, l->s->steps) ||
+        (l->s->steps == LINE && has_rivals(&all) && !scan_line(l, &all, FINE)))
         return false;
     const size_t best = best_of(&all);
     for (size_t i = 0; i < all.count; i++) {
         line one = begin;
         one.best = all.at[i];
-        if (i != best && (l->nested || !is_rival(&all, i, best)))
+        if (i != best && !is_rival(&all, i, best))
             continue;
         if (!go_about(&one, &all, i))
             return false;
@@ -285,118 +266,6 @@ static bool search_line(line *l) {
     }
     *l = found;
     return true;
-}
-
-static bool search_one(search *s, line *l, optimise_end *end) {
-    if (!search_line(l))
-        return false;
-    s->best = l->best;
-    *end = l->end;
-    s->fixed[0] = l->end == END_LOW || l->end == END_HIGH;
-    if (l->end == END_SCENE)
-        s->why = l->why;
-    return true;
-}
-
-/* ---- several names ----------------------------------------------------------------------------- */
-
-/* u = sin^2(angle): a simplex in the angles is not stopped by the ends of the ranges. */
-static void parts_of(const search *s, const gsl_vector *angles, double u[N]) {
-    size_t next = 0;
-    for (size_t i = 0; i < s->of->count; i++) {
-        const double sine = s->fixed[i] ? 0 : sin(gsl_vector_get(angles, next++));
-        u[i] = s->fixed[i] ? s->best.u[i] : sine * sine;
-    }
-}
-
-static double gsl_angles(const gsl_vector *v, void *context) {
-    search *s = context;
-    double u[N];
-    parts_of(s, v, u);
-    const long double f = at_parts(s, u);
-    return isnan(f) ? DBL_MAX : (double)f;
-}
-
-static bool simplex(search *s, size_t free, double step, double size) {
-    gsl_multimin_function f = {gsl_angles, free, s};
-    gsl_vector *start = gsl_vector_alloc(free), *steps = gsl_vector_alloc(free);
-    gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, free);
-    bool ok = start && steps && m;
-    if (ok) {
-        size_t next = 0;
-        for (size_t i = 0; i < s->of->count; i++)
-            if (!s->fixed[i])
-                gsl_vector_set(start, next++, asin(sqrt(s->best.u[i])));
-        gsl_vector_set_all(steps, step);
-        int status = gsl_multimin_fminimizer_set(m, &f, start, steps);
-        for (int i = 0; !status && i < SIMPLEX_STEPS && !s->p.error->raised; i++) {
-            status = gsl_multimin_fminimizer_iterate(m);
-            if (gsl_multimin_fminimizer_size(m) < size)
-                break;
-        }
-        place end = s->best;
-        parts_of(s, gsl_multimin_fminimizer_x(m), end.u);
-        if (!s->p.error->raised)
-            better_there(s, end);
-    }
-    if (m)
-        gsl_multimin_fminimizer_free(m);
-    gsl_vector_free(start);
-    gsl_vector_free(steps);
-    return ok ? !s->p.error->raised : calc_no_memory(s->p.error);
-}
-
-static bool search_grid(search *s) {
-    const size_t count = s->of->count, side = count == 2 ? 7 : 5;
-    places all = {.s = s, .count = 1, .side = side};
-    for (size_t i = 0; i < count; i++)
-        all.count *= side;
-    for (size_t p = 0; p < all.count; p++)
-        for (size_t i = 0, rest = p; i < count; i++, rest /= side)
-            all.at[p].u[i] = (double)(rest % side) / (double)(side - 1);
-    if (!at_all(&all))
-        return false;
-    const size_t best = best_of(&all);
-    place found = nowhere;
-    for (size_t p = 0; p < all.count; p++) {
-        if (p != best && !is_rival(&all, p, best))
-            continue;
-        s->best = all.at[p];
-        if (!simplex(s, count, 0.15, 1e-4))
-            return false;
-        if (is_less(s->best.f, found.f))
-            found = s->best;
-    }
-    s->best = found;
-    return true;
-}
-
-/* Fixes names at an end of their range if that is best; returns how many are free. */
-static size_t fix_ends(search *s, optimise_end end[N]) {
-    size_t free = 0;
-    for (size_t i = 0; i < s->of->count; i++) {
-        const double to = s->best.u[i] < 0.5 ? 0 : 1;
-        place there = s->best;
-        there.u[i] = to;
-        if (fabs(s->best.u[i] - to) < 1e-3 && (s->best.u[i] == to || better_there(s, there))) {
-            /* is it the optimum, or only where the simplex began? */
-            there.u[i] = to > 0 ? 1 - 1e-4 : 1e-4;
-            s->fixed[i] = !better_there(s, there);
-            if (s->fixed[i])
-                end[i] = to > 0 ? END_HIGH : END_LOW;
-        }
-        free += !s->fixed[i];
-    }
-    return free;
-}
-
-static bool search_several(search *s, optimise_end end[N]) {
-    if (!search_grid(s))
-        return false;
-    if (isnan(s->best.f))
-        return true;
-    const size_t before = s->of->count, free = fix_ends(s, end);
-    return !free || s->p.error->raised || free == before || simplex(s, free, 0.02, 1e-4);
 }
 
 /* ---- Newton's method --------------------------------------------------------------------------- */
@@ -495,69 +364,74 @@ static bool sharpen(search *s, bool *sharp) {
 
 /* ---- answers ----------------------------------------------------------------------------------- */
 
-/* Marks the names along which a neighbour has no value; true: there is one. */
-static bool end_of_scene(search *s, optimise_answer *out) {
-    bool found = false;
-    for (size_t i = 0; i < s->of->count; i++)
-        if (out->end[i] == END_INNER && (isnan(moved(s, i, 1e-4, i, 0)) || isnan(moved(s, i, -1e-4, i, 0)))) {
-            out->end[i] = END_SCENE;
-            found = true;
-        }
-    return found;
-}
-
-/* Restarts the simplex where the one before got stuck, as happens in a steep valley with a kink. */
-static bool go_on(search *s, size_t free) {
-    enum { AGAIN = 40, IDLE = 3 };
-    static const double steps[IDLE] = {1e-3, 1e-2, 1e-4};
-    int idle = 0;
-    for (int i = 0; i < AGAIN && idle < IDLE; i++) {
-        const long double before = s->best.f;
-        if (!simplex(s, free, steps[i % IDLE], 1e-10))
-            return false;
-        idle = is_less(s->best.f, before) ? 0 : idle + 1;
+/* Searches the window, and says which names are at an end of their range. */
+static bool search_window(search *s, optimise_end end[N]) {
+    static const double little = 1e-12;
+    line l = {.s = s, .best = nowhere};
+    if (!search_line(&l))
+        return false;
+    if (isnan(s->best.f) || l.best.f < s->best.f)
+        s->best = l.best;
+    for (size_t i = 0; i < s->of->count; i++) {
+        end[i] = s->best.u[i] < little ? END_LOW : s->best.u[i] > 1 - little ? END_HIGH : END_INNER;
+        s->fixed[i] = end[i] != END_INNER;
     }
     return true;
 }
 
-/* Improves the place where Newton's method fails: one name by golden section to the last digit; several by
- * new simplices and then, at the limit of the scene, by nested searches. */
-static bool stay_blunt(search *s, line *l, optimise_answer *out) {
-    size_t free = 0;
-    if (s->of->count == 1) {
-        const bool ok = !(l->lo < l->hi) || narrow(l, l->lo, l->hi, 1e-15);
-        s->best = l->best;
-        return ok;
+/* Searches windows about the best place, each a sixteenth of the last unless the place moves, until that
+ * brings no more. */
+static bool zoom(search *s, optimise_end end[N]) {
+    enum { WINDOWS = 40, IDLE = 6 };
+    int idle = 0;
+    double width = 0.25;
+    s->steps /= 2;
+    for (int i = 0; i < WINDOWS && idle < IDLE && width > 1e-12; i++) {
+        const place before = s->best;
+        double far = 0;
+        for (size_t n = 0; n < s->of->count; n++) {
+            s->from[n] = fmax(0, before.u[n] - width / 2);
+            s->to[n] = fmin(1, before.u[n] + width / 2);
+        }
+        if (!search_window(s, end))
+            return false;
+        for (size_t n = 0; n < s->of->count; n++)
+            far = fmax(far, fabs(s->best.u[n] - before.u[n]));
+        idle = s->best.f < before.f ? 0 : idle + 1;
+        if (far <= width / 4)
+            width /= 16;
     }
+    return true;
+}
+
+/* Marks the names along which a neighbour has no value. */
+static void find_limits(search *s, optimise_end end[N]) {
+    static const double near = 1e-6;
     for (size_t i = 0; i < s->of->count; i++)
-        free += !s->fixed[i];
-    if (!go_on(s, free))
-        return false;
-    if (!end_of_scene(s, out))
-        return !s->p.error->raised;
-    line outer = {.s = s, .nested = true, .best = nowhere};
-    if (!search_line(&outer) || !narrow(&outer, outer.lo, outer.hi, 1e-8))
-        return false;
-    if (!is_less(s->best.f, outer.best.f))
-        s->best = outer.best;
-    for (size_t i = 0; i < s->of->count; i++)
-        out->end[i] = s->best.u[i] <= 0 ? END_LOW : s->best.u[i] >= 1 ? END_HIGH : END_INNER;
-    end_of_scene(s, out);
-    return !s->p.error->raised;
+        if (end[i] == END_INNER && (isnan(moved(s, i, near, i, 0)) || isnan(moved(s, i, -near, i, 0))))
+            end[i] = END_SCENE;
 }
 
 static bool answer_optimum(search *s, optimise_answer *out, calc_error *error) {
+    static const int steps[N] = {LINE, 12, 8};
     const expr *e = s->of->e;
-    line l = {.s = s, .best = nowhere};
-    if (!(s->of->count == 1 ? search_one(s, &l, out->end) : search_several(s, out->end)))
+    s->steps = steps[s->of->count - 1];
+    for (size_t i = 0; i < s->of->count; i++)
+        s->to[i] = 1;
+    if (!search_window(s, out->end))
         return false;
     if (isnan(s->best.f))
         return calc_fail(error, e->at, e->len, "no value at any place tried in the range: %s", s->why.text);
     if (!s->varies)
         return calc_fail(error, e->at, e->len, "%.*s is the same everywhere in the range", LEX_SHOWN(e->len),
                          e->text + e->at);
-    if (out->end[0] != END_SCENE && !(sharpen(s, &out->sharp) && (out->sharp || stay_blunt(s, &l, out))))
+    if (!sharpen(s, &out->sharp))
         return false;
+    if (!out->sharp) {
+        if (!zoom(s, out->end))
+            return false;
+        find_limits(s, out->end);
+    }
     for (size_t i = 0; i < s->of->count; i++)
         out->x[i] = knob_of(s, i, s->best.u[i]);
     out->value = s->of->most ? -s->best.f : s->best.f;

@@ -74,11 +74,16 @@ OPTIMA = (
     ("minimize cos(60*x) + 0.05*(x - 1)^2 over x = -3 .. 3", -0.9999986675563383, {"x": 0.9948378170307393}),
     ("maximize cos(3*x)*cos(2*y) - 0.05*((x - 0.1)^2 + (y - 0.2)^2) over x = -1.95 .. 1.5, y = -1.5 .. 2.1",
      0.9975542756343451, {"x": 0.001098954794806794, "y": 0.004878150144751366}),
+    ("minimize (x - 1.672)^2 + (y - 0.625)^2 + 0.3*sin(4.69*x) over x = -2.6 .. 2.5, y = -2.2 .. 3.8",
+     0.037630348416463231, {"x": 1.172931214599732595, "y": 0.625}),
+    # the lowest is at the limit of the scene, another place of the scan is lower
+    ("minimize cos(2.7*(x + 0.89)) + 0.1*(x + 0.89)^2 + 0*sqrt(x - 0.78) over x = -1.7 .. 2.7",
+     0.07690039003102905, {"x": 0.78}),
     # an optimum close to an end
     ("minimize x + 1e-17/x over x = 0 .. 1", 2 * math.sqrt(1e-17), {"x": math.sqrt(1e-17)}),
     ("minimize (x - 7e-5)^2 + (y - 0.5)^2 over x = 0 .. 1, y = 0 .. 1", 0, {"x": 7e-5, "y": 0.5}),
     # a well that only a step from the end of the range finds
-    ("minimize x - max(0, 1 - abs(x - 1e-4)*2e5) + (y - 0.5)^2 over x = 0 .. 1, y = 0 .. 1", 1e-4 - 1, {"x": 1e-4, "y": 0.5}),
+    ("minimize x - max(0, 1 - abs(x - 8e-6)*4e5) + (y - 0.5)^2 over x = 0 .. 1, y = 0 .. 1", 8e-6 - 1, {"x": 8e-6, "y": 0.5}),
     # a bent valley with steep sides
     ("minimize (x + 0.95162134640691609)^2 + 30*(y - 1.9999666292938245 - (x + 0.95162134640691609)^2)^2 + "
      "30*(z - 6.5344410018999959 - (x + 0.95162134640691609)^2)^2 over x = -1 .. -0.9, y = 1 .. 2, z = 0.001 .. 10", 0, {}),
@@ -382,9 +387,9 @@ def told(tests):
 
     for question, want in (
             ("maximize sqrt(1-x) + x over x = 0 .. 5", "grid, golden section, Newton's method"), ("minimize x over x = -3 .. 3", "grid, golden section"),
-            ("minimize (x-1)^2 + y over x = -3 .. 3, y = 0 .. 1", "grid, simplex of Nelder and Mead, Newton's method"),
-            ("minimize x + y over x = -3 .. 3, y = 0 .. 1", "grid, simplex of Nelder and Mead"),
-            ("maximize x + y + 0*sqrt(2-x-y) over x = 0.1 .. 3, y = 0.1 .. 3", "grid, simplex of Nelder and Mead")):
+            ("minimize (x-1)^2 + y over x = -3 .. 3, y = 0 .. 1", "grid, golden section, Newton's method"),
+            ("minimize x + y over x = -3 .. 3, y = 0 .. 1", "grid, golden section"),
+            ("maximize x + y + 0*sqrt(2-x-y) over x = 0.1 .. 3, y = 0.1 .. 3", "grid, golden section")):
         done = tests.run("-c", "set timing on; " + question)
         tests.check("timing of " + question, ": %s, " % want in done.stderr and " evaluations\n" in done.stderr, tests.report(done))
     for sides, key in (("(x-1)^2 = 0", "touches"), ("1/(x-1) = 3 from 0 to 5", "jumps"), ("x^3 = 8", None)):
