@@ -52,8 +52,8 @@ typedef struct rows {
 typedef struct candidate {
     size_t pieces, unknowns; /* the last unknown is the offset */
     gsl_bspline_workspace *spline;
-    gsl_vector *ends, *c, *right, *whole; /* of pieces; coefficients; right side, and for c = 0 */
-    gsl_matrix *normal, *factor;          /* normal equations and their Cholesky factor */
+    gsl_vector *ends, *c, *right; /* of pieces; coefficients; right side */
+    gsl_matrix *normal, *factor;  /* normal equations and their Cholesky factor */
     double rms, worst, at;
     bool grows;         /* (r f')' >= 0, so that the MDR profile g(x) grows */
     double falls, drop; /* r from which f falls, and by how much */
@@ -87,7 +87,6 @@ static void candidate_end(candidate *t) {
     gsl_vector_free(t->ends);
     gsl_vector_free(t->c);
     gsl_vector_free(t->right);
-    gsl_vector_free(t->whole);
     gsl_matrix_free(t->normal);
     gsl_matrix_free(t->factor);
     *t = (candidate){.pieces = 0};
@@ -101,10 +100,9 @@ static bool candidate_begin(candidate *t, const rows *all, size_t pieces, calc_e
                      .ends = gsl_vector_alloc(pieces + 1),
                      .c = gsl_vector_calloc(unknowns),
                      .right = gsl_vector_alloc(unknowns),
-                     .whole = gsl_vector_alloc(unknowns),
                      .normal = gsl_matrix_calloc(unknowns, unknowns),
                      .factor = gsl_matrix_alloc(unknowns, unknowns)};
-    if (!t->spline || !t->ends || !t->c || !t->right || !t->whole || !t->normal || !t->factor)
+    if (!t->spline || !t->ends || !t->c || !t->right || !t->normal || !t->factor)
         return calc_no_memory(error);
     for (size_t i = 0; i <= pieces; i++)
         gsl_vector_set(t->ends, i, i ? all->at[i * (all->distinct - 1) / pieces] : 0);
@@ -156,7 +154,6 @@ static bool improve(candidate *t, const rows *all, bool begin, file_stop stop, c
     }
     if (begin) {
         gsl_matrix_memcpy(t->factor, t->normal);
-        gsl_vector_memcpy(t->whole, t->right);
         if (gsl_linalg_cholesky_decomp1(t->factor)) /* unreached: each piece has four different r */
             return calc_fail(error, 0, 0, "%zu different r are too few for %zu pieces: take fewer",
                              all->distinct, t->pieces);
@@ -232,108 +229,78 @@ static void look_for_fall(candidate *t) {
 
 /* ---- the nearest convex spline ----------------------------------------------------------------- */
 
-/* Non-negative least squares (Lawson and Hanson): the positive unknowns are added one by one. */
-typedef struct active {
-    const gsl_matrix *M;
-    const gsl_vector *right;
-    gsl_vector *x, *wanted; /* the present solution; that of the unknowns in use without constraints */
-    gsl_matrix *part;       /* the part of M for the unknowns in use */
-    size_t n, count;        /* numbers of unknowns, and of those in use */
-    size_t *used;           /* unknowns in use; first the one that may be negative */
-} active;
-
-/* Sets `wanted` to the least squares of the unknowns in use; false: their matrix is singular. */
-static bool solve_used(active *s) {
-    gsl_matrix_view M = gsl_matrix_submatrix(s->part, 0, 0, s->count, s->count);
-    gsl_vector_view x = gsl_vector_subvector(s->wanted, 0, s->count);
-    for (size_t i = 0; i < s->count; i++) {
-        gsl_vector_set(&x.vector, i, gsl_vector_get(s->right, s->used[i]));
-        for (size_t j = 0; j < s->count; j++)
-            gsl_matrix_set(&M.matrix, i, j, gsl_matrix_get(s->M, s->used[i], s->used[j]));
+/* The least squares of the unknowns that are not `zero`. False: their matrix is singular. */
+static bool solve_rest(const gsl_matrix *M, const gsl_vector *right, const bool *zero, gsl_matrix *factor,
+                       gsl_vector *x) {
+    for (size_t i = 0; i < x->size; i++) {
+        gsl_vector_set(x, i, zero[i] ? 0 : gsl_vector_get(right, i));
+        for (size_t j = 0; j < x->size; j++)
+            gsl_matrix_set(factor, i, j, zero[i] || zero[j] ? i == j : gsl_matrix_get(M, i, j));
     }
-    const int status = gsl_linalg_cholesky_decomp1(&M.matrix);
-    gsl_linalg_cholesky_svx(&M.matrix, &x.vector);
-    return !status;
+    return !gsl_linalg_cholesky_decomp1(factor) && !gsl_linalg_cholesky_svx(factor, x);
 }
 
-/* Moves x to `wanted`, or until an unknown becomes 0, which is then out of use; true: x has arrived. */
-static bool approach(active *s) {
+/* Moves x to `wanted`, or until an unknown becomes 0, which then is `zero`; true: x has arrived. */
+static bool approach(gsl_vector *x, const gsl_vector *wanted, bool *zero) {
+    const size_t last = x->size - 1;
     double part = 1;
-    size_t stop = 0, kept = 1;
-    for (size_t i = 1; i < s->count; i++) {
-        const double from = gsl_vector_get(s->x, s->used[i]), to = gsl_vector_get(s->wanted, i);
-        if (to <= 0 && from / (from - to) < part) {
+    size_t stop = last;
+    for (size_t i = 0; i < last; i++) {
+        const double from = gsl_vector_get(x, i), to = gsl_vector_get(wanted, i);
+        if (!zero[i] && to <= 0 && from / (from - to) < part) {
             part = from / (from - to);
             stop = i;
         }
     }
-    for (size_t i = 0; i < s->count; i++) {
-        double *x = gsl_vector_ptr(s->x, s->used[i]);
-        *x += part * (gsl_vector_get(s->wanted, i) - *x);
-    }
-    if (stop)
-        gsl_vector_set(s->x, s->used[stop], 0);
-    for (size_t i = 1; i < s->count; i++) {
-        const size_t which = s->used[i];
-        if (gsl_vector_get(s->x, which) <= 0)
-            gsl_vector_set(s->x, which, 0);
-        else
-            s->used[kept++] = which;
-    }
-    s->count = kept;
-    return stop == 0;
+    for (size_t i = 0; i <= last; i++)
+        *gsl_vector_ptr(x, i) += part * (gsl_vector_get(wanted, i) - gsl_vector_get(x, i));
+    for (size_t i = 0; i < last; i++)
+        if (i == stop || gsl_vector_get(x, i) <= 0) {
+            gsl_vector_set(x, i, 0);
+            zero[i] = true;
+        }
+    return stop == last;
 }
 
-/* The unused unknown with the steepest descent of the squares; n: none descends. */
-static size_t best_unused(const active *s) {
-    double best = 1e-12 * gsl_blas_dnrm2(s->right);
-    size_t found = s->n;
-    for (size_t i = 0; i + 1 < s->n; i++) {
-        double slope = gsl_vector_get(s->right, i);
-        bool used = false;
-        for (size_t j = 0; j < s->count; j++) {
-            slope -= gsl_matrix_get(s->M, i, s->used[j]) * gsl_vector_get(s->x, s->used[j]);
-            used = used || s->used[j] == i;
-        }
-        if (!used && slope > best) {
-            best = slope;
+/* Frees the `zero` unknown that descends most steeply; false: none descends. */
+static bool free_one(const gsl_matrix *M, const gsl_vector *right, const gsl_vector *x, bool *zero) {
+    double best = 1e-12 * gsl_blas_dnrm2(right);
+    size_t found = x->size;
+    for (size_t i = 0; i < x->size; i++) {
+        const gsl_vector_const_view of = gsl_matrix_const_row(M, i);
+        double product;
+        gsl_blas_ddot(&of.vector, x, &product);
+        if (zero[i] && gsl_vector_get(right, i) - product > best) {
+            best = gsl_vector_get(right, i) - product;
             found = i;
         }
     }
-    return found;
+    if (found < x->size)
+        zero[found] = false;
+    return found < x->size;
 }
 
-/* Stops early if rounding makes the matrix singular: the solution so far is good enough. */
-static void run_active_set(active *s) {
-    s->used[s->count++] = s->n - 1;
-    for (size_t round = 0, next = 0; next < s->n; round++) {
-        do
-            if (!solve_used(s) || round == 3 * s->n) /* unreached: no such rows are known */
-                return;
-        while (!approach(s));
-        next = best_unused(s);
-        if (next < s->n)
-            s->used[s->count++] = next;
-    }
-}
-
-/* Solves M x = right in the sense of least squares with x >= 0 but for the last. False: out of memory. */
+/* Least squares M x = right with x >= 0 but for the last, from a start x (Lawson and Hanson). Stops early if
+ * rounding makes the matrix singular: the solution so far is good enough. False: out of memory. */
 static bool nonnegative(const gsl_matrix *M, const gsl_vector *right, gsl_vector *x) {
     const size_t n = x->size;
-    active s = {.M = M,
-                .right = right,
-                .x = x,
-                .wanted = gsl_vector_alloc(n),
-                .part = gsl_matrix_alloc(n, n),
-                .n = n,
-                .used = malloc(n * sizeof *s.used)};
-    gsl_vector_set_zero(x);
-    const bool ok = s.wanted && s.part && s.used;
-    if (ok)
-        run_active_set(&s);
-    gsl_vector_free(s.wanted);
-    gsl_matrix_free(s.part);
-    free(s.used);
+    gsl_vector *wanted = gsl_vector_alloc(n);
+    gsl_matrix *factor = gsl_matrix_alloc(n, n);
+    bool *zero = calloc(n, sizeof *zero);
+    const bool ok = wanted && factor && zero;
+    for (size_t i = 0; i + 1 < n && ok; i++) {
+        gsl_vector_set(x, i, fmax(gsl_vector_get(x, i), 0));
+        zero[i] = gsl_vector_get(x, i) == 0;
+    }
+    for (size_t round = 0; ok && round < 3 * n; round++) {
+        if (!solve_rest(M, right, zero, factor, wanted)) /* unreached: no such rows are known */
+            break;
+        if (approach(x, wanted, zero) && !free_one(M, right, x, zero))
+            break;
+    }
+    gsl_vector_free(wanted);
+    gsl_matrix_free(factor);
+    free(zero);
     return ok;
 }
 
@@ -352,7 +319,10 @@ static bool make_convex(candidate *t, const rows *all) {
         gsl_matrix_set(T, n - 1, n - 1, 1);
         gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1, t->normal, T, 0, AT);
         gsl_blas_dgemm(CblasTrans, CblasNoTrans, 1, T, AT, 0, M);
-        gsl_blas_dgemv(CblasTrans, 1, T, t->whole, 0, right);
+        gsl_blas_dgemv(CblasNoTrans, 1, t->normal, t->c, 0, e); /* the right side of the normal equations */
+        gsl_blas_dgemv(CblasTrans, 1, T, e, 0, right);
+        gsl_vector_memcpy(e, t->c);
+        gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, T, e);
         ok = nonnegative(M, right, e);
     }
     if (ok) {
