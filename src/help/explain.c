@@ -29,10 +29,9 @@ typedef struct part {
     bool call;
     const char *text; /* "dW(20 N)" */
     size_t len;
-    size_t argument, argument_len; /* of a call: where its argument stands in text */
-    const definition *in;          /* the definition whose body it stands in, or NULL */
-    bool whole;                    /* the user asked for this quantity alone */
-    bool told;                     /* its page has been written */
+    const definition *in; /* the definition whose body it stands in, or NULL */
+    bool whole;           /* the user asked for this quantity alone */
+    bool told;            /* its page has been written */
 } part;
 
 /* Returns `ok`. What fails is left out of the page, but no memory and Ctrl-C are errors of the page. */
@@ -442,10 +441,8 @@ static bool part_at(const expr *e, size_t i, part *out) {
     *out = (part){.q = q, .call = call, .text = call ? e->text + at : q->name, .len = strlen(q->name)};
     if (!call)
         return true;
-    out->argument = strcspn(out->text, "(") + 1;
-    for (end = out->argument; depth > 0; end++)
+    for (end = strcspn(out->text, "(") + 1; depth > 0; end++)
         depth += (out->text[end] == '(') - (out->text[end] == ')');
-    out->argument_len = end - 1 - out->argument;
     out->len = end;
     return true;
 }
@@ -483,15 +480,6 @@ static bool add_parts(const page *p, const expr *e, const definition *in, const 
     return true;
 }
 
-/* Parses and evaluates a piece of a statement. */
-static bool text_value(const page *p, const char *text, size_t len, expr *e, value *v) {
-    calc *c = &p->sh->calc;
-    calc_error *why = error_quiet();
-    lexer lx;
-    lex_start(&lx, text, len, why);
-    return explain_had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, why), why);
-}
-
 /* Was the value given: an input, or an input of the load that no step has changed? */
 static bool is_given(const page *p, const quantity *q) {
     scene *s = p->sh->calc.now;
@@ -513,24 +501,26 @@ static bool is_free(const part *of, const definition *in) {
 
 /* Evaluates the part by itself; false if it has no value. */
 static bool part_value(const page *p, const part *of, expr *e, value *v) {
-    return !(of->in && is_free(of, of->in)) && text_value(p, of->text, of->len, e, v);
+    calc *c = &p->sh->calc;
+    calc_error *why = error_quiet();
+    lexer lx;
+    if (of->in && is_free(of, of->in))
+        return false;
+    lex_start(&lx, of->text, of->len, why);
+    return explain_had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, why), why);
 }
 
 /* ---- pages of an expression --------------------------------------------------------------------- */
 
 static bool explain_part(const page *p, const part *of) {
-    expr e = {0}, unused = {0};
+    expr e = {0};
     influence_study study = {.count = 0};
-    value v = {0}, argument = {0};
+    value v = {0};
     const bool has = part_value(p, of, &e, &v);
-    const quantity *call = of->call && quantity_arguments(of->q) == 1 ? of->q : NULL;
-    if (has && call)
-        text_value(p, of->text + of->argument, of->argument_len, &unused, &argument);
-    const bool ok = !has || influences(&p->sh->calc, &e, v.v, call, argument, &study, p->error);
+    const bool ok = !has || influences(&p->sh->calc, &e, v.v, &study, p->error);
     if (ok)
         explain_quantity(p, of, has ? &e : NULL, v, &study, of->whole && p->conditioning);
     expr_free(&e);
-    expr_free(&unused);
     return ok;
 }
 
@@ -571,7 +561,7 @@ static bool explain_parts(const page *p, parts *all) {
 
 static bool explain_whole(const page *p, const expr *e, value v) {
     influence_study study;
-    if (p->conditioning && !influences(&p->sh->calc, e, v.v, NULL, (value){0}, &study, p->error))
+    if (p->conditioning && !influences(&p->sh->calc, e, v.v, &study, p->error))
         return false;
     answer_page(p->out, "explain");
     explain_value(p, e->text + e->at, e->len, v, expr_unit(e));

@@ -28,27 +28,9 @@ static void add_step(influence_study *out, const char *name, load_by by, double 
                                            .increment = increment};
 }
 
-static void add_names(const calc *c, const expr *e, influence_study *out) {
-    size_t left = CAUSE_NAMES;
-    for (size_t i = 0; i < c->names.count && left > 0; i++) {
-        const own_name *row = &c->names.row[i];
-        if (!row->known || row->definition ||
-            !(expr_mentions(c, e, NULL, row->text) || bindings_mention(c, &c->now->in, row->text)))
-            continue;
-        out->cause[out->count++] = (cause){.name = row->text,
-                                           .v = row->v,
-                                           .kind = CAUSE_NAME,
-                                           .own = i,
-                                           .influence = row->v.v == 0 ? INFLUENCE_ZERO : INFLUENCE_NONE};
-        left--;
-    }
-}
-
 /* Lists the causes in the order in which a session sets them. */
-static void find_causes(const calc *c, const expr *e, program *own, const quantity *call, value argument,
-                        influence_study *out) {
+static void find_causes(const scene *s, program *own, influence_study *out) {
     static const input of_cycle[] = {IN_FNA, IN_PHASE, IN_FA, IN_DXA, IN_DRIGA, IN_NW};
-    const scene *s = c->now;
     for (input in = 0; in < INPUTS; in++)
         if (!(INPUT_BIT(in) & INPUT_CYCLE))
             add_input(s, in, out);
@@ -61,9 +43,6 @@ static void find_causes(const calc *c, const expr *e, program *own, const quanti
     if (own && last->kind == LOAD_STEP && last->tangential)
         add_step(out, quantity_of_step((load_by)last->tangential)->name, (load_by)last->tangential,
                  &last->tangential_value, true, last->relative & RELATIVE_TANGENTIAL);
-    add_names(c, e, out);
-    if (call && argument.v != 0)
-        out->cause[out->count++] = (cause){.name = call->argument, .v = argument, .kind = CAUSE_ARGUMENT};
 }
 
 bool cause_is_load(const cause *c) {
@@ -77,15 +56,14 @@ typedef struct probe {
     trial *t;
     const expr *e;
     long double result;
-    const quantity *call; /* of CAUSE_ARGUMENT, or NULL */
-    program *own;         /* a copy of the load program whose steps are changed; NULL: there is no load */
-    calc_error *error;    /* raised: the study ends */
+    program *own;      /* a copy of the load program whose steps are changed; NULL: there is no load */
+    calc_error *error; /* raised: the study ends */
 } probe;
 
 static bool set_to(probe *p, const cause *c, double x, calc_error *error) {
     scene *s = &p->t->scene;
-    knob k = {.is_input = c->kind == CAUSE_INPUT, .in = c->in, .name = c->own, .d = c->v.d};
-    if (c->kind != CAUSE_STEP)
+    knob k = {.is_input = true, .in = c->in, .d = c->v.d};
+    if (c->kind == CAUSE_INPUT)
         return trial_set(p->t, &k, x, error);
     counted_drop(s->program);
     s->program = counted_hold(p->own);
@@ -99,16 +77,9 @@ static bool moved_to(probe *p, const cause *c, double x, long double *out) {
     calc_error *why = error_quiet();
     value v = {0};
     trial_reset(p->t);
-    bool ok;
-    if (c->kind == CAUSE_ARGUMENT) {
-        ok = quantity_call(p->call, &p->t->scene, &(value){x, c->v.d}, &v.v, why);
-    } else {
-        ok = set_to(p, c, x, why) && expr_eval(p->t->c, p->e, &v, why);
-        if (c->kind == CAUSE_STEP)
-            *c->step = (double)c->v.v;
-        else if (c->kind == CAUSE_NAME) /* trial_reset does not put names back */
-            set_to(p, c, (double)c->v.v, why);
-    }
+    const bool ok = set_to(p, c, x, why) && expr_eval(p->t->c, p->e, &v, why);
+    if (c->kind == CAUSE_STEP)
+        *c->step = (double)c->v.v;
     if (why->stop && !p->error->raised)
         *p->error = *why;
     *out = v.v;
@@ -172,8 +143,6 @@ static void find_influence(probe *p, cause *c) {
 static bool probe_all(probe *p, influence_study *out) {
     const double start = clock_worked();
     for (size_t i = 0; i < out->count; i++) {
-        if (out->cause[i].influence == INFLUENCE_ZERO)
-            continue;
         if (clock_worked() - start < (double)INFLUENCE_SECONDS)
             find_influence(p, &out->cause[i]);
         else
@@ -184,16 +153,15 @@ static bool probe_all(probe *p, influence_study *out) {
     return true;
 }
 
-bool influences(calc *c, const expr *e, long double result, const quantity *call, value argument,
-                influence_study *out, calc_error *error) {
+bool influences(calc *c, const expr *e, long double result, influence_study *out, calc_error *error) {
     const scene *s = c->now;
-    probe p = {.e = e, .result = result, .call = call, .error = error};
+    probe p = {.e = e, .result = result, .error = error};
     out->count = 0;
     if (result == 0)
         return true;
     if (s->end.steps && !(p.own = program_copy(s->program, s->end)))
         return calc_no_memory(error);
-    find_causes(c, e, p.own, call, argument, out);
+    find_causes(s, p.own, out);
     bool ok = (p.t = trial_open(c, error)) && probe_all(&p, out);
     if (p.t)
         p.t->scene.used = 0; /* the models used here must not be reported as those of the answer */

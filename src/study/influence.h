@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conditioning: how far a change in the last digit of each number that an expression depends on moves its
- * value. Depends on language/trial: the scene stays as it is. Prints nothing. */
+/* Conditioning: how far a change in the last digit of each input, and of the last load, moves the value of an
+ * expression. Depends on language/trial: the scene stays as it is. Prints nothing. */
 #ifndef STUDY_INFLUENCE_H
 #define STUDY_INFLUENCE_H
 
@@ -12,7 +12,6 @@ typedef enum influence {
     INFLUENCE_SMALL,   /* condition number below 0.01 */
     INFLUENCE_HIDDEN,  /* not smooth here, or hidden by rounding */
     INFLUENCE_SKIPPED, /* not computed: time is up */
-    INFLUENCE_ZERO,    /* not computed: the name is 0, which has no last digit and no relative change */
     INFLUENCE_SHOWN    /* `change` holds it */
 } influence;
 
@@ -20,9 +19,8 @@ typedef enum influence {
 typedef struct cause {
     const char *name;
     value v;
-    enum { CAUSE_INPUT, CAUSE_STEP, CAUSE_NAME, CAUSE_ARGUMENT } kind;
+    enum { CAUSE_INPUT, CAUSE_STEP } kind;
     input in;        /* CAUSE_INPUT */
-    size_t own;      /* CAUSE_NAME: index of the user's name */
     double *step;    /* CAUSE_STEP: target of the last step; valid within influences() alone */
     bool tangential; /* CAUSE_STEP: a target of F_x or delta_x */
     bool increment;  /* CAUSE_STEP: the target was given by += */
@@ -31,7 +29,7 @@ typedef struct cause {
     influence influence;
 } cause;
 
-enum { CAUSE_NAMES = 8, CAUSES = INPUTS + 3 + CAUSE_NAMES + 1 };
+enum { CAUSES = INPUTS + 2 };
 enum { INFLUENCE_SECONDS = 3 }; /* processor time after which further causes are INFLUENCE_SKIPPED */
 
 typedef struct influence_study {
@@ -42,10 +40,9 @@ typedef struct influence_study {
 /* Does the cause belong to the load program? */
 bool cause_is_load(const cause *c);
 
-/* Finds the causes of the value of e, which is `result` in the scene c->now: inputs, the last step and the
- * user's names, unless they follow a live definition. call: if e is a call of this quantity its argument is a
- * cause too; else NULL. `change` is good to about two digits. Errors: interrupted, out of memory. */
-bool influences(calc *c, const expr *e, long double result, const quantity *call, value argument,
-                influence_study *out, calc_error *error);
+/* Finds the causes of the value of e, which is `result` in the scene c->now: the inputs, unless they follow a
+ * live definition, and the last step. `change` is good to about two digits. Errors: interrupted, out of
+ * memory. */
+bool influences(calc *c, const expr *e, long double result, influence_study *out, calc_error *error);
 
 #endif

@@ -249,10 +249,10 @@ CONDITIONED = (
      {"E0": 210e9, "nu": 0.3, "mu": 0.3, "FN": 100, "R": 1e-2, "FNA": 20, "FA": 10}),
     ("material E0=%(E0)s Pa nu=%(nu)s; geometry flat-rounded b=%(b)s m R=%(R)s m; friction %(mu)s; press dz=%(dz)s m",
      ("FN", "kn"), {"E0": 210e9, "nu": 0.3, "mu": 0.3, "b": 2e-4, "R": 1e-2, "dz": 1e-6}),
-    # the user's own names, one of them bound to an input, and steps of every kind
-    ("z = %(z)s; y = %(y)s m; material E0=%(E0)s Pa nu=%(nu)s; geometry sphere R=%(R)s m; mu := z; "
-     "press FN=%(FN)s N; step FN=%(step FN)s N Fx=%(Fx)s N", ("dx", "W", "qx(y)"),
-     {"E0": 210e9, "nu": 0.3, "R": 1e-2, "FN": 100, "step FN": 80, "Fx": 10, "z": 0.4, "y": 1e-4}),
+    # an input bound to a name, which is none, and steps of every kind
+    ("z = 0.4; material E0=%(E0)s Pa nu=%(nu)s; geometry sphere R=%(R)s m; mu := z; "
+     "press FN=%(FN)s N; step FN=%(step FN)s N Fx=%(Fx)s N", ("dx", "W", "qx(0.1 mm)"),
+     {"E0": 210e9, "nu": 0.3, "R": 1e-2, "FN": 100, "step FN": 80, "Fx": 10}),
     ("material E0=%(E0)s Pa nu=%(nu)s; geometry sphere R=%(R)s m; friction %(mu)s; press FN=%(FN)s N; "
      "step FN+=%(step FN)s N Fx+=%(Fx)s N", ("dx", "U"),
      {"E0": 210e9, "nu": 0.3, "R": 1e-2, "FN": 100, "step FN": 10, "Fx": 5, "mu": 0.4}),
@@ -299,16 +299,14 @@ def conditioned(tests, scene, quantities, start):
 
 
 def causes(tests):
-    """Which causes are listed: not names that are 0, unknown or definitions, nor steps that end at 0; of many names only some."""
+    """Which causes are listed: inputs and the last step, but not one that ends at 0, nor names of the user or arguments."""
     scene = GRADED % (0.3, SPHERE)
     for script, there, absent in (
-            (scene + "x = 0; y = 2; z := 3; table a(u) for u = 1 N .. 2 N; explain a*y + x*(1 m) + z*a", ("y",), ("x", "z", "u")),
+            (scene + "x = 0; y = 2; z := 3; table a(u) for u = 1 N .. 2 N; explain a*y + x*(1 m) + z*a", ("FN",), ("x", "y", "z", "u")),
             (scene + "step Fx=20 N; step Fx=0 N; explain dx", ("FN", "mu"), ("Fx",)),
             (scene + "step Fx=20 N; step FN=110 N; explain W", ("FN",), ("Fx",)),
             (scene + "explain p(0 m)", ("FN",), ("r",)),
-            (scene + "; ".join("n%d = %d" % (i, i + 1) for i in range(9)) + "; explain a*(" + "+".join("n%d" % i for i in range(9)) + ")",
-             ("n0", "n7"), ("n8",)),
-            (scene + "x = 1; explain a*(1 + 1e10*(x - 1)^2)", ("FN",), ("x",))):
+            (scene + "mu = 0.5; explain a*(1 + 1e10*(mu - 0.5)^2)", ("FN",), ("mu",))):
         done = tests.run("-c", script + " conditioning")
         found = re.findall(r"^    ((?:step )?\w+) \+?= \S+(?: [^ \n]+)? {2,}\S", done.stdout, re.M)
         tests.check("explain: causes of " + script.rpartition("; ")[2], done.returncode == 0 and all(name in found for name in there)

@@ -51,7 +51,7 @@ TOLD = (
     (FLAT + "step FN=12 N; step Fx=1 N\n", "W", ("    model: memory diagram.*", "    law of the gap: polynomials, good to [1-9]e-1[5-9]"), ()),
     # the error, always; the conditioning, on request
     (PRESSED, "dW(20 N)", ("    error: below 3e-16 of the value",), ("    conditioning", "    no effect")),
-    (PRESSED, "dW(20 N) conditioning", ("    error: below 3e-16 of the value", "    conditioning .*", "    argument FA = 20 N .*"), ()),
+    (PRESSED, "dW(20 N) conditioning", ("    error: below 3e-16 of the value", "    conditioning .*"), ("    argument FA = 20 N .*",)),
     (PRESSED, "2*dW(20 N)/dW(10 N)", ("    error: below 3e-16 of the value",), ("    conditioning", "    no effect")),
     (PRESSED, "2*dW(20 N) at mu=0.5 conditioning", ("    mu = 0.5 .*  \\S+", "    conditioning .*"), ()),
     (PRESSED, "mu", ("    mu = 0.4",), ("    error: ",)),
