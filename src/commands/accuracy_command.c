@@ -7,7 +7,6 @@
 #include "commands/figures.h"
 #include "statement/answer.h"
 #include "statement/command.h"
-#include "statement/progress.h"
 #include "study/accuracy.h"
 
 /* Columns of the answer. */
@@ -21,14 +20,6 @@ static void describe_size(const accuracy_row *row, char *buf, size_t size) {
         snprintf(buf, size, "%s = %lu", families[row->family].size, row->size);
 }
 
-static void show_progress(void *context, const accuracy_row *row) {
-    char size[40], words[80];
-    describe_size(row, size, sizeof size);
-    snprintf(words, sizeof words, "measuring %-17s %-11s", families[row->family].name, size);
-    (void)context;
-    progress_words(words);
-}
-
 /* Runs the study of the cycle given by FA or dxA, or of the last one. */
 static bool run_study(shell *sh, parsed *given, accuracy_study *out, calc_error *error) {
     const given_clause *FA = parsed_clause(given, "FA", 0), *dxA = parsed_clause(given, "dxA", 0),
@@ -37,7 +28,7 @@ static bool run_study(shell *sh, parsed *given, accuracy_study *out, calc_error 
                                 .by_force = !dxA,
                                 .amplitude = v ? (double)v->v.v : 0,
                                 .seconds = within ? (double)within->v.v : 3};
-    bool ok = accuracy_measure(sh->calc.now, &load, show_progress, NULL, out, error);
+    bool ok = accuracy_measure(sh->calc.now, &load, out, error);
     const char *blamed = error->raised && error->kind == ERROR_STATUS ? error->status.quantity : NULL;
     if (v && blamed && !strcmp(blamed, "FA")) /* a dxA has no limit to exceed */
         given_place(error, v);

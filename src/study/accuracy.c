@@ -25,8 +25,6 @@ typedef struct bench {
     scene *s;
     calc_error *error;
     accuracy_study *study;
-    accuracy_progress *progress;
-    void *context;
     double budget, end;   /* processor seconds, and the clock when they are spent */
     double enough;        /* processor seconds for timing one model */
     load_view load;       /* the load that is run: the program, or pressing and a cycle alone */
@@ -40,8 +38,9 @@ static bool bench_stopped(const bench *b) {
     return calc_stopped(b->s->stop, b->error);
 }
 
-static void tell_row(const bench *b, model_family family, unsigned long size) {
-    b->progress(b->context, &(accuracy_row){.family = family, .size = size});
+static void pulse(const bench *b) {
+    if (b->s->pulse)
+        b->s->pulse();
 }
 
 /* Callback: computes one cycle of a model; loss NULL: only to measure the time. */
@@ -71,7 +70,7 @@ static bool measure(bench *b, model_family family, unsigned long size, cycle_of 
     accuracy_study *study = b->study;
     accuracy_row *row = &study->row[study->count];
     *row = (accuracy_row){.family = family, .size = size};
-    tell_row(b, family, size);
+    pulse(b);
     const double start = clock_worked();
     fret_status st = cycle(model, &row->value);
     row->seconds = clock_worked() - start;
@@ -238,7 +237,7 @@ static bool measure_model(bench *b, model_family family, unsigned size, unsigned
     const bool chords = swings(b) && !(family == FAMILY_MEMORY && by_sine(b));
     const double start = clock_worked();
     running m;
-    tell_row(b, family, size);
+    pulse(b);
     fret_status st = begin_running(b, &m, family, springs ? size : 0, loop ? level : 0,
                                    loop || !swings(b) ? 1
                                    : chords           ? LEVELS
@@ -410,9 +409,8 @@ static bool choose_load(bench *b, const accuracy_load *given) {
     return calc_status(error, st);
 }
 
-bool accuracy_measure(scene *s, const accuracy_load *load, accuracy_progress *progress, void *context,
-                      accuracy_study *out, calc_error *error) {
-    bench b = {.s = s, .error = error, .study = out, .progress = progress, .context = context};
+bool accuracy_measure(scene *s, const accuracy_load *load, accuracy_study *out, calc_error *error) {
+    bench b = {.s = s, .error = error, .study = out};
     *out = (accuracy_study){.count = 0};
     if (!choose_load(&b, load))
         return false;

@@ -63,11 +63,7 @@ typedef struct accuracy_load {
     double seconds; /* processor time that the larger models may take */
 } accuracy_load;
 
-/* Callback before each row is measured; family and size of `row` are set. */
-typedef void accuracy_progress(void *context, const accuracy_row *row);
-
 /* Measures the models. Errors: a value is missing; gross slip or FA, dxA not positive; interrupted. */
-bool accuracy_measure(scene *s, const accuracy_load *load, accuracy_progress *progress, void *context,
-                      accuracy_study *out, calc_error *error);
+bool accuracy_measure(scene *s, const accuracy_load *load, accuracy_study *out, calc_error *error);
 
 #endif

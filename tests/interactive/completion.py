@@ -256,7 +256,8 @@ def slowly(tests, s):
             ("step Fx=15 N", r"step: \d+ s", "reset; press FN=100 N; set report off; cycle FA=10 N times 100000; set report auto"),
             ("fit E0 for depth = dz(force) to depth.csv", r"fit: \d+ s",
              "reset; set model auto; geometry flat-rounded b=1 mm R=10 mm; press FN=100 N; set cores 1"),
-            ("export jenkins 1000 to a.csv", r"export: \d+ s", "set model auto"))[:2 if tests.few else None]:
+            ("export jenkins 1000 to a.csv", r"export: \d+ s", "set model auto"),
+            ("accuracy within 60", r"accuracy: \d+ s", "set model auto"))[:2 if tests.few else None]:
         s.say(setup)
         scene = s.say("set pager off; show")
         s.child.sendline(statement)
