@@ -14,12 +14,6 @@ enum { HEAD_MODEL, HEAD_PARAMETER, HEAD_VALUE, HEAD_ERROR, HEAD_BOUND, HEAD_SECO
 
 /* ---- measuring --------------------------------------------------------------------------------- */
 
-static void describe_size(const accuracy_row *row, char *buf, size_t size) {
-    buf[0] = 0;
-    if (row->size)
-        snprintf(buf, size, "%s = %lu", families[row->family].size, row->size);
-}
-
 /* Runs the study of the cycle given by FA or dxA, or of the last one. */
 static bool run_study(shell *sh, parsed *given, accuracy_study *out, calc_error *error) {
     const given_clause *FA = parsed_clause(given, "FA", 0), *dxA = parsed_clause(given, "dxA", 0),
@@ -112,8 +106,9 @@ enum { SHORT = 40 };
 
 static void say_row(answer *out, const accuracy_study *study, const accuracy_row *row, long double scale) {
     const double ratio = row->seconds / fastest(study);
-    char parameter[SHORT], number[NUMBER_TEXT], error[SHORT], t[SHORT], times[SHORT];
-    describe_size(row, parameter, sizeof parameter);
+    char parameter[SHORT] = "", number[NUMBER_TEXT], error[SHORT], t[SHORT], times[SHORT];
+    if (row->size)
+        snprintf(parameter, sizeof parameter, "%s = %lu", families[row->family].size, row->size);
     number_text(number, out->set->digits, (double)(row->value / scale));
     format_error(row, error, sizeof error);
     calc_amount(DIM_TIME, row->seconds, 3, t, sizeof t);
