@@ -92,9 +92,9 @@ static fret_status run_rows(residuals *r, runner *run, double *out) {
     for (size_t pass = 0; pass < 1u + r->twice; pass++)
         for (size_t i = 0; i < r->of->rows && !st.code; i++) {
             r->bad_row = i;
-            st = step_to(r, run, loop->rig ? BY_RIG : BY_DISPLACEMENT, loop->dx[i] - r->d0,
+            st = step_to(r, run, loop->rig ? BY_RIG : BY_DISPLACEMENT, loop->dx[i] - r->loop.d0,
                          loop->normal ? loop->normal[i] : 0, &now);
-            out[i] = loop->Fx[i] - r->F0 - (double)now.Fx;
+            out[i] = loop->Fx[i] - r->loop.F0 - (double)now.Fx;
         }
     return st;
 }
@@ -110,8 +110,8 @@ static bool step_branch(void *context, double dx, double normal, double *x, doub
     branch_run *w = context;
     fret_state now;
     w->status = step_to(w->r, w->run, BY_DISPLACEMENT, dx, normal, &now);
-    *x = dx + w->r->loop.compliance * (double)now.Fx + w->r->d0;
-    *F = (double)now.Fx + w->r->F0;
+    *x = dx + w->r->loop.compliance * (double)now.Fx + w->r->loop.d0;
+    *F = (double)now.Fx + w->r->loop.F0;
     return !w->status.code;
 }
 
@@ -127,7 +127,7 @@ static fret_status run_branches(residuals *r, runner *run, double *out) {
 
 static bool read_rig(residuals *r, scene *tried, calc_error *error) {
     static const input of[] = {IN_K_RIG, IN_D0, IN_F0};
-    double *const to[] = {&r->K_rig, &r->d0, &r->F0};
+    double *const to[] = {&r->K_rig, &r->loop.d0, &r->loop.F0};
     for (size_t i = 0; i < 3; i++) {
         long double v;
         if (!scene_get(tried, of[i], &v, error))
@@ -135,8 +135,6 @@ static bool read_rig(residuals *r, scene *tried, calc_error *error) {
         *to[i] = (double)v;
     }
     r->loop.compliance = 1 / r->K_rig;
-    r->loop.d0 = r->d0;
-    r->loop.F0 = r->F0;
     return true;
 }
 

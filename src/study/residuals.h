@@ -66,7 +66,7 @@ typedef struct residuals {
     unsigned evaluations;
     /* private */
     knob knobs[FIT_NAMES + FIT_COLUMNS]; /* names, then columns */
-    double K_rig, d0, F0;                /* of the rig that has read the loop, else 0 */
+    double K_rig;                        /* of the rig that has read the loop, else 0 */
     bool known, twice;                   /* `d` is known; the loop is run twice */
     long double x[FIT_NAMES];            /* present values of the names */
     double now[UNKNOWNS];                /* q of the latest residuals */
