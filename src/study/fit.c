@@ -310,7 +310,9 @@ static int drive(fitting *s) {
             return GSL_EMAXITER;
         status = gsl_multilarge_nlinear_test(1e-10, 1e-10, 0, &info, s->w);
     }
-    return status == GSL_SUCCESS ? GSL_SUCCESS : GSL_EMAXITER;
+    if (status == GSL_SUCCESS)
+        gsl_multilarge_nlinear_iterate(s->w); /* one more takes exact data to rounding; it may do nothing */
+    return s->r.p.error->raised ? GSL_EFAILED : status == GSL_SUCCESS ? GSL_SUCCESS : GSL_EMAXITER;
 }
 
 /* Minimises from r->q and returns the solver's status. Raises an error if memory is out. */
