@@ -32,9 +32,10 @@ static void tell_answer(live *l, const char *line, char *answer, bool ok) {
     free(answer);
 }
 
-/* The same as live_statement_line, but what plays goes on. */
-static bool run_line(live *l, const char *line) {
+bool live_statement_line(live *l, const char *line) {
     char *answer = NULL;
+    l->playing = false;
+    l->periods = 0;
     const bool ok = l->host->run(l->host->self, line, &answer);
     if (!ok && *l->host->stop) {
         *l->host->stop = 0; /* the statement was interrupted, not the session */
@@ -59,11 +60,6 @@ bool live_statement(live *l, const char *format, ...) {
     return live_statement_line(l, line);
 }
 
-bool live_statement_line(live *l, const char *line) {
-    live_play_end(l);
-    return run_line(l, line);
-}
-
 /* ---- what is shown ----------------------------------------------------------------------------- */
 
 static void trouble(live *l, side *s, calc_error *error) {
@@ -71,25 +67,23 @@ static void trouble(live *l, side *s, calc_error *error) {
     snprintf(s->trouble, sizeof s->trouble, "%.*s", LIVE_TEXT - 1, error->text);
 }
 
-/* Takes the numbers of the scene that expressions see; along: also the states of its last item, to play. */
-static bool take_side(live *l, side *s, bool along, calc_error *error) {
+/* Takes the numbers of the scene that expressions see, and begins to run its load. */
+static bool take_side(live *l, side *s, calc_error *error) {
     calc *c = l->host->calc;
-    const size_t items = c->now->end.steps;
     s->trouble[0] = 0;
-    if (along)
-        s->before = s->now;
     if (!shot_take(c, &s->now, error)) {
         s->now = (shot){.time = 0}; /* keys start from what is shown, which is nothing now */
         return false;
     }
+    if (!l->playing)
+        s->played = s->now; /* from where the next load plays */
     s->loses = shot_lost(c, s->now.a, s->lost);
-    return playback_follow(&s->playback, c, along && items ? items - 1 : NO_ITEM, error);
+    return playback_begin(&s->playback, c, l->playing ? l->play_at : INFINITY, error);
 }
 
-static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *error) {
+static bool take_compared(live *l, side *s, size_t i, calc_error *error) {
     trial *t = trial_open(l->host->calc, error);
-    const bool ok =
-        t && trial_set(t, &l->compared.by, l->compared.with[i], error) && take_side(l, s, along, error);
+    const bool ok = t && trial_set(t, &l->compared.by, l->compared.with[i], error) && take_side(l, s, error);
     trial_close(t);
     return ok;
 }
@@ -97,8 +91,7 @@ static bool take_compared(live *l, side *s, size_t i, bool along, calc_error *er
 static void refresh_side(live *l, size_t i) {
     side *s = &l->side[i];
     calc_error error = ERROR_NONE;
-    if (!(l->compared.on ? take_compared(l, s, i, l->play_next, &error)
-                         : take_side(l, s, l->play_next, &error)))
+    if (!(l->compared.on ? take_compared(l, s, i, &error) : take_side(l, s, &error)))
         trouble(l, s, &error);
     s->stale = false;
     l->changed = true;
@@ -136,7 +129,6 @@ bool live_refresh_next(live *l) {
             refresh_side(l, i);
             return true;
         }
-    l->play_next = false;
     return false;
 }
 
@@ -166,30 +158,56 @@ void live_begin(live *l) {
     }
 }
 
-static void walk_side(live *l, side *s, bool (*late)(void)) {
-    calc_error error = ERROR_NONE;
-    if (*s->trouble || playback_idle(&s->playback))
-        return;
-    l->changed = true;
-    if (!playback_go_on(&s->playback, l->host->calc, late, &error))
-        trouble(l, s, &error);
-}
-
-void live_walk(live *l, bool (*late)(void)) {
+/* Have the loads of all sides been run to this time, or their ends? */
+static bool all_there(const live *l, double time) {
     for (size_t i = 0; i < live_sides(l); i++) {
-        if (l->playing)
-            playback_drop_before(&l->side[i].playback, l->play_at);
-        walk_side(l, &l->side[i], late);
+        const side *s = &l->side[i];
+        if (s->stale || (!*s->trouble && !playback_there(&s->playback, time)))
+            return false;
     }
+    return true;
 }
 
-/* ---- a cycle that plays ------------------------------------------------------------------------ */
+static void walk_side(live *l, side *s, double time, bool (*late)(void)) {
+    calc_error error = ERROR_NONE;
+    bool ok = playback_run(&s->playback, time, late, &error);
+    if (ok && !playback_there(&s->playback, time))
+        return;
+    if (ok && l->playing)
+        ok = playback_shot(&s->playback, l->host->calc, &s->played, &error);
+    if (!ok)
+        trouble(l, s, &error);
+    l->changed = true;
+}
 
-/* Plays from where the last item of the load begins to move. */
-static void start_play(live *l) {
+bool live_walk(live *l, bool (*late)(void)) {
+    const double time = l->playing ? l->play_at : INFINITY;
+    for (size_t i = 0; i < live_sides(l); i++) {
+        side *s = &l->side[i];
+        if (!*s->trouble && !playback_there(&s->playback, time))
+            walk_side(l, s, time, late);
+    }
+    return all_there(l, time);
+}
+
+/* ---- a load that plays ------------------------------------------------------------------------- */
+
+static void start_play(live *l, double from, bool stops) {
     l->playing = true;
-    l->moves = false;
-    l->play_at = 0;
+    l->stops_at_end = stops;
+    l->play_at = from;
+}
+
+/* The time at which the load's last item begins. */
+static double item_begins(const live *l) {
+    const scene *s = &l->host->calc->scene;
+    load_mark at = {s->end.steps - 1, s->end.cycles};
+    at.cycles -= s->program->steps[at.steps].kind == LOAD_CYCLE;
+    return program_time(s->program, at);
+}
+
+void live_play_item(live *l) {
+    start_play(l, item_begins(l), true);
 }
 
 static void cycle_text(const live *l, char text[LIVE_TEXT]) {
@@ -202,132 +220,34 @@ static void cycle_text(const live *l, char text[LIVE_TEXT]) {
         snprintf(text, LIVE_TEXT, "cycle FA=%s", force);
 }
 
-/* Gets the load's last item, if it is a cycle. */
-static bool last_cycle(const live *l, load_item *out) {
-    scene *s = &l->host->calc->scene;
-    if (!s->end.cycles || s->program->steps[s->end.steps - 1].kind != LOAD_CYCLE)
-        return false;
-    return scene_last_cycle(s, out, error_quiet());
-}
-
-static void remember_cycle(live *l) {
-    l->cycle_undo = l->host->calc->undo.count;
-    last_cycle(l, &l->cycle_item);
-}
-
-/* Is the cycle that is set the load's last item already? Then another period needs no new statement. */
-static bool goes_on(const live *l) {
-    char text[LIVE_TEXT];
-    load_item now;
-    cycle_text(l, text);
-    return !strcmp(text, l->cycle_as) && l->host->calc->undo.count == l->cycle_undo && last_cycle(l, &now) &&
-           walk_same_item(&l->cycle_item, &now);
-}
-
-static void one_more(live *l) {
-    for (size_t i = 0; i < live_sides(l); i++)
-        if (!*l->side[i].trouble)
-            playback_add_period(&l->side[i].playback);
-    l->periods++;
-    live_tell(l, false, "%s times %u", l->cycle_as, l->periods);
-}
-
-static void start_cycle(live *l) {
-    char text[LIVE_TEXT];
-    cycle_text(l, text);
-    if (!live_statement_line(l, text))
-        return;
-    remember_cycle(l);
-    memcpy(l->cycle_as, text, sizeof text);
-    l->play_next = true;
-    l->periods = 1;
-    start_play(l);
-}
-
 void live_play(live *l) {
-    l->stops_at_end = false;
+    char text[LIVE_TEXT];
     live_refresh(l);
-    if (goes_on(l)) {
-        one_more(l);
-        start_play(l);
-    } else {
-        start_cycle(l);
-    }
-}
-
-void live_play_item(live *l) {
-    l->stops_at_end = true;
-    l->periods = 0;
-    live_update(l);
-    l->play_next = true;
-    start_play(l);
-}
-
-/* Runs one statement with all periods played, in place of the one that has been undone. */
-static void run_periods(live *l) {
-    char line[LIVE_LINE], why[LIVE_LINE];
-    snprintf(line, sizeof line, "%s times %u", l->cycle_as, l->periods);
-    if (!run_line(l, line)) { /* interrupted, perhaps: run the cycle as it was before */
-        memcpy(why, l->status, sizeof why);
-        snprintf(line, sizeof line, "%s times %u", l->cycle_as, l->cycle_item.extra.times);
-        run_line(l, line);
-        live_tell(l, true, "%s", why);
-    }
-    remember_cycle(l);
+    cycle_text(l, text);
+    const unsigned periods = strcmp(text, l->cycle_as) ? 1 : l->periods + 1;
+    if (periods == 1 ? !live_statement_line(l, text)
+                     : !live_statement_line(l, "undo") || !live_statement(l, "%s times %u", text, periods))
+        return;
+    memcpy(l->cycle_as, text, sizeof text);
+    l->periods = periods;
+    start_play(l, periods > 1 ? scene_time(&l->host->calc->scene) - 1 : item_begins(l), false);
 }
 
 void live_play_end(live *l) {
-    const bool more = l->playing && l->periods > l->cycle_item.extra.times;
     l->playing = false;
+    for (size_t i = 0; i < COMPARED; i++)
+        l->side[i].played = l->side[i].now;
     l->changed = true;
-    for (size_t i = 0; i < live_sides(l); i++)
-        playback_drop_states(&l->side[i].playback);
-    if (more && run_line(l, "undo"))
-        run_periods(l);
-}
-
-/* The time up to which all sides have states to play. */
-static double ahead(const live *l) {
-    double time = INFINITY;
-    for (size_t i = 0; i < live_sides(l); i++) {
-        const playback *w = &l->side[i].playback;
-        if (!*l->side[i].trouble)
-            time = fmin(time, w->play[w->shots - 1].time);
-    }
-    return time;
-}
-
-/* Have all sides two states or their end, so that they can begin to move together? */
-static bool ready(const live *l) {
-    for (size_t i = 0; i < live_sides(l); i++) {
-        const side *s = &l->side[i];
-        if (s->stale || (!*s->trouble && s->playback.shots + playback_done(&s->playback) < 2))
-            return false;
-    }
-    return true;
 }
 
 void live_play_on(live *l, double seconds) {
-    const playback *w = &l->side[0].playback;
-    if (!l->playing || (!l->moves && !ready(l)))
+    if (!l->playing || !all_there(l, l->play_at))
         return;
-    if (*l->side[0].trouble) {
-        live_play_end(l);
-        return;
-    }
     l->changed = true;
-    if (!l->moves)
-        l->play_at = w->play[0].time;
-    l->moves = true;
-    l->play_at = fmin(l->play_at + seconds * l->speed, ahead(l));
-    if (!playback_done(w) || l->play_at < w->play[w->shots - 1].time)
-        return;
-    if (l->stops_at_end) {
+    if (!all_there(l, INFINITY))
+        l->play_at += seconds * l->speed;
+    else if (l->stops_at_end || *l->side[0].trouble)
         live_play_end(l);
-    } else if (goes_on(l)) {
-        one_more(l);
-    } else {
-        live_play_end(l);
-        start_cycle(l);
-    }
+    else
+        live_play(l);
 }

@@ -23,14 +23,6 @@ static bool late(void) {
     return clock_wall() - slice_began > SLICE;
 }
 
-/* Is there a load to run on? */
-static bool walks(const live *l) {
-    for (size_t i = 0; i < live_sides(l); i++)
-        if (!*l->side[i].trouble && !playback_idle(&l->side[i].playback))
-            return true;
-    return false;
-}
-
 static void session(live *l, live_work *work) {
     enum { IDLE = 1000, FRAME = 16 /* milliseconds */, MANY = 20 };
     double before = clock_wall(), last = clock_worked();
@@ -38,8 +30,7 @@ static void session(live *l, live_work *work) {
         double start = clock_wall();
         slice_began = start;
         const bool fresh = !live_refresh_next(l); /* one scene per turn: keys must not wait for both */
-        if (fresh)
-            live_walk(l, late);
+        const bool there = fresh && live_walk(l, late);
         const int busy = terminal_busy();
         const bool draws = fresh && l->changed && !busy;
         if (draws) {
@@ -49,7 +40,7 @@ static void session(live *l, live_work *work) {
         const double now = clock_worked();
         count_work(work, draws, now - last);
         last = now;
-        const int pause = !fresh ? 0 : l->playing || walks(l) ? FRAME : l->changed ? busy : IDLE;
+        const int pause = !there ? 0 : l->playing ? FRAME : l->changed ? busy : IDLE;
         int key = terminal_key(pause, l->host->stop);
         slice_began = start = clock_wall();
         bool away = false;
@@ -63,7 +54,6 @@ static void session(live *l, live_work *work) {
         live_play_on(l, start - before);
         before = start;
     }
-    live_play_end(l);
 }
 
 /* Plays a script without a terminal. Returns the text of the last screen; NULL: out of memory. */

@@ -33,13 +33,5 @@ size_t live_sides(const live *l) {
 }
 
 const shot *side_shown(const live *l, const side *s) {
-    const playback *w = &s->playback;
-    if (!l->playing)
-        return &s->now;
-    if (!w->shots)
-        return &s->before;
-    size_t i = 0;
-    while (i + 1 < w->shots && w->play[i + 1].time <= l->play_at)
-        i++;
-    return &w->play[i];
+    return l->playing ? &s->played : &s->now;
 }

@@ -14,7 +14,7 @@ typedef struct side {
     char title[LIVE_TEXT];         /* "k = 0.5" if two scenes are shown, else empty */
     char trouble[LIVE_TEXT];       /* the error shown in place of the views, or empty */
     bool stale;                    /* the scene has changed since the numbers below were taken */
-    shot now, before;              /* the present state, and the one before the item that is played */
+    shot now, played;              /* the present state, and the one that is shown while the load plays */
     bool loses;                    /* lost holds the work of friction in a cycle [J/m^2] */
     double lost[SHOT_SAMPLES + 1]; /* at r = now.a i/SHOT_SAMPLES */
     playback playback;
@@ -37,14 +37,10 @@ typedef struct live {
     double FA, FNA, phase, speed; /* [N], [N], [deg], periods per second */
     bool playing;
     bool stops_at_end;        /* stop at the end of the period that plays */
-    bool play_next;           /* the next refresh takes the states of the load's last item for playing */
-    bool moves;               /* what plays has begun to move */
     double play_at;           /* time along the load that is shown */
-    load_item cycle_item;     /* the last cycle run for playing */
-    char cycle_as[LIVE_TEXT]; /* its statement */
-    size_t cycle_undo;        /* the number of undo levels after it */
-    unsigned periods;      /* periods played of it; at its end one statement with all of them replaces it */
-    side_by_side compared; /* what the sides show */
+    char cycle_as[LIVE_TEXT]; /* the last cycle run for playing */
+    unsigned periods;         /* periods of it, if it is the last statement that was run; else 0 */
+    side_by_side compared;    /* what the sides show */
     side side[COMPARED];
     /* messages */
     char status[LIVE_LINE]; /* the last one, without control characters */
@@ -96,15 +92,17 @@ void live_refresh(live *l);
 bool live_refresh_next(live *l);
 /* Runs statements that set what the scene lacks. */
 void live_begin(live *l);
-/* Plays the cycle that is set: runs it, or goes on with one more period if it is the last item already. */
+/* Runs the cycle that is set, and plays it; if it has just been run, runs it with one more period in its
+ * place, about the same FN, and plays that. */
 void live_play(live *l);
 /* Goes on playing for `seconds`; live_play_end stops and shows the end at once. */
 void live_play_on(live *l, double seconds);
 void live_play_end(live *l);
 /* Plays the load's last item, step or cycle, once. */
 void live_play_item(live *l);
-/* Runs the loads of the sides on for their curves until late() is true; NULL: to their ends. */
-void live_walk(live *l, bool (*late)(void));
+/* Runs the loads of the sides on, to what is shown of them, until late() is true (NULL: never). Are they
+ * there? */
+bool live_walk(live *l, bool (*late)(void));
 
 /* ---- script.c ---- */
 bool script_open(live *l, const char *const *line, calc_error *error);

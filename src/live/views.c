@@ -60,7 +60,7 @@ static scales scales_of(const live *l) {
         const side *s = &l->side[i];
         if (*s->trouble)
             continue;
-        const extent curve = playback_extent(&s->playback);
+        const extent curve = playback_curve(&s->playback)->most;
         most.a = fmax(most.a, fmax(curve.a, s->now.a));
         most.bound = fmax(most.bound, fmax(curve.bound, s->now.bound));
         most.dx = fmax(most.dx, fmax(curve.dx, s->now.bound));
@@ -205,13 +205,12 @@ static void draw_loop(const pane *p) {
     draw_dotted(p, INK_BOUND, 0, my - ky * s->slip, p->wide - 1, my - ky * s->slip);
     draw_dotted(p, INK_BOUND, 0, my + ky * s->slip, p->wide - 1, my + ky * s->slip);
     plot_pen path = pen_of(p, "1", INK_CURVE);
-    const track *t = &p->side->playback.track;
-    const double until = s->time + 1e-9;
-    for (size_t i = 0; i + 1 < t->count && t->point[i].time <= until; i++) {
+    const track *t = playback_curve(&p->side->playback);
+    for (size_t i = 0; i < t->count; i++) {
         const track_point *from = &t->point[i], *to = from + 1;
-        const bool whole = to->time <= until; /* else as far as the present point */
-        plot_pen_line(&path, mx + kx * from->dx, my - ky * from->Fx, mx + kx * (whole ? to->dx : s->dx),
-                      my - ky * (whole ? to->Fx : s->Fx));
+        const bool last = i + 1 == t->count; /* from there to the present point */
+        plot_pen_line(&path, mx + kx * from->dx, my - ky * from->Fx, mx + kx * (last ? s->dx : to->dx),
+                      my - ky * (last ? s->Fx : to->Fx));
     }
     put_label(p, (int)lround(mx + kx * s->dx) / p->cells.across, (int)lround(my - ky * s->Fx) / p->cells.up,
               INK_POINT, "O");
@@ -220,11 +219,11 @@ static void draw_loop(const pane *p) {
 }
 
 static void draw_energies(const pane *p) {
-    const track *t = &p->side->playback.track;
+    const track *t = playback_curve(&p->side->playback);
     const double begin = t->point[0].time, end = fmax(t->point[t->count - 1].time, begin + 1);
     const double kx = (p->wide - 1) / (end - begin), bottom = p->high - 1, ky = bottom / p->most->energy;
     plot_pen W = pen_of(p, "1", INK_SLIP), U = pen_of(p, "10", INK_OTHER);
-    for (size_t i = 0; i + 1 < t->count && t->point[i + 1].time <= p->shot->time + 1e-9; i++) {
+    for (size_t i = 0; i + 1 < t->count; i++) {
         const track_point *from = &t->point[i], *to = from + 1;
         const double x0 = kx * (from->time - begin), x1 = kx * (to->time - begin);
         plot_pen_line(&W, x0, bottom - ky * from->W, x1, bottom - ky * to->W);

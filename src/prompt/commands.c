@@ -695,8 +695,9 @@ const command commands[] = {
      .print = live_keys,
      .help = "The mouse drags the point of the loop. All you do there is a statement, and\n"
              "`undo` takes it back. FILE is a script to step through with space; without a\n"
-             "terminal it plays, and the last screen is printed. After the keys right, space\n"
-             "and q a transcript has:\n\n"
+             "terminal it plays, and the last screen is printed. A cycle that plays on is run\n"
+             "anew with each period: `undo`, then `cycle FA=20 N times 2`. After the keys\n"
+             "right, space and q a transcript has:\n\n"
              "    fret> material steel; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
              "    fret> live\n"
              "    fret> step Fx+=2 N\n"

@@ -334,13 +334,14 @@ static bool periods_repeat(const run_view *a, const run_view *b, unsigned left) 
            left * fabsl(a->loss - b->loss) <= little * (b->state.W + left * b->loss);
 }
 
-/* After two equal repeats of a period counts the remaining ones without running them. */
+/* After two equal repeats of a period counts the remaining ones without running them, but the last if it is
+ * looked at. */
 static void skip_repeats(runner *r) {
     run_place *k = &r->place;
-    const unsigned left = r->item.extra.times - k->period;
-    const bool seen = r->watch.kind != WATCH_NOTHING && !r->watch.once;
-    if (seen || !left)
+    const unsigned seen = r->watch.once, times = r->item.extra.times;
+    if ((r->watch.kind != WATCH_NOTHING && !r->watch.once) || k->period + seen >= times)
         return;
+    const unsigned left = times - k->period - seen;
     run_view now = {.loss = r->cycle_loss};
     engine_forces(&r->engine, &now.state);
     k->alike = k->period > 1 && periods_repeat(&k->last, &now, left) ? k->alike + 1 : 0;

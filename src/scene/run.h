@@ -48,7 +48,7 @@ typedef struct watch {
     double first, every; /* WATCH_TIMES: times first + i every */
     size_t sample, last; /* next and last i */
     bool turns;          /* look at turning points too */
-    bool once;           /* periods that repeat the one before may be skipped */
+    bool once;           /* periods that repeat the one before are skipped, but the last */
 } watch;
 
 /* Looks that divide every leg into `points` parts. */

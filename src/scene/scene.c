@@ -95,11 +95,6 @@ void answers_pass_contact(answers *to, answers *from) {
     from->normal = from->k0 = NULL;
 }
 
-void scene_take_contact(scene *s, scene *from) {
-    if (scene_same_contact(&s->in, &from->in))
-        answers_pass_contact(&s->answers, &from->answers);
-}
-
 void scene_free(scene *s) {
     scene_forget(s, false);
     fret_normal_free(s->like);

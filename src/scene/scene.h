@@ -127,8 +127,6 @@ void scene_forget(scene *s, bool keep);
 bool scene_same_contact(const inputs *a, const inputs *b);
 /* Moves the laws; only if scene_same_contact. */
 void answers_pass_contact(answers *to, answers *from);
-/* Moves the laws of another scene here if its contact is the same; `from` must not be queried afterwards. */
-void scene_take_contact(scene *s, scene *from);
 
 /* A saved state of a scene: its inputs and load. */
 typedef struct scene_mark {

@@ -10,7 +10,6 @@
 #define quantity calc_quantity
 #include "language/calc.h"
 #include "language/trial.h"
-#include "language/walk.h"
 #include "scene/functions.h"
 #include "text/characters.h"
 #include "text/words.h"

@@ -447,6 +447,36 @@ static bool watched(calc *c, const load_step *step, last_look *l) {
     return !error.raised;
 }
 
+/* Of periods that repeat only the last is looked at, after which all have been counted. */
+static void repeats(double FNA) {
+    scene_trace t;
+    fret_state end, all;
+    watch few = watch_path(5);
+    int looks = 0;
+    calc c;
+    begin(&c,
+          &(scened){.then = {LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 20, .normal_value = FNA},
+                    .model = MODEL_AUTO});
+    const load_step more = {LOAD_CYCLE, .tangential = BY_FORCE, .tangential_value = 12, .normal_value = FNA};
+    CHECK(load(&c, more, (cycle_extra){.times = 50, .phase = 1}));
+    few.once = true;
+    const bool begun = trace_begin(&t, c.now, few, false, fresh());
+    CHECK(begun);
+    while (begun && trace_next(&t, &error))
+        looks += trace_now(&t)->time > scene_time(c.now) - 1;
+    engine_state(&trace_now(&t)->engine, &end);
+    CHECK(!error.raised && looks >= 10 && trace_now(&t)->time == scene_time(c.now));
+    trace_end(&t);
+    few.once = false;
+    CHECK(trace_begin(&t, c.now, few, false, fresh()));
+    while (trace_next(&t, &error))
+        ;
+    engine_state(&trace_now(&t)->engine, &all);
+    CHECK(fabsl(end.W - all.W) <= 1e-12L * all.W && fabsl(end.dx - all.dx) <= 1e-12L * fabsl(all.dx));
+    trace_end(&t);
+    calc_free(&c);
+}
+
 /* On the way to a force by a displacement, and the other way round: into the open, and farther than rows
  * reach. */
 static void on_the_way(void) {
@@ -542,6 +572,8 @@ int main(int argc, char **argv) {
             CASE(more_loads(&scenes[i]));
     CASE(rows_of_loads(false));
     CASE(rows_of_loads(true));
+    CASE(repeats(0));
+    CASE(repeats(10));
     CASE(too_deep());
     CASE(swings_too_far());
     CASE(too_steep());
