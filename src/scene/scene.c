@@ -152,9 +152,12 @@ void scene_keep(scene_mark *m) {
 
 void scene_restore(scene *s, scene_mark *m) {
     wear_path *wears = s->wears;
+    fret_normal *like = s->like;
     s->wears = NULL;
+    s->like = NULL;
     scene_free(s);
     s->wears = wears;
+    s->like = like;
     s->in = m->in;
     s->program = m->program;
     s->end = m->end;
