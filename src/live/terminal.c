@@ -30,7 +30,7 @@ static struct {
     FILE *nowhere; /* /dev/null in place of the terminal */
     int guard;
     bool mouse;
-    double free_at;     /* the time when a slow line has sent everything */
+    double free_at;     /* after a write that took long: the time until which nothing is drawn */
     char farewell[256]; /* sent to restore the terminal at a signal that ends the program */
     int deaf;           /* how often in a row waiting for a key has failed */
 } own = {.guard = -1};
@@ -216,36 +216,14 @@ void terminal_close(void) {
 
 /* ---- slow lines -------------------------------------------------------------------------------- */
 
-/* About how many bytes the update takes. Reading a cell moves the cursor of its window, which is put back. */
-static int bytes_of_update(void) {
-    enum { EACH = 4 }; /* a character, and its share of cursor moves and colours */
-    int bytes = 0, y, x, v, w;
-    getyx(curscr, y, x);
-    getyx(newscr, v, w);
-    for (int row = 0; row < LINES; row++)
-        for (int column = 0; column < COLS; column++) {
-            cchar_t from, to;
-            mvwin_wch(curscr, row, column, &from);
-            mvwin_wch(newscr, row, column, &to);
-            bytes += memcmp(&from, &to, sizeof to) ? EACH : 0;
-        }
-    wmove(curscr, y, x);
-    wmove(newscr, v, w);
-    return bytes;
-}
-
 void terminal_show(bool again) {
-    enum { SLOW = 19200 /* pseudo-terminals report 38400 */, BITS = 10 /* of a byte on the line */ };
-    const int rate = baudrate();
+    static const double LONG = 0.05; /* [s] */
     if (again)
         clearok(curscr, TRUE);
-    wnoutrefresh(stdscr);
-    const bool slow = rate > 0 && rate <= SLOW;
-    const double takes = slow ? (double)BITS * bytes_of_update() / rate : 0, begin = clock_wall();
-    doupdate();
-    const double now = clock_wall();
-    /* by the rate of the line, or by how long this write took */
-    own.free_at = fmax(begin + takes, now + (now - begin > 0.05 ? now - begin : 0));
+    const double begin = clock_wall();
+    refresh();
+    const double took = clock_wall() - begin;
+    own.free_at = took > LONG ? begin + 2 * took : 0;
 }
 
 int terminal_busy(void) {
