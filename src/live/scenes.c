@@ -123,18 +123,10 @@ void live_update(live *l) {
     l->changed = true;
 }
 
-bool live_refresh_next(live *l) {
-    for (size_t i = 0; i < live_sides(l); i++)
-        if (l->side[i].stale) {
-            refresh_side(l, i);
-            return true;
-        }
-    return false;
-}
-
 void live_refresh(live *l) {
-    while (live_refresh_next(l))
-        ;
+    for (size_t i = 0; i < live_sides(l); i++)
+        if (l->side[i].stale)
+            refresh_side(l, i);
 }
 
 void live_begin(live *l) {

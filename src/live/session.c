@@ -29,10 +29,10 @@ static void session(live *l, live_work *work) {
     while (!l->leave) {
         double start = clock_wall();
         slice_began = start;
-        const bool fresh = !live_refresh_next(l); /* one scene per turn: keys must not wait for both */
-        const bool there = fresh && live_walk(l, late);
+        live_refresh(l);
+        const bool there = live_walk(l, late);
         const int busy = terminal_busy();
-        const bool draws = fresh && l->changed && !busy;
+        const bool draws = l->changed && !busy;
         if (draws) {
             l->changed = false;
             live_draw(l);

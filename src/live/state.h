@@ -88,8 +88,6 @@ bool live_statement_line(live *l, const char *line);
 /* Call after a change of the scene: marks the sides as stale. live_refresh brings them up to date. */
 void live_update(live *l);
 void live_refresh(live *l);
-/* Brings one stale side up to date; false if there was none. */
-bool live_refresh_next(live *l);
 /* Runs statements that set what the scene lacks. */
 void live_begin(live *l);
 /* Runs the cycle that is set, and plays it; if it has just been run, runs it with one more period in its
