@@ -142,10 +142,8 @@ void live_begin(live *l) {
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)
         if (first[i].missing)
             list_word(line, sizeof line, "; ", first[i].statement);
-    if (!*line) {
-        live_update(l);
-    } else if (live_statement(l, "%s", line)) { /* an answer, as with `set timing on`, is not worth a page */
-        free(l->page);
+    if (*line && live_statement(l, "%s", line)) {
+        free(l->page); /* an answer, as with `set timing on`, is not worth a page */
         l->page = NULL;
     }
 }

@@ -41,12 +41,10 @@ void script_on(live *l) {
     if (s->at == s->count) {
         live_tell(l, false, "the end of the script");
         take_note(l);
-        live_update(l);
         return;
     }
     if (line_is_remark(s->line[s->at])) {
         take_note(l);
-        live_update(l);
         return;
     }
     const char *line = s->line[s->at];
@@ -77,5 +75,4 @@ void script_back(live *l) {
             return;
     s->at = to - 1;
     live_tell(l, false, "back before: %s", s->line[s->at]);
-    live_update(l);
 }

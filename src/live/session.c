@@ -93,6 +93,7 @@ bool live_run(const live_host *host, const char *const *script, live_work *work,
     const bool unseen = script && !terminal_there();
     bool ok = (!script || script_open(l, script, error)) && terminal_open(unseen, error);
     if (ok) {
+        live_update(l);
         if (!script)
             live_begin(l);
         else
