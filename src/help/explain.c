@@ -29,9 +29,8 @@ typedef struct part {
     bool call;
     const char *text; /* "dW(20 N)" */
     size_t len;
-    const definition *in; /* the definition whose body it stands in, or NULL */
-    bool whole;           /* the user asked for this quantity alone */
-    bool told;            /* its page has been written */
+    bool free;  /* contains a parameter of the definition that it stands in, so that it has no one value */
+    bool whole; /* the user asked for this quantity alone */
 } part;
 
 /* Returns `ok`. What fails is left out of the page, but no memory and Ctrl-C are errors of the page. */
@@ -59,12 +58,6 @@ static void explain_value(const page *p, const char *name, size_t len, value v, 
     free(whole);
 }
 
-static void explain_title(const page *p, const quantity *q) {
-    answer_words(p->out, "%s: %s\n", q->name, q->title);
-    answer_string(p->out, "name", q->name);
-    answer_string(p->out, "title", q->title);
-}
-
 /* The formula in Unicode, or as it is where the locale has none. */
 static const char *set_in(const char *plain, char *buf, size_t size) {
     if (!typeset_unicode())
@@ -77,7 +70,9 @@ static const char *set_in(const char *plain, char *buf, size_t size) {
 static void explain_formula(const page *p, const quantity *q, bool call) {
     const formula *f = quantity_formula(q, p->sh->calc.now, call);
     char set[512], line[600];
-    explain_title(p, q);
+    answer_words(p->out, "%s: %s\n", q->name, q->title);
+    answer_string(p->out, "name", q->name);
+    answer_string(p->out, "title", q->title);
     snprintf(line, sizeof line, "    %s%s%s", set_in(f->text, set, sizeof set), f->equation ? "  " : "",
              f->equation ? f->equation : "");
     answer_line(p->out, line);
@@ -447,28 +442,33 @@ static bool part_at(const expr *e, size_t i, part *out) {
     return true;
 }
 
-static bool same_formula(const part *a, const part *b) {
-    return a->q == b->q && a->call == b->call;
+/* Does the part contain a parameter of the definition `in`? */
+static bool is_free(const part *of, const definition *in) {
+    lexer lx;
+    bool found = false;
+    for (lex_start(&lx, of->text, of->len, error_quiet()); lx.kind != T_END; lex_next(&lx))
+        for (unsigned i = 0; i < in->parameters; i++)
+            found |= lex_is(&lx, in->parameter[i]);
+    return found;
 }
 
-/* Has one of the first `count` parts the same formula? text: and the same text, argument included. */
-static bool is_before(const parts *all, size_t count, const part *of, bool text) {
-    for (size_t i = 0; i < count; i++)
-        if (same_formula(&all->of[i], of) &&
-            (!text || (all->of[i].len == of->len && !strncmp(all->of[i].text, of->text, of->len))))
+/* Is there a part already whose page tells as much? Without a value a page tells the formula alone. */
+static bool is_among(const parts *all, const part *of) {
+    for (const part *one = all->of; one < all->of + all->count; one++)
+        if (one->q == of->q && one->call == of->call &&
+            (of->free || (one->len == of->len && !strncmp(one->text, of->text, of->len))))
             return true;
     return false;
 }
 
-/* Adds the parts of e, the body of `in` (or NULL), and of the definitions that it names, each once. If all of
- * e is a call whose formula an inner call has shown, it is left out: explain_whole shows its value. */
+/* Adds the parts of e, the body of `in` (or NULL), and of the definitions that it names, each once. */
 static bool add_parts(const page *p, const expr *e, const definition *in, const expr *asked, parts *all) {
     part one;
     const definition *d;
     for (size_t i = 0; part_at(e, i, &one); i++) {
-        one.in = in;
+        one.free = in && is_free(&one, in);
         one.whole = e == asked && one.len == e->len;
-        if (is_before(all, all->count, &one, !one.whole))
+        if (is_among(all, &one))
             continue;
         if (!fret_array_room(&all->of, &all->room, all->count + 1, sizeof *all->of))
             return calc_no_memory(p->error);
@@ -480,6 +480,17 @@ static bool add_parts(const page *p, const expr *e, const definition *in, const 
     return true;
 }
 
+/* Evaluates the part by itself; false if it has no value. */
+static bool part_value(const page *p, const part *of, expr *e, value *v) {
+    calc *c = &p->sh->calc;
+    calc_error *why = error_quiet();
+    lexer lx;
+    if (of->free)
+        return false;
+    lex_start(&lx, of->text, of->len, why);
+    return explain_had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, why), why);
+}
+
 /* Was the value given: an input, or an input of the load that no step has changed? */
 static bool is_given(const page *p, const quantity *q) {
     scene *s = p->sh->calc.now;
@@ -487,27 +498,6 @@ static bool is_given(const page *p, const quantity *q) {
     calc_error *why = error_quiet();
     return q->of == OF_INPUT || (quantity_is_input(q) && s->in.set[quantity_input(q)] &&
                                  explain_had(p, scene_reach(s, &reach, why), why) && !reach->normal_varies);
-}
-
-/* Does the part contain a parameter of the definition `in`, so that it has no one value? */
-static bool is_free(const part *of, const definition *in) {
-    lexer lx;
-    bool found = false;
-    for (lex_start(&lx, of->text, of->len, error_quiet()); lx.kind != T_END; lex_next(&lx))
-        for (unsigned i = 0; i < in->parameters; i++)
-            found |= lex_is(&lx, in->parameter[i]);
-    return found;
-}
-
-/* Evaluates the part by itself; false if it has no value. */
-static bool part_value(const page *p, const part *of, expr *e, value *v) {
-    calc *c = &p->sh->calc;
-    calc_error *why = error_quiet();
-    lexer lx;
-    if (of->in && is_free(of, of->in))
-        return false;
-    lex_start(&lx, of->text, of->len, why);
-    return explain_had(p, expr_parse(c, &lx, e) && expr_eval(c, e, v, why), why);
 }
 
 /* ---- pages of an expression --------------------------------------------------------------------- */
@@ -524,37 +514,12 @@ static bool explain_part(const page *p, const part *of) {
     return ok;
 }
 
-/* Writes the value of a call whose formula has been shown. */
-static void explain_call(const page *p, const part *of, bool title) {
-    expr e = {0};
-    value v;
-    if (part_value(p, of, &e, &v)) {
-        answer_page(p->out, "explain");
-        if (title)
-            explain_title(p, of->q);
-        explain_value(p, of->text, of->len, v, of->q->unit);
-        answer_done(p->out);
-    }
-    expr_free(&e);
-}
-
-/* Writes all parts; further calls of a quantity follow its first call, values only. */
-static bool explain_parts(const page *p, parts *all) {
-    for (size_t i = 0; i < all->count; i++) {
-        const part *one = &all->of[i];
-        if (one->told)
-            continue;
-        if (is_before(all, i, one, false))
-            explain_call(p, one, true);
-        else if (!one->call && is_given(p, one->q))
+static bool explain_parts(const page *p, const parts *all) {
+    for (const part *one = all->of; one < all->of + all->count; one++) {
+        if (!one->call && is_given(p, one->q))
             explain_input(p, one->q);
         else if (!explain_part(p, one))
             return false;
-        for (size_t j = i + 1; one->call && j < all->count; j++)
-            if (same_formula(&all->of[j], one) && all->of[j].in == one->in && !all->of[j].told) {
-                explain_call(p, &all->of[j], false);
-                all->of[j].told = true;
-            }
     }
     return true;
 }
