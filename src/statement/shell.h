@@ -43,8 +43,6 @@ typedef struct shell {
     struct recorder *record; /* or NULL */
     file_text typed;         /* lines typed at the prompt, for `save history`; closed in other sessions */
     unsigned warned;         /* bits of the warnings given that still hold, see warnings.c */
-    bool widest_known;       /* `widest` has been computed for the present scene */
-    fret_press widest;       /* the largest normal load within the half-space approximation */
     /* Writes the scene as statements (scene_write); a callback, since the function is in a room above. */
     bool (*write_scene)(struct shell *sh, FILE *to, bool whole);
     side_by_side compared;  /* what `compare` sets and `live` shows */

@@ -84,15 +84,14 @@ static long double least_radius(scene *s, const char **name) {
 static void warn_half_space(shell *sh) {
     scene *s = &sh->calc.scene;
     fret_press press;
-    bool within;
+    bool within = false;
     const char *name;
     long double slope = 0;
-    if (!find_wide(s, &press, &within))
-        return;
     const long double R = least_radius(s, &name);
+    const bool wide = R < INFINITY && find_wide(s, &press, &within) && press.a > most_radius * R;
     if (inputs_take(&s->in, IN_SLOPE))
         scene_get(s, IN_SLOPE, &slope, error_quiet());
-    if (is_new(sh, WIDE, press.a > most_radius * R))
+    if (is_new(sh, WIDE, wide))
         shell_warning(sh,
                       "a/%s = %.3g%s: beyond 0.3 the bodies are no half-spaces, and these results are "
                       "an approximation",
@@ -145,37 +144,15 @@ static void note_yield(shell *sh, bool again) {
     s->used = used;
 }
 
-/* Sets sh->widest, the press at a = most_radius * R; 0 if it cannot be found, infinite without R. */
-static void find_widest(shell *sh) {
-    scene *s = &sh->calc.scene;
-    const fret_normal *normal;
-    const char *name;
-    sh->widest = (fret_press){.F = INFINITY, .dz = INFINITY};
-    const long double R = least_radius(s, &name);
-    if (isinf(R))
-        return;
-    if (!scene_normal(s, &normal, error_quiet()) ||
-        fret_press_by_radius(normal, most_radius * (double)R, &sh->widest).code)
-        sh->widest = (fret_press){.F = 0, .dz = 0};
-}
-
 void shell_warn_load(shell *sh, const load_step *step) {
     if (step->tangential && !(sh->warned & DISSIMILAR))
         shell_warn_dissimilar(sh);
     note_yield(sh, false);
-    if (step->normal == BY_NONE || sh->warned & (WIDE | STEEP))
-        return;
-    if (!sh->widest_known)
-        find_widest(sh);
-    sh->widest_known = true;
-    const fret_real most = step->normal == BY_FORCE ? sh->widest.F : sh->widest.dz;
-    if (step->relative & RELATIVE_NORMAL ? step->normal_value > 0 && most < INFINITY
-                                         : step->normal_value > most)
+    if (step->normal != BY_NONE && !(sh->warned & (WIDE | STEEP)))
         warn_half_space(sh);
 }
 
 void shell_warn(shell *sh) {
-    sh->widest_known = false;
     warn_bulk(sh);
     if (!sh->calc.scene.end.steps) {
         sh->warned &= BULK;
