@@ -168,19 +168,11 @@ static const struct option options[] = {{"replay", required_argument, NULL, OPT_
                                         {"help", no_argument, NULL, OPT_HELP},
                                         {NULL, 0, NULL, 0}};
 
-/* The option that getopt refused, as it was typed; C libraries differ in where optind points then. */
+/* The option that getopt refused. For a letter C libraries differ in where optind points then. */
 static const char *option_word(char **argv) {
-    static char word[32];
-    const struct option *o = options;
-    while (o->name && o->val != optopt)
-        o++;
-    if (!optopt)
-        return argv[optind - 1];
-    if (o->name)
-        snprintf(word, sizeof word, "--%s", o->name);
-    else
-        snprintf(word, sizeof word, "-%c", optopt);
-    return word;
+    static char word[] = "-x";
+    word[1] = (char)optopt;
+    return optopt && optopt < OPT_REPLAY ? word : argv[optind - 1];
 }
 
 static int take_option(int opt, wishes *w, shell *sh, char **argv) {

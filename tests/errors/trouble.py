@@ -34,7 +34,8 @@ def usage(tests):
                       (["--color=red"], "auto, always or never, not red"), (["--tolerance=x"], "a number, not x"),
                       (["--tolerance=-1"], "a number, not -1"), (["--tolerance=nan"], "a number, not nan"), (["--tolerance=inf"], "a number, not inf"), (["--tolerance="], "a number, not "),
                       (["--tolerance=1x"], "a number, not 1x"), (["--live", "-c", "1"], "--live takes one script"),
-                      (["--format"], "an argument is missing after --format")):
+                      (["--format"], "an argument is missing after --format"), (["--quiet=1"], "unknown option --quiet=1"),
+                      (["-xc"], "unknown option -x"), (["a", "-z", "b"], "unknown option -z")):
         expect(tests, "usage: " + " ".join(args), tests.run(*args), 2, "", err)
     expect(tests, "--version", tests.run("--version"), 0, "fret ")
     expect(tests, "--version and a file", tests.run("--version", "/nonexistent"), 0, "fret ")
