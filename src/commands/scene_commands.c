@@ -103,39 +103,19 @@ bool do_material(shell *sh, lexer *lx, parsed *all) {
     return scene_edit(&sh->calc.scene, apply, &e, lx->error);
 }
 
-/* Inputs of the first and of the second body; behind `second` both names mean the second. */
+/* Inputs of the first and of the second body: what `second` calls E0 is E0_2. */
 static const input bodies[][2] = {{IN_E0, IN_E0_2}, {IN_G0, IN_G0_2}, {IN_NU, IN_NU_2}};
 enum { OF_BODY = sizeof bodies / sizeof *bodies };
-
-/* Is no input of the second body given twice, nor any of a rigid one? Else an error. */
-static bool second_is_valid(lexer *lx, const parsed *s, bool rigid) {
-    bool given[INPUTS] = {false};
-    for (const given_clause *h = s->list; h < s->list + s->count; h++) {
-        const int of = h->of->in;
-        if (!of)
-            continue;
-        input in = (input)(of - 1);
-        for (int i = 0; i < OF_BODY; i++)
-            in = in == bodies[i][0] ? bodies[i][1] : in;
-        if (rigid)
-            return calc_fail(lx->error, h->at, h->len, "a rigid body has no %s", h->of->name);
-        if (given[in])
-            return calc_fail(lx->error, h->at, h->len,
-                             "%s is given twice: here it is that of the second body",
-                             quantity_of_input(in)->name);
-        given[in] = true;
-    }
-    return true;
-}
 
 bool do_second(shell *sh, lexer *lx, parsed *all) {
     edit e = {.clear = OF_SECOND, .second = SECOND_GIVEN};
     const given_clause *named = parsed_clause(all, "", 0);
     gather(&e, all);
-    if (!second_is_valid(lx, all, named && named->choice == SECOND_WORDS - 1))
-        return false;
     if (named && named->choice < SECOND_WORDS) {
+        const given_clause *more = &all->list[1];
         e.second = named->choice ? SECOND_RIGID : SECOND_SAME;
+        if (e.second == SECOND_RIGID && all->count > 1)
+            return calc_fail(lx->error, more->at, more->len, "a rigid body has no %s", more->of->name);
     } else if (named) {
         put_preset(&e, preset_row(named->choice - SECOND_WORDS), 1);
     }

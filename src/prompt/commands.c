@@ -100,8 +100,7 @@ const command commands[] = {
      .run = do_second,
      .keywords = "other body",
      .changes = true,
-     .takes =
-         "[BODY] [E0:=70 GPa | G0:=26 GPa | G:=26 GPa] [nu:=0.33] [E0_2:=70 GPa | G0_2:=26 GPa] [nu_2:=0.33]",
+     .takes = "[BODY] [E0:=70 GPa | G0:=26 GPa | G:=26 GPa] [nu:=0.33]",
      .summary = "the second body, if it differs from the first",
      .help =
          "The second body has the k and c0 of the first; by default it is the same. If the\n"
