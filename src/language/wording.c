@@ -6,16 +6,11 @@
 
 #include "language/calc.h"
 
-static const char leaves[] = "quit leaves, and so does Ctrl-D";
-
 /* Words that newcomers try, for what has another name here or does not exist. */
 static const struct {
     const char *word, *answer;
 } leads[] = {
-    {":q", leaves},
-    {":wq", leaves},
-    {"\\q", leaves},
-    {"bye", leaves},
+    {"bye", "quit leaves, and so does Ctrl-D"},
     {"load", "press, step, cycle and follow do it; `plot load` draws the path"},
     {"push", "step Fx=20 N pushes, cycle FA=20 N pushes to and fro"},
     {"unload", "step FN=... goes back to a smaller force"},

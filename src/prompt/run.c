@@ -121,21 +121,6 @@ static bool raise_help_page(lexer *lx, const char *word, token_kind after) {
     return where && !lex_fail(lx, "unknown name '%s'; try: %s %s", word, where, word);
 }
 
-/* Raises an error that helps with a word of other programs, such as `:q`; before: prepended to look it up. */
-static bool raise_lead(lexer *lx, const char *before) {
-    char word[LEX_NAME];
-    size_t n = 1;
-    while (lx->at + n < lx->end && !strchr(" \t\r\n!", lx->text[lx->at + n]))
-        n++;
-    snprintf(word, sizeof word, "%s%.*s", before, LEX_SHOWN(n), lx->text + lx->at);
-    const char *lead = hint_from(word);
-    if (!lead)
-        return false;
-    error_clear(lx->error);
-    return !calc_fail(lx->error, lx->at, n, "%s '%.*s': %s", *before ? "unknown name" : "unexpected",
-                      LEX_SHOWN(n), lx->text + lx->at, lead);
-}
-
 /* If the statement begins with an unknown word, looks for what was meant and raises an error that says so. */
 static bool raise_misspelt(shell *sh, lexer *lx) {
     char word[LEX_NAME];
@@ -146,8 +131,8 @@ static bool raise_misspelt(shell *sh, lexer *lx) {
     if (hint_from(word)) /* the look-up of the name raises a fuller error */
         return false;
     const token_kind after = lex_peek(lx);
-    if (after == T_END && raise_lead(lx, ":"))
-        return true;
+    if (after == T_END && lex_is(lx, "q")) /* within an expression it is a name like any other */
+        return !lex_fail(lx, "unknown name 'q': quit leaves, and so does Ctrl-D");
     const char *near = suggest(word, command_name);
     if ((after != T_NAME && after != T_NUMBER && after != T_END) || !near ||
         (after == T_END && suggest(word, quantity_name)))
@@ -182,7 +167,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
     lexer lx;
     error_clear(error);
     lex_start(&lx, text, len, error);
-    if (((error->raised || lx.kind == T_COLON) && raise_lead(&lx, "")) || error->raised)
+    if (error->raised)
         return false;
     if (lx.kind == T_END)
         return true;
