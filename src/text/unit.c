@@ -237,23 +237,10 @@ bool unit_at(const lexer *lx) {
     return unit_word(lx, &unused);
 }
 
-/* Raises the error that mm^2^2 is ambiguous: (mm^2)^2 or mm^(2^2)? */
-static bool power_of_power(lexer *lx, size_t word, size_t at, double n) {
-    const size_t len = lx->at - word, name = at - word;
-    lex_next(lx);
-    if (lx->kind != T_NUMBER)
-        return lex_fail(lx, "the exponent of a unit must be a number");
-    return calc_fail(lx->error, word, lx->at + lx->len - word,
-                     "a unit with two exponents is ambiguous: write (1 %.*s)^%g, or %.*s^%g", (int)len,
-                     lx->text + word, lx->number, (int)name, lx->text + word,
-                     copysign(pow(fabs(n), lx->number), n));
-}
-
 /* Parses one unit with its exponent. */
 static bool unit_factor(lexer *lx, unit *out) {
     if (!unit_word(lx, out))
         return false;
-    const size_t word = lx->at;
     lex_next(lx);
     if (lx->kind != T_POWER)
         return true;
@@ -269,7 +256,7 @@ static bool unit_factor(lexer *lx, unit *out) {
     double n = sign * lx->number;
     lex_next(lx);
     if (lx->kind == T_POWER)
-        return power_of_power(lx, word, at, n);
+        return lex_fail(lx, "a unit with two exponents is ambiguous: give it one");
     out->d = dim_power(out->d, n);
     double exp10 = out->exp10 * n;
     out->factor = out->factor == 1 ? 1 : powl(out->factor, n);
