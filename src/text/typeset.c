@@ -38,11 +38,6 @@ static bool is_word_char(char c) {
     return is_letter(c) || isdigit((unsigned char)c) || c == '_';
 }
 
-/* "sum of ..." is English and stays. */
-static bool is_english(const char *word, const char *rest) {
-    return !strcmp(word, "sum") && !strncmp(rest, " of ", 4);
-}
-
 /* The length of the word at text if `letters` has it, and its sign in *set; else 0. */
 static size_t match_letter(const char *text, const char **set) {
     size_t len = 0;
@@ -51,8 +46,7 @@ static size_t match_letter(const char *text, const char **set) {
     if (is_word_char(text[len]) && text[len] != '_')
         return 0;
     for (size_t i = 0; i < sizeof letters / sizeof *letters; i++)
-        if (strlen(letters[i].plain) == len && !strncmp(text, letters[i].plain, len) &&
-            !is_english(letters[i].plain, text + len)) {
+        if (strlen(letters[i].plain) == len && !strncmp(text, letters[i].plain, len)) {
             *set = letters[i].set;
             return len;
         }
