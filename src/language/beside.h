@@ -7,7 +7,6 @@
 
 enum { SIDES = 16 };
 typedef struct beside {
-    watch looks;              /* the looks of that run (watch_times) */
     struct side *side[SIDES]; /* cache of the last ones made */
     size_t made;
 } beside;

@@ -171,9 +171,9 @@ bool trial_along_between(trial_along *a, trial *t, double first, double last, si
                          calc_error *error) {
     const bool lasts = last > first;
     *a = (trial_along){.t = t, .first = first, .last = last};
-    a->beside.looks =
+    const watch looks =
         watch_times(first, lasts ? (last - first) / (double)points : 1, lasts ? points : 0, turns);
-    return trace_begin(&a->trace, &t->scene, a->beside.looks, true, error);
+    return trace_begin(&a->trace, &t->scene, looks, true, error);
 }
 
 bool trial_along_begin(trial_along *a, trial *t, along_what what, load_mark from, size_t points, bool turns,

@@ -35,6 +35,12 @@ def rows(tests, script):
     return found, done
 
 
+def alike(one, other):
+    """Are two columns equal, but for the rounding of times in a load whose F_N swings?"""
+    most = max([abs(v) for v in one if v is not None], default=0)
+    return len(one) == len(other) and all(a == b or None not in (a, b) and abs(a - b) <= 1e-13 * most for a, b in zip(one, other))
+
+
 def changed(rng):
     """A random scene with a load, the load along which it is evaluated, and a change of the scene."""
     geometry, other = rng.choice(GEOMETRIES)
@@ -50,7 +56,7 @@ def changed(rng):
 
 
 def against_with(tests):
-    """The column of `at` equals that of `with`, to the last digit, also nested and through a definition."""
+    """The column of `at` equals that of `with`, also nested and through a definition."""
     rng = random.Random(20)
     compared = []
 
@@ -64,12 +70,14 @@ def against_with(tests):
             tests.check(name + " is refused", as_at.returncode and not any(row[1] is not None for row in got), tests.report(as_at))
             return
         compared.append(name)
-        tests.check(name, [(row[0], row[2]) for row in want] == [(row[0], row[1]) for row in got], "%s\n%s" % (want, got))
+        tests.check(name, [row[0] for row in want] == [row[0] for row in got] and alike([row[2] for row in want], [row[1] for row in got]),
+                    "%s\n%s" % (want, got))
         if further.partition("=")[0] == change.partition("=")[0]:
             return
         got, done = rows(tests, "%s; Y := (%s at %s); table (%s at %s, %s), ((%s at %s) at %s), (Y at %s), (%s at %s)%s" % (
             setup, x, change, x, change, further, x, change, further, further, x, further, tail))
-        tests.check(name + " nested", bool(got) == (not done.returncode) and all(row[1] == row[2] == row[3] for row in got), tests.report(done))
+        columns = list(zip(*got))
+        tests.check(name + " nested", bool(got) == (not done.returncode) and all(alike(columns[1], v) for v in columns[2:4]), tests.report(done))
 
     count = 40 if tests.few else 150
     tests.each([lambda a=changed(rng), x=rng.choice(ASKED), n=rng.choice((1, 3, 7, 10, 40)): one(*a, x, n) for _ in range(count)])
@@ -100,7 +108,8 @@ def many(tests):
     for setup, steps in ((scene, 20000), (swings, 1500)):
         want, _ = rows(tests, setup + "; table W, c along program steps %d with mu=0.5" % steps)
         got, done = rows(tests, setup + "; table (W at mu=0.5), (c at mu=0.5) along program steps %d" % steps)
-        tests.check("%d instants" % steps, len(got) > steps and [row[0:1] + row[2:] for row in want] == got, tests.report(done))
+        columns = list(zip(*want))
+        tests.check("%d instants" % steps, len(got) > steps and all(alike(a, b) for a, b in zip([columns[0], *columns[2:]], zip(*got))), tests.report(done))
     got, done = rows(tests, swings + "; table W, (W at mu=0.4 + time/50) along program steps 30")
     want = []
     for part in (got[:16], got[16:]):
@@ -115,8 +124,8 @@ def many(tests):
            for part in (mus[:13], mus[13:])]
     told = [a[1:] + b[1:] for a, b in zip(*got)]
     each = {(row[1], row[0]): row[2] for row in want}
-    tests.check("scenes by the arguments of a function", len(told) == 8 and told == [
-        [each[float(m), row[0]] for m in mus] for row in got[0]], str(told))
+    tests.check("scenes by the arguments of a function", len(told) == 8 and all(
+        alike([each[float(m), row[0]] for m in mus], values) for row, values in zip(got[0], told)), str(told))
 
 
 def curves(tests, script, name):
