@@ -42,14 +42,13 @@ bool scene_press(scene *s, const fret_press **press, calc_error *error) {
 bool scene_FN(scene *s, long double *FN, calc_error *error) {
     const load_reach *reach;
     const fret_press *press;
-    const fret_state *state;
     if (!scene_reach(s, &reach, error))
         return false;
     if (!s->now && !reach->normal_varies && s->program->steps[0].normal == BY_FORCE)
         return scene_get(s, IN_FN, FN, error);
-    if (s->now ? !scene_forces(s, &state, error) : !scene_press(s, &press, error))
+    if (!scene_press(s, &press, error))
         return false;
-    *FN = s->now ? state->FN : press->F;
+    *FN = press->F;
     return true;
 }
 
@@ -129,16 +128,6 @@ bool scene_state(scene *s, const fret_state **state, calc_error *error) {
     s->used = used | USED(springs ? MODEL_SPRINGS : MODEL_MEMORY);
     if (!springs && a->levels)
         scene_used_law(s, fret_contact_normal(a->run[0].engine.contact));
-    *state = &a->end.state;
-    return true;
-}
-
-bool scene_forces(scene *s, const fret_state **state, calc_error *error) {
-    answers *a = &s->answers;
-    if (!s->now || a->state_ready || s->now->levels > 1 || s->model == MODEL_CLOSED)
-        return scene_state(s, state, error);
-    engine_forces(&s->now->run->engine, &a->end.state);
-    s->used |= USED(MODEL_MEMORY);
     *state = &a->end.state;
     return true;
 }

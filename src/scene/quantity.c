@@ -316,14 +316,11 @@ static long double member(const void *of, size_t at) {
     return v;
 }
 
-/* A member of the state; the cheap forces where they suffice. */
 static bool get_state(const quantity *q, scene *s, long double *out, calc_error *error) {
     const fret_state *state;
     if (q->at_state == offsetof(fret_state, kt) && !inputs_know_nu(&s->in))
         return calc_missing(error, IN_NU); /* kt needs c_T, and without friction nothing has checked nu */
-    const bool forces = q->at_state == offsetof(fret_state, Fx) || q->at_state == offsetof(fret_state, dx) ||
-                        q->at_state == offsetof(fret_state, W);
-    if (!(forces ? scene_forces : scene_state)(s, &state, error))
+    if (!scene_state(s, &state, error))
         return false;
     *out = member(state, q->at_state);
     return true;

@@ -194,7 +194,7 @@ bool get_drig(scene *s, long double *out, calc_error *error) {
         *out = first.dx + first.Fx / K_rig;
         return true;
     }
-    if (!scene_forces(s, &now, error))
+    if (!scene_state(s, &now, error))
         return false;
     *out = now->dx + now->Fx / K_rig;
     return true;

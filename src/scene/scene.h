@@ -209,8 +209,6 @@ bool scene_FN(scene *s, long double *FN, calc_error *error);
 bool scene_contact(scene *s, fret_pressed *contact, calc_error *error);
 /* The present state, by the chosen model. */
 bool scene_state(scene *s, const fret_state **state, calc_error *error);
-/* The same, but only F_N, dz, F_x, dx and W are set: far cheaper at an instant along a load. */
-bool scene_forces(scene *s, const fret_state **state, calc_error *error);
 /* The contact after the load: with curved arcs after a harmonic load, or (straight) with chords instead. */
 bool scene_history(scene *s, const fret_contact **contact, calc_error *error);
 bool scene_straight(scene *s, const fret_contact **contact, calc_error *error);

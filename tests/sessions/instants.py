@@ -159,7 +159,7 @@ def turning_points(tests):
 
 
 def kept_instants(tests):
-    """For a load with many steps a figure takes the state kept for each step, unless it plots more than forces."""
+    """A figure of a load with many steps has the same curves with another scene beside it."""
     with tests.file("FN [N],Fx [N]\n" + "".join("%.17g,%.17g\n" % (100 + i % 3, 15 * math.sin(0.37 * i)) for i in range(400)), ".csv") as path:
         followed = "material steel; geometry sphere R=10 mm; friction %s; press FN=100 N; follow " + path + "; plot %s along program steps 20"
         both = curves(tests, followed % ("0.4", "W, (W at mu=0.5)"), "both")

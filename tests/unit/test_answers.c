@@ -60,11 +60,6 @@ static bool ask_state(scene *s, double v[VALUES]) {
     return scene_state(s, &state, fresh()) && take(state, v);
 }
 
-static bool ask_forces(scene *s, double v[VALUES]) {
-    const fret_state *state;
-    return scene_forces(s, &state, fresh()) && take(state, v);
-}
-
 static bool ask_memory(scene *s, double v[VALUES]) {
     const fret_contact *m;
     if (!scene_straight(s, &m, fresh()))
@@ -143,7 +138,7 @@ static bool ask_stiffness(scene *s, double v[VALUES]) {
         long double kn = 0;
         s->now = &now;
         scene_moved(s);
-        ok = get_kn(s, &kn, &error) && scene_forces(s, &state, &error);
+        ok = get_kn(s, &kn, &error) && scene_state(s, &state, &error);
         if (ok && s->in.geometry == geometry_find("sphere") && state->dz > 0)
             CHECK_REL(kn, 1.5L * state->FN / state->dz, 1e-15L);
         s->now = NULL;
@@ -155,14 +150,14 @@ static bool ask_stiffness(scene *s, double v[VALUES]) {
     return ok && !error.raised;
 }
 
-enum { CONTACT = 2, STATE = 3, FORCES = 4, LOSS = 7 }; /* of these */
+enum { CONTACT = 2, STATE = 3 }; /* of these */
 static const struct {
     const char *what;
     bool (*ask)(scene *s, double v[VALUES]);
-} questions[] = {{"press", ask_press}, {"FN", ask_FN},         {"contact", ask_contact},
-                 {"state", ask_state}, {"forces", ask_forces}, {"memory", ask_memory},
-                 {"first", ask_first}, {"loss", ask_loss},     {"trace", ask_trace},
-                 {"sound", ask_sound}, {"places", ask_places}, {"stiffness", ask_stiffness}};
+} questions[] = {
+    {"press", ask_press},   {"FN", ask_FN},         {"contact", ask_contact},    {"state", ask_state},
+    {"memory", ask_memory}, {"first", ask_first},   {"loss", ask_loss},          {"trace", ask_trace},
+    {"sound", ask_sound},   {"places", ask_places}, {"stiffness", ask_stiffness}};
 
 /* ---- scenes ------------------------------------------------------------------------------------- */
 
