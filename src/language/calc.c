@@ -289,7 +289,7 @@ static bool definition_holds(calc *c, lexer *lx, const assignment *a) {
     scene_clone(&probe, outer);
     if (a->q)
         inputs_bind(&probe.in, quantity_input(a->q), counted_hold(&a->d->base));
-    scene_forget(&probe, false);
+    scene_forget(&probe);
     c->now = &probe;
     const bool ok = a->q ? scene_get(&probe, quantity_input(a->q), &number, &error)
                          : definition_value(c, a->d, &v, &error);

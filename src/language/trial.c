@@ -66,7 +66,7 @@ bool trial_set(trial *t, const knob *p, long double v, calc_error *error) {
             return false;
         names_put(&t->c->names, p->name, (value){v, p->d}, NULL);
         if (s->in.bindings)
-            scene_forget(s, false);
+            scene_forget(s);
         return true;
     }
     if (!input_check(p->in, (double)v, error))

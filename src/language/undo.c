@@ -98,7 +98,7 @@ static void take_back(calc *c, undo_entry *e) {
     }
     names_restore(&c->names, e->name, &e->old);
     if (c->scene.in.bindings)
-        scene_forget(&c->scene, false);
+        scene_forget(&c->scene);
 }
 
 void undo_pop(calc *c, bool back) {
@@ -120,7 +120,7 @@ bool calc_undo(calc *c) {
     const size_t steps = u->count ? u->entry[u->count - 1].steps : u->base_steps;
     if (s->end.steps > steps) {
         s->end.steps--;
-        scene_forget(s, true);
+        scene_forget(s);
         return true;
     }
     if (!u->count)

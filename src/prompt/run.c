@@ -186,7 +186,7 @@ bool shell_statement(shell *sh, const char *text, size_t len, calc_error *error)
                        "tell another p0 (help wear)");
     undo_end(&sh->calc);
     if (shell_stop) { /* results of a run stopped half-way must not be used by the next statement */
-        scene_forget(&sh->calc.scene, false);
+        scene_forget(&sh->calc.scene);
         if (!ok && error->raised) {
             error->raised = false;
             calc_interrupted(error);

@@ -41,15 +41,10 @@ bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_er
     error_clear(&mine);
     scene_save(s, &before, true);
     edit(&s->in, context);
-    const bool same = scene_same_contact(&s->in, &before.in);
-    if (same)
-        answers_pass_contact(&s->answers, &before.answers);
     if (all_holds(s, &mine)) {
         scene_keep(&before);
         return true;
     }
-    if (same)
-        answers_pass_contact(&before.answers, &s->answers);
     scene_restore(s, &before);
     *error = mine;
     return false;

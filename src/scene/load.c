@@ -178,7 +178,7 @@ bool scene_append(scene *s, const load_step *step, const cycle_extra *extra, cal
     s->program = own;
     s->end = press ? (load_mark){0, 0} : s->end;
     const bool ok = append_step(s, step, extra, error);
-    scene_forget(s, true);
+    scene_forget(s);
     return ok;
 }
 

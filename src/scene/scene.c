@@ -24,21 +24,14 @@ static void forget_fields(answers *a) {
     friction_work_end(&a->work);
 }
 
-static void answers_end(answers *a, bool keep) {
+static void answers_end(answers *a) {
     runs_end(a->run, &a->levels);
     fret_contact_free(a->chorded);
-    worn_gap *borrowed = a->worn;
-    fret_normal *normal = a->normal, *k0 = a->k0;
     forget_fields(a);
+    counted_drop(a->worn); /* after runs and fields, which borrow laws */
+    fret_normal_free(a->normal);
+    fret_normal_free(a->k0);
     *a = (answers){.normal = NULL};
-    counted_drop(borrowed); /* last, since runs and fields borrow its law */
-    if (keep) {
-        a->normal = normal;
-        a->k0 = k0;
-    } else {
-        fret_normal_free(normal);
-        fret_normal_free(k0);
-    }
 }
 
 void scene_init(scene *s, const volatile sig_atomic_t *stop, scene_definition *evaluate, void *context) {
@@ -74,43 +67,36 @@ void scene_used_law(scene *s, const fret_normal *normal) {
         scene_also_used(s, (scene_use){USED(MODEL_PIECES), error});
 }
 
-/* Inputs that do not change the law; all others belong to the bodies and the shape. */
-static const input_set keeps_contact =
-    INPUT_BIT(IN_MU) | INPUT_PRESS | INPUT_CYCLE | INPUT_RIG | INPUT_STRESS | INPUT_BIT(IN_ALPHA_W);
-
-/* Definitions of bodies and shape may depend on any input, so that these laws are never kept. */
-void scene_forget(scene *s, bool keep) {
-    answers_end(&s->answers, keep && !(s->in.bindings & ~keeps_contact));
+void scene_forget(scene *s) {
+    answers_end(&s->answers);
     s->settled = 0;
     s->sound = false;
 }
 
-bool scene_same_contact(const inputs *a, const inputs *b) {
-    return inputs_same(a, b, ~keeps_contact);
-}
-
-void answers_pass_contact(answers *to, answers *from) {
-    to->normal = from->normal;
-    to->k0 = from->k0;
-    from->normal = from->k0 = NULL;
-}
-
-void scene_free(scene *s) {
-    scene_forget(s, false);
-    fret_normal_free(s->like);
-    s->like = NULL;
-    counted_drop(s->wears);
-    s->wears = NULL;
+/* Drops what a saved state replaces. */
+static void drop_state(scene *s) {
+    scene_forget(s);
     inputs_drop(&s->in);
     counted_drop(s->program);
     s->program = NULL;
     s->end = (load_mark){0, 0};
 }
 
+void scene_free(scene *s) {
+    drop_state(s);
+    for (int i = 0; i < 2; i++) {
+        fret_normal_free(s->like[i]);
+        s->like[i] = NULL;
+    }
+    counted_drop(s->wears);
+    s->wears = NULL;
+}
+
 void scene_clone(scene *to, const scene *from) {
     *to = *from;
     to->answers = (answers){.normal = NULL};
-    to->like = from->like ? fret_normal_hold(from->like) : NULL;
+    for (int i = 0; i < 2; i++)
+        to->like[i] = from->like[i] ? fret_normal_hold(from->like[i]) : NULL;
     counted_hold(to->wears);
     inputs_copy(&to->in, &from->in);
     counted_hold(to->program);
@@ -122,7 +108,7 @@ void scene_reset(scene *s, bool all) {
         s->model = MODEL_AUTO;
         return;
     }
-    scene_forget(s, false);
+    scene_forget(s);
     counted_drop(s->program);
     s->program = NULL;
     s->end = (load_mark){0, 0};
@@ -147,17 +133,11 @@ void scene_keep(scene_mark *m) {
     inputs_drop(&m->in);
     counted_drop(m->program);
     m->program = NULL;
-    answers_end(&m->answers, false);
+    answers_end(&m->answers);
 }
 
 void scene_restore(scene *s, scene_mark *m) {
-    wear_path *wears = s->wears;
-    fret_normal *like = s->like;
-    s->wears = NULL;
-    s->like = NULL;
-    scene_free(s);
-    s->wears = wears;
-    s->like = like;
+    drop_state(s);
     s->in = m->in;
     s->program = m->program;
     s->end = m->end;
@@ -234,7 +214,7 @@ bool scene_get(scene *s, input in, long double *out, calc_error *error) {
 
 void scene_put(scene *s, input in, double v) {
     inputs_put(&s->in, in, v);
-    scene_forget(s, keeps_contact & INPUT_BIT(in));
+    scene_forget(s);
 }
 
 /* ---- the contact ------------------------------------------------------------------------------- */
@@ -255,20 +235,18 @@ static bool make_normal(scene *s, bool homogeneous, fret_normal **out, calc_erro
     fret_gap gap;
     if (!scene_material(s, homogeneous, &material, error) || !scene_gap(s, &gap, error))
         return false;
-    fret_status st = fret_normal_make(&material, &gap, s->like, s->stop, out);
-    if (!st.code)
-        fret_normal_stop(*out, s->stop);
-    return calc_status(error, st);
+    fret_normal **like = &s->like[homogeneous];
+    const fret_status st = fret_normal_make(&material, &gap, *like, s->stop, out);
+    if (st.code)
+        return calc_status(error, st);
+    fret_normal_stop(*out, s->stop);
+    fret_normal_free(*like);
+    *like = fret_normal_hold(*out);
+    return true;
 }
 
 bool scene_unworn(scene *s, calc_error *error) {
-    if (s->answers.normal)
-        return true;
-    if (!make_normal(s, false, &s->answers.normal, error))
-        return false;
-    fret_normal_free(s->like);
-    s->like = fret_normal_hold(s->answers.normal);
-    return true;
+    return s->answers.normal || make_normal(s, false, &s->answers.normal, error);
 }
 
 bool scene_k0(scene *s, const fret_normal **normal, calc_error *error) {

@@ -95,8 +95,8 @@ struct scene {
     answers answers;
     model_id model; /* the chosen model */
     unsigned springs;
-    /* a law of the same shape and k, whose preparation fret_normal_make reuses; or NULL */
-    fret_normal *like;
+    /* the last law made, and with k = 0, whose preparation fret_normal_make reuses; or NULL */
+    fret_normal *like[2];
     wear_path *wears;                  /* shared with clones; or NULL */
     bool gaps;                         /* scratch scene: FN(dz) is 0 for dz < 0, before contact */
     double pieces_error;               /* scene_use.pieces_error */
@@ -121,12 +121,8 @@ void scene_used_law(scene *s, const fret_normal *normal);
 void scene_moved(scene *s);
 /* Sets the instant that answers are for; NULL: the end of the program. */
 void scene_look(scene *s, const instant *now);
-/* Forgets all results; keep: not the law of the normal contact. */
-void scene_forget(scene *s, bool keep);
-/* Do these inputs give the same normal contact? */
-bool scene_same_contact(const inputs *a, const inputs *b);
-/* Moves the laws; only if scene_same_contact. */
-void answers_pass_contact(answers *to, answers *from);
+/* Forgets all results. */
+void scene_forget(scene *s);
 
 /* A saved state of a scene: its inputs and load. */
 typedef struct scene_mark {

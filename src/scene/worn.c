@@ -153,7 +153,7 @@ bool scene_worn(scene *s, const fret_wear **out, calc_error *error) {
         return true;
     }
     if (*mine) /* runs and fields may borrow its law */
-        scene_forget(s, true);
+        scene_forget(s);
     if (!scene_unworn(s, error) || !find_path(s, &held, error) ||
         (!(s->wears->last && s->wears->last->Nw == (double)Nw) && !make_worn(s, (double)Nw, error)))
         return false;

@@ -68,7 +68,7 @@ static bool set_to(probe *p, const cause *c, double x, calc_error *error) {
     counted_drop(s->program);
     s->program = counted_hold(p->own);
     *c->step = x;
-    scene_forget(s, true);
+    scene_forget(s);
     return true;
 }
 

@@ -211,7 +211,7 @@ static void begin(calc *c, const scened *of) {
 /* ---- trouble ------------------------------------------------------------------------------------ */
 
 static bool again(scene *s, size_t i, double v[VALUES]) {
-    scene_forget(s, false);
+    scene_forget(s);
     for (int j = 0; j < VALUES; j++)
         v[j] = 0;
     return questions[i].ask(s, v);
@@ -291,7 +291,7 @@ static void loads(const scened *of, const load_step *then, bool lost) {
         size_t at = 0;
         calc c;
         begin(&c, of);
-        scene_forget(c.now, false);
+        scene_forget(c.now);
         CHECK(names_find(&c.names, n % 2 ? "x" : "y", 1, &at));
         const calc_value good = c.names.row[at].v;
         if (lost)
@@ -346,7 +346,7 @@ static void rows_of_loads(bool forgotten) {
     for (int n = 0; failed && n < 1000; n++) {
         begin(&c, of);
         if (forgotten)
-            scene_forget(c.now, false);
+            scene_forget(c.now);
         left = n;
         const bool ok = scene_load_rows(c.now, step, FN, Fx, 3, &row, fresh());
         failed = left < 0;
@@ -358,7 +358,7 @@ static void rows_of_loads(bool forgotten) {
     begin(&c, of);
     CHECK(assign(&c, "mu := y") && names_find(&c.names, "y", 1, &row));
     c.names.row[row].v.v = -1;
-    scene_forget(c.now, false);
+    scene_forget(c.now);
     CHECK(!scene_load_rows(c.now, step, FN, Fx, 3, &row, fresh()) && row == 0);
     calc_word(&c, &error);
     CHECK(is_lost());
@@ -415,7 +415,7 @@ static void lacking(void) {
     double v[VALUES];
     calc c;
     begin(&c, &scenes[2]);
-    scene_forget(c.now, false);
+    scene_forget(c.now);
     inputs_unset(&c.now->in, INPUT_BIT(IN_MU));
     CHECK(!ask_state(c.now, v) && error.kind == ERROR_MISSING && error.input == IN_MU);
     calc_free(&c);
