@@ -454,10 +454,12 @@ static bool is_free(const part *of, const definition *in) {
 
 /* Is there a part already whose page tells as much? Without a value a page tells the formula alone. */
 static bool is_among(const parts *all, const part *of) {
-    for (const part *one = all->of; one < all->of + all->count; one++)
+    for (size_t i = 0; i < all->count; i++) {
+        const part *one = &all->of[i];
         if (one->q == of->q && one->call == of->call &&
             (of->free || (one->len == of->len && !strncmp(one->text, of->text, of->len))))
             return true;
+    }
     return false;
 }
 
@@ -515,7 +517,8 @@ static bool explain_part(const page *p, const part *of) {
 }
 
 static bool explain_parts(const page *p, const parts *all) {
-    for (const part *one = all->of; one < all->of + all->count; one++) {
+    for (size_t i = 0; i < all->count; i++) {
+        const part *one = &all->of[i];
         if (!one->call && is_given(p, one->q))
             explain_input(p, one->q);
         else if (!explain_part(p, one))
