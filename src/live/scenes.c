@@ -210,13 +210,25 @@ static void cycle_text(const live *l, char text[LIVE_TEXT]) {
         snprintf(text, LIVE_TEXT, "cycle FA=%s", force);
 }
 
+/* Replaces the cycle that played by one of so many periods; if that fails, runs it again as it was. */
+static bool play_more(live *l, const char *cycle, unsigned periods) {
+    char why[LIVE_LINE];
+    if (!live_statement_line(l, "undo"))
+        return false;
+    if (live_statement(l, "%s times %u", cycle, periods))
+        return true;
+    memcpy(why, l->status, sizeof why);
+    live_statement(l, "%s times %u", cycle, periods - 1);
+    live_tell(l, true, "%s", why);
+    return false;
+}
+
 void live_play(live *l) {
     char text[LIVE_TEXT];
     live_refresh(l);
     cycle_text(l, text);
     const unsigned periods = strcmp(text, l->cycle_as) ? 1 : l->periods + 1;
-    if (periods == 1 ? !live_statement_line(l, text)
-                     : !live_statement_line(l, "undo") || !live_statement(l, "%s times %u", text, periods))
+    if (!(periods > 1 ? play_more(l, text, periods) : live_statement_line(l, text)))
         return;
     memcpy(l->cycle_as, text, sizeof text);
     l->periods = periods;
