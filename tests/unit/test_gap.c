@@ -130,7 +130,7 @@ static void errors(void) {
     CHECK_ERROR(fret_gap_check(&gap), FRET_OUTSIDE, "worn");
     gap.kind = (fret_gap_kind)(FRET_GAP_WORN + 1);
     CHECK_ERROR(fret_gap_check(&gap), FRET_OUTSIDE, "kind");
-    CHECK(fret_gap_check(&gap).limit == FRET_GAP_WORN);
+    CHECK((int)fret_gap_check(&gap).limit == FRET_GAP_WORN);
 }
 
 int main(int argc, char **argv) {
