@@ -439,7 +439,7 @@ static size_t find_begin(finder *t, size_t *header) {
     size_t first = NO_LINE, before = 0;
     *header = NO_LINE;
     for (size_t i = 0; i < t->count;) {
-        if (t->list[i].comment || (t->list[i].numbers & t->usual) != t->usual) {
+        if (!is_row(t, &t->list[i]) || (t->list[i].numbers & t->usual) != t->usual) {
             i++;
             continue;
         }

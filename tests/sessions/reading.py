@@ -95,6 +95,7 @@ WRONG = {
     b"r [mm],f\n0,0\n1,5\n": "column f is a number: it needs the unit of a length in the header, or here: using f=COLUMN UNIT\n",
     ",".join("c%d" % i for i in range(65)).encode() + b"\n" + b",".join([b"0"] * 65) + b"\n": ":2: more than 64 columns",
     b"r [mm],f [um]\n": "holds no rows of numbers", b"": "holds no rows of numbers",
+    b"," * 63 + b"0,$\n": "holds no rows of numbers",  # number and word in the last of the fields that are told apart
     b"0,0\n1,1\n": "has no column r: it has no line of names above its rows; say which it is: using r=NUMBER UNIT",
     b"r [mm],f [um]\n0,0\n0.5,\"12.5\n": ":3: expected a number as f, not '\"12.5'",
     b"r [mm],f [um]\n0,0\n1e400,5\n": ":3: expected a number as r, not '1e400'",
