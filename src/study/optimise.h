@@ -39,7 +39,7 @@ typedef struct optimise_answer {
 /* Searches from each place of a scan that is better than its neighbours and may lead to the optimum. A scan
  * has 17 places for one name, 129 if several of them qualify, 13 for each of two names and 9 for each of
  * three. Where Newton's method fails, as at a kink or the limit of the scene, ever narrower windows follow.
- * Some 50 evaluations for one name, 1e3 for two and 2e4 for three; at kinks ten times as many. Errors: no
+ * Some 50 evaluations for one name, 1e3 for two and 1e4 for three; at kinks ten times as many. Errors: no
  * value at any place tried; the same value everywhere. */
 bool optimise(const optimise_question *question, optimise_answer *out, calc_error *error);
 
