@@ -226,14 +226,27 @@ static void check_json(const char *text, size_t n) {
 
 static FILE *nowhere;
 
-/* The timer stands for the user's Ctrl-C: what takes longer is interrupted, and must come to its end. */
+/* The timer stands for the user's Ctrl-C: what takes longer is interrupted, and must then come to its end.
+ * What runs for LONGEST seconds after it, or without it, hangs. libFuzzer's own -timeout would need the same
+ * timer. */
+enum { LONGEST = 30 };
+static volatile sig_atomic_t interruptible;
+
 static void interrupt(int signal) {
+    static const char hangs[] = "fuzz: does not come to its end\n";
     (void)signal;
+    if (!interruptible || shell_stop) {
+        (void)!write(STDERR_FILENO, hangs, sizeof hangs - 1);
+        abort();
+    }
     shell_stop = 1;
 }
 
+/* Interrupts after us microseconds; with 0 not at all. */
 static void patience(long us) {
-    const struct itimerval t = {.it_value = {.tv_sec = us / 1000000, .tv_usec = us % 1000000}};
+    const struct itimerval t = {.it_value = {.tv_sec = us ? us / 1000000 : LONGEST, .tv_usec = us % 1000000},
+                                .it_interval = {.tv_sec = LONGEST}};
+    interruptible = us > 0;
     setitimer(ITIMER_REAL, &t, NULL);
 }
 
@@ -498,8 +511,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         abort();
     memcpy(text, data, size);
     text[size] = 0;
+    patience(0);
     prepare();
     chosen->run(text, size);
+    setitimer(ITIMER_REAL, &(const struct itimerval){0}, NULL);
     free(text);
     return fchdir(here); /* the corpus is named from there */
 }
