@@ -15,7 +15,7 @@ static bool all_holds(scene *s, calc_error *error) {
     const fret_contact *contact;
     const fret_press *press;
     fret_material material;
-    double mu;
+    long double mu;
     for (input in = 0; in < INPUTS; in++)
         if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in)) && !input_check(in, s->in.v[in], error))
             return false;
@@ -29,9 +29,9 @@ static bool all_holds(scene *s, calc_error *error) {
             error_clear(error);
         return waits;
     }
-    if (s->in.set[IN_MU] || s->end.steps > 1)
-        return (!(s->in.bindings & INPUT_BIT(IN_MU)) || scene_friction(s, &mu, error)) &&
-               scene_history(s, &contact, error);
+    const bool friction = inputs_any(&s->in, INPUT_BIT(IN_MU));
+    if (friction || s->end.steps > 1)
+        return (!friction || scene_get(s, IN_MU, &mu, error)) && scene_history(s, &contact, error);
     return scene_press(s, &press, error);
 }
 

@@ -4,12 +4,14 @@
 
 #include <math.h>
 
-/* A program without tangential steps needs no friction: mu = 1 then. */
+/* A program without tangential steps needs no friction: mu = 1 where there is none. */
 static bool friction_for_program(scene *s, const load_reach *reach, double *mu, calc_error *error) {
-    const inputs *in = &s->in;
-    const bool given = in->bindings & INPUT_BIT(IN_MU) || (in->set[IN_MU] && in->v[IN_MU] > 0);
+    const bool given = inputs_any(&s->in, INPUT_BIT(IN_MU)) && inputs_know_nu(&s->in);
+    long double v = 0;
     *mu = 1;
-    return (!reach->by && !(given && inputs_know_nu(in))) || scene_friction(s, mu, error);
+    if (!reach->by && given && !scene_get(s, IN_MU, &v, error))
+        return false;
+    return (!reach->by && !(v > 0)) || scene_friction(s, mu, error);
 }
 
 static bool rig_for_program(scene *s, double *K_rig, calc_error *error) {
