@@ -296,7 +296,7 @@ static bool starts(const char *text, size_t n, const char *word) {
 static bool run_statement(shell *sh, const char *text, size_t n) {
     calc_error error;
     error_clear(&error);
-    patience(300000);
+    patience(50000);
     const bool ok = shell_statement(sh, text, n, &error);
     patience(0);
     shell_stop = 0;
@@ -336,7 +336,7 @@ static void check_saved(shell *sh) {
     if (!strstr(saved, "# the name of the file")) {
         shell again;
         shell_init(&again, nowhere, nowhere);
-        patience(5000000);
+        patience(1000000);
         const int status = shell_run(&again, "saved", saved);
         patience(0);
         if (!shell_stop) {
@@ -372,7 +372,7 @@ static void json(const char *text, size_t size) {
     shell_init(&sh, to, nowhere);
     sh.set.format = FORMAT_JSON;
     sh.keep_going = true;
-    patience(300000);
+    patience(50000);
     shell_run(&sh, "given", copy);
     patience(0);
     shell_stop = 0;
@@ -435,7 +435,7 @@ static void replay(const char *text, size_t size) {
         error_clear(&error);
         shell_init(&sh, to, nowhere);
         sh.set.format = format ? FORMAT_JSON : FORMAT_TEXT;
-        patience(500000);
+        patience(100000);
         const int status = shell_replay(&sh, "given-replay.txt", 1e-12, &error);
         patience(0);
         shell_free(&sh);
@@ -452,7 +452,7 @@ static void replay(const char *text, size_t size) {
 /* The functions of the library themselves. */
 static void library(const char *text, size_t size) {
     (void)size;
-    patience(300000);
+    patience(50000);
     library_calls(text, &shell_stop);
     patience(0);
     shell_stop = 0;
