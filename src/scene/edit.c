@@ -9,6 +9,17 @@ static bool complete(const scene *s) {
            (in->geometry || !in->bindings) && (in->v[IN_K] == 0 || in->set[IN_C0]);
 }
 
+/* Before a load definitions may lack inputs, but not make a circle: one in c0 shows only when k is no longer
+ * 0. */
+static bool no_circle(scene *s, calc_error *error) {
+    long double v;
+    for (input in = 0; in < INPUTS; in++)
+        if (s->in.bindings & INPUT_BIT(in) && !scene_get(s, in, &v, error) && error->circle)
+            return false;
+    error_clear(error);
+    return true;
+}
+
 /* Are all inputs and the program valid together? */
 static bool all_holds(scene *s, calc_error *error) {
     const fret_normal *normal;
@@ -20,6 +31,8 @@ static bool all_holds(scene *s, calc_error *error) {
         if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in)) && !input_check(in, s->in.v[in], error))
             return false;
     if (s->end.steps == 0) {
+        if (!no_circle(s, error))
+            return false;
         if (!complete(s) ||
             (s->in.geometry ? scene_normal(s, &normal, error) : scene_material(s, false, &material, error)))
             return true;
