@@ -869,7 +869,7 @@ static bool is_history(const DIAGRAM *d) {
     bool ok = d->W >= 0 && size_of(d->W_rest) <= d->W && d->last_loss >= 0 &&
               d->W + d->last_loss <= DBL_MAX && size_of(d->Fx) <= 2 * d->mu * d->edge.y[LOAD] &&
               size_of(d->dx - d->slid) <= 2 * d->mu_eta * d->edge.y[DEPTH] + LITTLE * size_of(d->slid) &&
-              (d->count ? d->dz > 0 && d->edge.y[DEPTH] > 0 && d->edge.y[LOAD] > 0
+              (d->count ? d->dz == d->edge.y[DEPTH] && d->dz > 0 && d->edge.y[LOAD] > 0
                         : d->dz <= 0 && d->edge.y[DEPTH] == 0 && d->edge.y[LOAD] == 0);
     for (size_t i = 0; i < d->count && ok; i++) {
         const point *outer = i + 1 < d->count ? &d->layers[i + 1].inner : &d->edge,

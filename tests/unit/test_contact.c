@@ -155,16 +155,21 @@ static void packed(double n, double k, fret_exactness exactness) {
         CHECK_CODE(fret_contact_unpack(c, to, count), FRET_OUTSIDE);
         to[i] = was;
     }
-    for (size_t i = 0; i < 2 * count; i++) { /* what may pass for one goes on as one */
-        const double was = to[i / 2];
+    for (size_t i = 0; i < 3 * count; i++) { /* what may pass for one goes on as one */
+        const double was = to[i / 3], another[] = {-1e290, 1e290, 1.01 * was};
         const fret_step next = random_step(&seed, 100);
-        to[i / 2] = i % 2 ? -1e290 : 1e290;
-        if (!fret_contact_unpack(other, to, count).code && !fret_contact_step(other, &next).code) {
-            fret_state now;
+        fret_state now;
+        fret_segment s1;
+        to[i / 3] = another[i % 3];
+        const bool passes = !fret_contact_unpack(other, to, count).code;
+        fret_contact_forces(other, &now);
+        for (size_t j = 0; passes && fret_contact_segment(other, j, &s1); j++)
+            CHECK(s1.inner >= 0 && s1.outer >= s1.inner && s1.outer <= now.dz);
+        if (passes && !fret_contact_step(other, &next).code) {
             fret_contact_forces(other, &now);
             CHECK(fret_contact_last_loss(other) >= 0 && now.W >= 0 && isfinite(now.dx));
         }
-        to[i / 2] = was;
+        to[i / 3] = was;
     }
     for (size_t i = 0; i < count; i += 7)
         CHECK(fret_contact_unpack(c, to, i).code == FRET_OUTSIDE || (i > 0 && i < count));
