@@ -246,8 +246,9 @@ static void interrupt(int signal) {
 static void patience(long us) {
     const struct itimerval t = {.it_value = {.tv_sec = us ? us / 1000000 : LONGEST, .tv_usec = us % 1000000},
                                 .it_interval = {.tv_sec = LONGEST}};
-    interruptible = us > 0;
+    interruptible = true; /* the timer before may still interrupt */
     setitimer(ITIMER_REAL, &t, NULL);
+    interruptible = us > 0;
 }
 
 static void write_file(const char *name, const uint8_t *data, size_t size) {
