@@ -27,7 +27,7 @@ typedef struct fret_press {
  * like: NULL, or a contact whose polynomials are reused if k and the kind of shape, or the table, are the
  * same, whatever E0, nu, b, R and slope are: in 10 us, with the same bits as without. stop: ends the making
  * when set; may be NULL, is not kept. Errors: those of fret_foundation_make and fret_gap_check;
- * FRET_NOT_MONOTONE, FRET_NO_MEMORY, FRET_INTERRUPTED. */
+ * FRET_NOT_MONOTONE, FRET_OVERFLOW (n: 1/n overflows), FRET_NO_MEMORY, FRET_INTERRUPTED. */
 fret_status fret_normal_make(const fret_material *material, const fret_gap *gap, const fret_normal *like,
                              fret_stop stop, fret_normal **out);
 /* Adds a reference, which fret_normal_free releases. */

@@ -100,7 +100,8 @@ static void word_status(const calc *c, calc_error *error) {
                  "`geometry file FILE smooth`",
                  name, given, rule, limit);
     else
-        snprintf(text, size, "%s = %s %s", name, given, rule);
+        snprintf(text, size, "%s = %s%s %s", name, given,
+                 fret_status_category(st->code) >= FRET_CAT_NUMERIC ? ":" : "", rule);
 }
 
 static void word_missing(const calc *c, calc_error *error) {

@@ -48,8 +48,8 @@ static fret_status give_shape(fret_normal *n, const fret_gap *gap, const fret_no
     n->end = INFINITY;
     n->stiff = fret_normal_stiffness(n, 1);
     if (fret_gap_closed(gap)) {
-        make_power(n);
-        return st;
+        make_power(n); /* p ~ 1/n */
+        return n->p <= DBL_MAX ? st : fret_fail(FRET_OVERFLOW, "n", gap->power[0].n, DBL_MAX);
     }
     fret_gap_rule(gap, k, &n->rule);
     st = fret_cells_make(gap, k, like ? like->cells : NULL, stop, &n->cells);

@@ -128,6 +128,10 @@ static void ranges(void) {
     CHECK_CODE(fret_press_by_depth(power(1e300, 2, 1, 1), 1e10, &p), FRET_OVERFLOW);
     CHECK_CODE(fret_press_by_depth(power(1e-300, 2, 1, 1), 1e-20, &p), FRET_OVERFLOW);
     CHECK(p.F == 0 && p.dz == 0 && p.a == 0);
+    const fret_gap blunt = {.kind = FRET_GAP_POWER, .terms = 1, .power = {{DBL_TRUE_MIN, 1, 1}}};
+    fret_normal *n = NULL;
+    CHECK_ERROR(fret_normal_make(&steel, &blunt, NULL, NULL, &n), FRET_OVERFLOW, "n");
+    CHECK(!n);
     CHECK_OK(fret_press_by_depth(power(1e300, 2, 1, 1), 1e-20, &p));
     CHECK_REL(p.a, 1e-10L * sqrtl(0.5L), 1e-15L);
 }
