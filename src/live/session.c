@@ -27,8 +27,7 @@ static void session(live *l, live_work *work) {
     enum { IDLE = 1000, FRAME = 16 /* milliseconds */, MANY = 20 };
     double before = clock_wall(), last = clock_worked();
     while (!l->leave) {
-        double start = clock_wall();
-        slice_began = start;
+        slice_began = clock_wall();
         live_refresh(l);
         const bool there = live_walk(l, late);
         const int busy = terminal_busy();
@@ -42,17 +41,14 @@ static void session(live *l, live_work *work) {
         last = now;
         const int pause = !there ? 0 : l->playing ? FRAME : l->changed ? busy : IDLE;
         int key = terminal_key(pause, l->host->stop);
-        slice_began = start = clock_wall();
-        bool away = false;
+        slice_began = clock_wall();
+        if (key != KEY_AGAIN) /* then the program may have been stopped for long: what plays must not jump */
+            live_play_on(l, slice_began - before);
         for (int many = 1; key != KEY_NONE; many++) { /* one frame for all keys that wait */
-            away = away || key == KEY_AGAIN;
             live_key(l, key);
             key = many < MANY && !l->leave && !late() ? terminal_key(0, l->host->stop) : KEY_NONE;
         }
-        if (away) /* the program may have been stopped for long: what plays must not jump */
-            before = start = clock_wall();
-        live_play_on(l, start - before);
-        before = start;
+        before = clock_wall(); /* nor over the time that statements take */
     }
 }
 

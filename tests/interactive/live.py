@@ -822,6 +822,14 @@ def in_haste(tests):
         tests.check("a step plays", live.key("  ", "> cycle") and live.value("Fx")[0] != "20", live.screen.text())
         tests.check("to its end", live.key(" ", lambda s: "> cycle" not in s.row(0) and live.value("Fx") == ("20", "N")), live.screen.text())
         live.end()
+    with tests.file(SCENE + "\ntable sin(x) for x = 1 .. 2 steps 3000000 to /dev/null; step Fx=20 N\n") as path:
+        live = Live(tests, path)
+        live.wait(r"a +186\.626 um")
+        live.key("]]", " 2/s")
+        live.child.send(" ")
+        tests.check("time that a line takes is not played", live.wait(lambda s: "> cycle" in s.row(0) and 0 < float(live.value("Fx")[0] or 0) < 18, 20),
+                    live.screen.text())
+        live.end()
 
 
 def unseen(tests):
