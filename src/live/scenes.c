@@ -37,7 +37,7 @@ bool live_statement_line(live *l, const char *line) {
     l->playing = false;
     l->periods = 0;
     const bool ok = l->host->run(l->host->self, line, &answer);
-    if (!ok && *l->host->stop) {
+    if (!ok && *l->host->stop && !l->unseen) {
         *l->host->stop = 0; /* the statement was interrupted, not the session */
         l->torn = true;
     }

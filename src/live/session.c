@@ -86,15 +86,15 @@ bool live_run(const live_host *host, const char *const *script, live_work *work,
     l->host = host;
     l->speed = 0.5;
     l->phase = 90;
-    const bool unseen = script && !terminal_there();
-    bool ok = (!script || script_open(l, script, error)) && terminal_open(unseen, error);
+    l->unseen = script && !terminal_there();
+    bool ok = (!script || script_open(l, script, error)) && terminal_open(l->unseen, error);
     if (ok) {
         live_update(l);
         if (!script)
             live_begin(l);
         else
             script_on(l);
-        if (unseen)
+        if (l->unseen)
             ok = (*screen = play_script(l)) || calc_no_memory(error);
         else
             session(l, work);

@@ -32,6 +32,7 @@ typedef struct live_script {
 typedef struct live {
     const live_host *host;
     bool leave;           /* the loop is to end */
+    bool unseen;          /* a script plays without a terminal */
     bool by_displacement; /* arrows change displacements, else forces */
     /* the cycle that space plays */
     double FA, FNA, phase, speed; /* [N], [N], [deg], periods per second */

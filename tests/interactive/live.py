@@ -859,6 +859,13 @@ def unseen(tests):
         job.send_signal(signal.SIGINT)
         out, err = job.communicate(timeout=60)
     tests.check("Ctrl-C stops the play", running and job.returncode == 130 and b"1 + 1" not in out, "%s %s %s" % (job.returncode, out, err))
+    with tests.file("table x for x = 1 .. 2 steps 100000000 to /dev/null\n2 + 2\n") as path:
+        job = subprocess.Popen([tests.fret, "-c", "live %s\n1 + 1" % path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=tests.env, cwd=tests.dir)
+        running = at_work(job)
+        job.send_signal(signal.SIGINT)
+        out, err = job.communicate(timeout=60)
+    tests.check("and a line of it", running and job.returncode == 130 and b"interrupted" in out and b"1 + 1" not in out and b"2 + 2" not in out,
+                "%s %s %s" % (job.returncode, out, err))
     where = os.path.join(tests.dir, "unseen")
     os.mkdir(where)
     for name, text in (("arm", ""), ("disarm", ""), ("s.fret", "step Fx=20 N\n")):
