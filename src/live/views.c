@@ -330,12 +330,15 @@ static void draw_column(live *l, const side *s, const scales *sc, rect all, rect
             room -= v->rows;
         }
     }
+    if (room < 0) /* the last rows of the last view do without */
+        room = 0;
     rect at = column;
     for (size_t i = 0; i < VIEWS; i++) {
         const view *v = &views[i];
         if (!is_shown(v, all, narrow, right))
             continue;
-        at.rows = v->share ? room * v->share / shares : v->rows;
+        const int left = column.top + column.rows - at.top;
+        at.rows = v->share ? room * v->share / shares : v->rows < left ? v->rows : left;
         shares -= v->share;
         room -= v->share ? at.rows : 0;
         if (*v->title)

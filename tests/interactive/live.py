@@ -266,6 +266,11 @@ def sizes(tests):
         tests.check("the size becomes %dx%d" % (rows, cols), ok and ("energy" in live.screen.text()) == (rows >= 40) and "q quit  ? keys" in live.screen.text(),
                     live.screen.text())
     live.end()
+    with tests.file(SCENE + "\n" + "# A long remark\n" * 20) as path:
+        live = Live(tests, path, size=(10, 40))
+        tests.check("rows that are not there are not drawn", live.wait("A long remark") and re.match(r"sphere .. +cycle FA 20 N", live.screen.row(0)) and
+                    re.match(" FN  100 N", live.screen.row(1)), live.screen.text())
+        live.end()
 
 
 def comparing(tests):
