@@ -16,10 +16,10 @@
 /* ---- pushing and pressing ---------------------------------------------------------------------- */
 
 static const shot *now(const live *l) {
-    return &l->side[0].now;
+    return &side_first(l)->now;
 }
 
-/* The value of a number in the table of the first scene, if positive; else `otherwise`. */
+/* The value of a number in the table, if positive; else `otherwise`. */
 static double number(const live *l, const char *name, double otherwise) {
     for (size_t i = 0; i < SHOT_VALUES; i++)
         if (!strcmp(shot_name(i), name) && now(l)->known[i] && now(l)->value[i] > 0)

@@ -70,11 +70,8 @@ static void trouble(live *l, side *s, calc_error *error) {
 /* Takes the numbers of the scene that expressions see, and begins to run its load. */
 static bool take_side(live *l, side *s, calc_error *error) {
     calc *c = l->host->calc;
-    s->trouble[0] = 0;
-    if (!shot_take(c, &s->now, error)) {
-        s->now = (shot){.time = 0}; /* keys start from what is shown, which is nothing now */
+    if (!shot_take(c, &s->now, error))
         return false;
-    }
     if (!l->playing)
         s->played = s->now; /* from where the next load plays */
     s->loses = shot_lost(c, s->now.a, s->lost);
@@ -91,11 +88,14 @@ static bool take_compared(live *l, side *s, size_t i, calc_error *error) {
 static void refresh_side(live *l, size_t i) {
     side *s = &l->side[i];
     calc_error error = ERROR_NONE;
-    if (!(l->compared.on ? take_compared(l, s, i, &error) : take_side(l, s, &error)))
-        trouble(l, s, &error);
     s->stale = false;
+    s->trouble[0] = 0;
+    if (!(l->compared.on ? take_compared(l, s, i, &error) : take_side(l, s, &error))) {
+        s->now = (shot){.a = 0}; /* keys start from what is shown, which is nothing now */
+        trouble(l, s, &error);
+    }
     l->changed = true;
-    if (i == 0 && !(l->FA > 0) && s->now.slip > 0) /* at first: half the force of gross slip */
+    if (!(l->FA > 0) && s->now.slip > 0) /* at first: half the force of gross slip */
         l->FA = live_nice(s->now.slip / 2);
 }
 
@@ -248,7 +248,7 @@ void live_play_on(live *l, double seconds) {
     l->changed = true;
     if (!all_there(l, INFINITY))
         l->play_at += seconds * l->speed;
-    else if (l->stops_at_end || *l->side[0].trouble)
+    else if (l->stops_at_end || *side_first(l)->trouble)
         live_play_end(l);
     else
         live_play(l);

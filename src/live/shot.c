@@ -53,7 +53,6 @@ bool shot_take(calc *c, shot *out, calc_error *error) {
     if (!scene_straight(c->now, &contact, error))
         return false;
     fret_contact_state(contact, &state);
-    out->time = scene_time(c->now);
     out->a = (double)state.a;
     out->c = (double)state.c;
     out->dx = (double)state.dx;

@@ -13,7 +13,6 @@ typedef struct shot_ring {
 } shot_ring;
 
 typedef struct shot {
-    double time;                                     /* along the load: a step or a period takes 1 */
     double a, c, dx, Fx;                             /* [m], [m], [m], [N] */
     double slip;                                     /* force of gross slip, mu F_N [N] */
     double bound;                                    /* largest displacement of a spring, B(0) [m] */

@@ -58,7 +58,7 @@ typedef struct live {
     char *kept[KEPT_LINES]; /* history of lines */
     size_t kept_count, kept_at;
     live_script script;
-    /* where the views have drawn the hysteresis loop, for the mouse */
+    /* where the views have drawn the hysteresis loop of side_first, for the mouse; empty if they have not */
     rect loop;
     double loop_dx; /* displacement at its right edge [m] */
     bool dragging;
@@ -77,6 +77,8 @@ LIKE_PRINTF(3, 4)
 void live_tell(live *l, bool bad, const char *format, ...);
 /* How many scenes are shown: 1 or 2. */
 size_t live_sides(const live *l);
+/* The side that keys and the mouse go by: the first that is not in trouble. */
+const side *side_first(const live *l);
 /* The state to draw: while a cycle plays the one at play_at, else the present one. */
 const shot *side_shown(const live *l, const side *s);
 

@@ -313,7 +313,7 @@ static void draw_view(live *l, const view *v, const side *s, const scales *sc, r
     p.high = at.rows * p.cells.up;
     v->draw(&p);
     canvas_show(&p.cells, at);
-    if (v->draw == draw_loop && s == &l->side[0]) {
+    if (v->draw == draw_loop && s == side_first(l)) {
         l->loop = at;
         l->loop_dx = sc->dx;
     }
@@ -465,6 +465,7 @@ static void draw_all(live *l) {
     const int foot = note_rows(l) + status_rows(l);
     rect all = {1, 0, LINES - 1 - foot, COLS};
     erase();
+    l->loop = (rect){0, 0, 0, 0};
     if (LINES < 10 || COLS < 40) {
         put_text((rect){0, 0, LINES, COLS}, 0, INK_ERROR, "the screen is too small: 40 x 10");
         return;
