@@ -62,9 +62,11 @@ bool live_statement(live *l, const char *format, ...) {
 
 /* ---- what is shown ----------------------------------------------------------------------------- */
 
+/* Shows the error in place of the views. Ctrl-C only ends what is typed, or all: it leaves the side stale. */
 static void trouble(live *l, side *s, calc_error *error) {
     calc_word(l->host->calc, error);
     snprintf(s->trouble, sizeof s->trouble, "%.*s", LIVE_TEXT - 1, error->text);
+    s->stale = *l->host->stop != 0;
 }
 
 /* Takes the numbers of the scene that expressions see, and begins to run its load. */

@@ -816,6 +816,17 @@ def long_loads(tests):
         want = tests.run("-c", SCENE + "; cycle FA=20 N FNA=10 N times 12; W").stdout.split()
         tests.check("twelve periods, played to their end", len(seen) > 1 and live.wait(lambda s: live.value("W") == (want[2], want[3])), "%s\n%s" % (want, live.screen.text()))
         live.end()
+    live = at_prompt(tests, SCENE)
+    with tests.file("FN [N],Fx [N]\n" + "100,0\n105,9\n" * 150000, ".csv") as path:
+        live.says("follow " + path)
+        live.wait(r"FN +105 N")
+    live.says("step Fx = 5 N")  # its curve is what takes long now
+    live.wait(r"step Fx = 5 N")
+    live.key(":1 + 1", lambda s: live.status() == ":1 + 1")
+    tests.check("a line dropped while the curve is under way", live.key("\x03", lambda s: live.status() == "step Fx = 5 N") and
+                live.wait(lambda s: "interrupted" not in s.text() and live.value("Fx")[0] == "5", 5), live.screen.text())
+    live.says("quit")
+    live.gone()
 
 
 def in_haste(tests):
