@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The one table of views, and all drawing. Changes nothing of the state but the place of the hysteresis loop,
- * which the mouse needs. */
+ * which the mouse needs, and that the screen is torn no more. */
 #define _XOPEN_SOURCE 700
 #define NCURSES_WIDECHAR 1
 #include <curses.h>

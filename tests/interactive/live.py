@@ -760,6 +760,22 @@ def gone_on_with(tests):
     tests.check("left while it plays, the periods that were seen are said", live.wait(r"cycle FA=22 N FNA=10 N phase=90 deg times \d+"), live.raw[-1500:])
     live.child.send("\x04")
     live.gone()
+    # a body on which chords are slow to converge, and a record that tells when a period runs
+    live = at_prompt(tests, "material E0=2 MPa nu=0.49 k=-0.3 c0=2 mm; geometry flat-rounded b=0.1 mm R=10 mm; friction 1.3; press FN=1 N")
+    record = os.path.join(tests.dir, "periods.txt")
+    live.says("record " + record)
+    live.key("nn]]]]", "FNA 200 mN .* 8/s")
+    live.child.send(" ")
+    end = time.time() + 60
+    while time.time() < end and not (os.path.exists(record) and "times 2" in open(record, encoding="utf-8").read()):
+        live.read()
+    tests.check("a period that is interrupted is told of", live.key("\x03", lambda s: live.status() == "error: interrupted"), live.screen.text())
+    live.child.send("s\x15" + path + "\r")
+    live.wait("wrote ")
+    with open(path, encoding="utf-8") as f:
+        tests.check("and those before it stay", f.read().splitlines()[-1] == "cycle FA=500 mN FNA=200 mN phase=90 deg")
+    live.says("quit")
+    live.gone()
 
 
 def odd_terminals(tests):
@@ -912,6 +928,51 @@ def unseen(tests):
                               capture_output=True, text=True, check=False)
         told += re.findall(r"(.*): error: no screen can be had to play the script on\n  (.*)\n  (.*)", done.stderr)
     tests.check("no screen to play on", told and set(told) == {("-c:3:1", "live s.fret", "^~~~~~~~~~~")}, str(told))
+
+
+def dots(rows):
+    """The dots of braille signs, as places from the left and from the top."""
+    places = ((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3))
+    return {(2 * x + dx, 4 * y + dy) for y, row in enumerate(rows) for x, sign in enumerate(row) if 0x2800 <= ord(sign) < 0x2900
+            for bit, (dx, dy) in enumerate(places) if ord(sign) - 0x2800 >> bit & 1}
+
+
+def drawn(tests):
+    """The energies and the lost energy, dot by dot; the curve of a load that is too long for it; more rings than are kept."""
+    def screen(load, rows=50, **env):
+        with tests.file("# Drawn\n") as path:
+            done = tests.run("-c", "%s\nlive %s" % (load, path), env={**UTF8, "LINES": str(rows), "COLUMNS": "160", **env})
+        return done.stdout.splitlines()
+
+    def height(number, scale, high):
+        return round((high - 1) * (1 - number / scale))
+
+    def energies(rows):
+        first = next(i for i, row in enumerate(rows) if row.startswith("-- energy")) + 1
+        last = next(i for i, row in enumerate(rows) if row.startswith(" FN "))
+        return dots(row[:63] for row in rows[first:last]), 4 * (last - first), float(re.match(r" *([\d.]+) uJ", rows[first]).group(1))
+
+    cycle = SCENE + "; cycle FA=30 N"
+    rows = screen(cycle)
+    seen, high, scale = energies(rows)
+    ends = [height(v, scale, high) for v in (11.2692, 14.1783)]  # W, U [uJ]
+    tests.check("W and U at the end", all(any(abs(y - end) <= 1 for x, y in seen if x > 121) for end in ends) and (0, high - 1) in seen and len(seen) < 400, "%d\n%s" % (len(seen), "\n".join(rows)))
+    first = next(i for i, row in enumerate(rows) if "-- lost" in row) + 1
+    seen, high = dots(row[64:] for row in rows[first:48]), 4 * (48 - first)
+    top = min(y for _, y in seen)
+    tests.check("what a cycle loses where", rows[first][64:].startswith("300 J/m^2") and max(x for x, _ in seen) == round(191 * 186.626 / 200) and
+                abs(top - height(216.176, 300, high)) <= 1 and any(y == top and abs(x - 191 * 170.035 / 200) <= 1 for x, y in seen), "\n".join(rows))
+    rows = screen(cycle + " FNA=10 N phase=90 deg")
+    tests.check("not as FN swings", "of a cycle at constant FN" in "\n".join(rows), "\n".join(rows))
+    with tests.file("FN [N],Fx [N]\n" + "100,0\n105,9\n" * 6000, ".csv") as path:
+        rows = screen(SCENE + "; follow " + path)
+        lost = float(tests.run("-c", SCENE + "; follow %s; W/1 uJ" % path).stdout.split()[-1])
+    seen, high, scale = energies(rows)
+    tests.check("of a long load the end is kept", any(x == 0 and abs(y - height(5 / 12 * lost, scale, high)) <= 1 for x, y in seen) and
+                any(x == 125 and abs(y - height(lost, scale, high)) <= 1 for x, y in seen), "%g\n%s" % (lost, "\n".join(rows)))
+    rows = screen(SCENE + "".join("; step Fx=%d N" % (i * (-1) ** i) for i in range(36, 0, -1)), 24, LC_ALL="C")
+    disc = [row[:63] for row in rows[2:15]]
+    tests.check("rings within rings have all slipped", sum(row.count("+") for row in disc) > 50 and not any("#" in row for row in disc), "\n".join(rows))
 
 
 def stills(tests):
@@ -1148,4 +1209,4 @@ def refused_beside(tests):
 def run(tests):
     tests.rooms(completed, hostile, readable, dragged, refused_beside, beginning, refusals, keys, playing, repeating, going_on, sizes, comparing, stepping, mouse, slow_line, undisturbed, saving,
                 recording, endings, stopping, lessons, corners, typing, scripted, pointing,
-                little, energies, released, gone_on_with, in_haste, odd_terminals, hung_up, long_loads, unseen, stills, shapes, pages, begun)
+                little, energies, released, gone_on_with, in_haste, odd_terminals, hung_up, long_loads, unseen, drawn, stills, shapes, pages, begun)
