@@ -441,8 +441,11 @@ CALL(fret_normal_free) {
     forget_normal(w);
 }
 CALL(fret_normal_stop) {
-    if (have_normal(w))
-        fret_normal_stop(w->normal, x[0] > 0 ? w->stop : NULL);
+    (void)x;
+    if (have_normal(w)) {
+        fret_normal_stop(w->normal, NULL);
+        fret_normal_stop(w->normal, w->stop); /* else what takes long would never end */
+    }
 }
 CALL(fret_normal_same) {
     fret_normal *other;
