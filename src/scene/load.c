@@ -145,9 +145,12 @@ static bool catch_up(scene *s, calc_error *error) {
     return run_up(s, &steps, error);
 }
 
-/* A slide to a displacement at constant F_N is always possible: it runs when a result is asked for. */
-static bool can_wait(const scene *s, const load_step *step) {
-    return s->answers.levels && load_is_slide(step);
+/* A slide to a displacement at constant F_N is always possible, at a rig if there is one: it runs when a
+ * result is asked for. */
+static bool can_wait(scene *s, const load_step *step) {
+    double K_rig;
+    return s->answers.levels && load_is_slide(step) &&
+           (step->tangential != BY_RIG || rig_for_program(s, &K_rig, error_quiet()));
 }
 
 /* Limit [m] of the depth of a step: the way back from farther has no digits left for the contact. A press,
