@@ -9,30 +9,21 @@ static bool complete(const scene *s) {
            (in->geometry || !in->bindings) && (in->v[IN_K] == 0 || in->set[IN_C0]);
 }
 
-/* Before a load definitions may lack inputs, but not make a circle: one in c0 shows only when k is no longer
- * 0. */
-static bool no_circle(scene *s, calc_error *error) {
-    long double v;
+/* Are the inputs that are given within their ranges? */
+static bool given_holds(const scene *s, calc_error *error) {
     for (input in = 0; in < INPUTS; in++)
-        if (s->in.bindings & INPUT_BIT(in) && !scene_get(s, in, &v, error) && error->circle)
+        if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in)) && !input_check(in, s->in.v[in], error))
             return false;
-    error_clear(error);
     return true;
 }
 
-/* Are all inputs and the program valid together? */
-static bool all_holds(scene *s, calc_error *error) {
+static bool program_holds(scene *s, calc_error *error) {
     const fret_normal *normal;
     const fret_contact *contact;
     const fret_press *press;
     fret_material material;
     long double mu;
-    for (input in = 0; in < INPUTS; in++)
-        if (s->in.set[in] && !(s->in.bindings & INPUT_BIT(in)) && !input_check(in, s->in.v[in], error))
-            return false;
     if (s->end.steps == 0) {
-        if (!no_circle(s, error))
-            return false;
         if (!complete(s) ||
             (s->in.geometry ? scene_normal(s, &normal, error) : scene_material(s, false, &material, error)))
             return true;
@@ -43,9 +34,29 @@ static bool all_holds(scene *s, calc_error *error) {
         return waits;
     }
     const bool friction = inputs_any(&s->in, INPUT_BIT(IN_MU));
-    if (friction || s->end.steps > 1)
-        return (!friction || scene_get(s, IN_MU, &mu, error)) && scene_history(s, &contact, error);
-    return scene_press(s, &press, error);
+    return (!friction || scene_get(s, IN_MU, &mu, error)) && scene_press(s, &press, error) &&
+           (!(friction || s->end.steps > 1) || scene_history(s, &contact, error));
+}
+
+/* Are the inputs that follow from others within their ranges and no circle, even if nothing needs them yet?
+ * One that has no value may wait. */
+static bool bound_holds(scene *s, calc_error *error) {
+    for (input in = 0; s->in.bindings >> in; in++) {
+        calc_error mine;
+        long double v;
+        error_clear(&mine);
+        if (s->in.bindings & INPUT_BIT(in) && !scene_get(s, in, &v, &mine) &&
+            (mine.stop || mine.circle || (mine.kind == ERROR_STATUS && mine.input >= 0))) {
+            *error = mine;
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Are all inputs and the program valid together? */
+static bool all_holds(scene *s, calc_error *error) {
+    return given_holds(s, error) && program_holds(s, error) && bound_holds(s, error);
 }
 
 bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_error *error) {
@@ -65,9 +76,8 @@ bool scene_edit(scene *s, void (*edit)(inputs *, void *), void *context, calc_er
 
 static bool start_program(scene *s, const load_step *press, calc_error *error) {
     scene_mark before;
-    const fret_press *p;
     scene_save(s, &before, true);
-    if (scene_append(s, press, NULL, error) && scene_press(s, &p, error)) {
+    if (scene_append(s, press, NULL, error) && all_holds(s, error)) {
         scene_keep(&before);
         return true;
     }
