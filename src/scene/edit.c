@@ -3,12 +3,6 @@
  * answers; no answer uses this file. */
 #include "scene/scene.h"
 
-static bool complete(const scene *s) {
-    const inputs *in = &s->in;
-    return inputs_any(in, INPUT_MODULUS) && (inputs_know_nu(in) || in->set[IN_ESTAR]) &&
-           (in->geometry || !in->bindings) && (in->v[IN_K] == 0 || in->set[IN_C0]);
-}
-
 /* Are the inputs that are given within their ranges? */
 static bool given_holds(const scene *s, calc_error *error) {
     for (input in = 0; in < INPUTS; in++)
@@ -17,22 +11,28 @@ static bool given_holds(const scene *s, calc_error *error) {
     return true;
 }
 
-static bool program_holds(scene *s, calc_error *error) {
+/* Before a load, what is missing may follow: an input, or what a definition uses (c0 := a0). */
+static bool begins(scene *s, calc_error *error) {
     const fret_normal *normal;
+    fret_material material;
+    calc_error mine;
+    error_clear(&mine);
+    if (s->in.geometry ? scene_normal(s, &normal, &mine)
+                       : !scene_settle(s, INPUT_MATERIAL | INPUT_BIT(IN_C0), error_quiet()) ||
+                             scene_material(s, false, &material, &mine))
+        return true;
+    if (mine.kind == ERROR_MISSING && !mine.circle && !mine.stop)
+        return true;
+    *error = mine;
+    return false;
+}
+
+static bool program_holds(scene *s, calc_error *error) {
     const fret_contact *contact;
     const fret_press *press;
-    fret_material material;
     long double mu;
-    if (s->end.steps == 0) {
-        if (!complete(s) ||
-            (s->in.geometry ? scene_normal(s, &normal, error) : scene_material(s, false, &material, error)))
-            return true;
-        const bool waits =
-            error->kind == ERROR_MISSING && (error->input == IN_FN || !s->in.geometry); /* c0 := a0 */
-        if (waits)
-            error_clear(error);
-        return waits;
-    }
+    if (s->end.steps == 0)
+        return begins(s, error);
     const bool friction = inputs_any(&s->in, INPUT_BIT(IN_MU));
     return (!friction || scene_get(s, IN_MU, &mu, error)) && scene_press(s, &press, error) &&
            (!(friction || s->end.steps > 1) || scene_history(s, &contact, error));

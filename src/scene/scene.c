@@ -190,8 +190,7 @@ static bool settle(scene *s, input in, calc_error *error) {
     return true;
 }
 
-/* Evaluates all bound inputs of a set. */
-static bool resolve(scene *s, input_set set, calc_error *error) {
+bool scene_settle(scene *s, input_set set, calc_error *error) {
     input_set waiting = s->in.bindings & set & ~s->settled;
     for (input in = 0; waiting >> in; in++)
         if (waiting & INPUT_BIT(in) && !settle(s, in, error))
@@ -209,7 +208,7 @@ static input_set depends_on(const inputs *given, input in) {
 }
 
 bool scene_get(scene *s, input in, long double *out, calc_error *error) {
-    return resolve(s, depends_on(&s->in, in), error) && inputs_get(&s->in, in, out, error);
+    return scene_settle(s, depends_on(&s->in, in), error) && inputs_get(&s->in, in, out, error);
 }
 
 void scene_put(scene *s, input in, double v) {
@@ -220,14 +219,14 @@ void scene_put(scene *s, input in, double v) {
 /* ---- the contact ------------------------------------------------------------------------------- */
 
 bool scene_material(scene *s, bool homogeneous, fret_material *out, calc_error *error) {
-    if (!resolve(s, INPUT_MATERIAL, error))
+    if (!scene_settle(s, INPUT_MATERIAL, error))
         return false;
     const double k = homogeneous ? 0 : s->in.v[IN_K];
-    return (k == 0 || resolve(s, INPUT_BIT(IN_C0), error)) && inputs_material(&s->in, k, out, error);
+    return (k == 0 || scene_settle(s, INPUT_BIT(IN_C0), error)) && inputs_material(&s->in, k, out, error);
 }
 
 bool scene_gap(scene *s, fret_gap *out, calc_error *error) {
-    return resolve(s, INPUT_GEOMETRY, error) && inputs_gap(&s->in, out, error);
+    return scene_settle(s, INPUT_GEOMETRY, error) && inputs_gap(&s->in, out, error);
 }
 
 static bool make_normal(scene *s, bool homogeneous, fret_normal **out, calc_error *error) {
@@ -275,7 +274,7 @@ double scene_time(const scene *s) {
 bool scene_last_cycle(scene *s, load_item *out, calc_error *error) {
     if (!s->program || !s->end.cycles)
         return calc_fail(error, 0, 0, "no cycle has been run yet: use cycle FA=... or the function dW(FA)");
-    if (!s->before && !resolve(s, INPUT_CYCLE, error))
+    if (!s->before && !scene_settle(s, INPUT_CYCLE, error))
         return false;
     const size_t i = program_last_cycle(s->program, s->end);
     *out = program_item(s->program, (load_mark){i, s->end.cycles - 1}, s->before ? NO_CYCLE : i, &s->in);
@@ -302,7 +301,7 @@ bool scene_reach(scene *s, const load_reach **out, calc_error *error) {
     load_reach *r = &s->answers.reach;
     if (!s->end.steps)
         return calc_missing(error, IN_FN);
-    if (s->end.cycles && !s->before && !resolve(s, INPUT_CYCLE, error))
+    if (s->end.cycles && !s->before && !scene_settle(s, INPUT_CYCLE, error))
         return false;
     if (!s->answers.reach_ready || r->seen.steps > s->end.steps) {
         *r = (load_reach){.seen = {1, 0}, .alike = true, .first = true};

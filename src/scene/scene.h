@@ -140,6 +140,8 @@ void scene_keep(scene_mark *m);              /* ends the mark; the change stays 
 
 /* The value of an input, defaults and live definitions included. */
 bool scene_get(scene *s, input in, long double *value, calc_error *error);
+/* Evaluates the live definitions of all bound inputs of a set. */
+bool scene_settle(scene *s, input_set set, calc_error *error);
 /* Sets an input without a run or a check; for trials. */
 void scene_put(scene *s, input in, double value);
 /* Calls edit on s->in. Unless all inputs and the program are valid afterwards, restores the scene. */
