@@ -97,8 +97,8 @@ bool read_name(shell *sh, lexer *lx, bool known, size_t most, knob *names, size_
     if (!(known ? knob_known : knob_read)(&sh->calc, lx, k))
         return false;
     for (size_t i = 0; i < *count; i++)
-        if (!strcmp(names[i].text, k->text))
-            return calc_fail(lx->error, at, lx->last - at, "%s is given twice", k->text);
+        if (!knob_apart(&names[i], k, at, lx->last - at, lx->error))
+            return false;
     ++*count;
     return true;
 }

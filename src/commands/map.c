@@ -24,8 +24,8 @@ bool grid_range_read(shell *sh, lexer *lx, parsed *all, grid_range *out, size_t 
                          "a map needs two ranges: for A = LO .. HI for B = LO .. HI");
     if (!range_read(sh, lx, all, 1, &out->b) || !range_options(sh, lx, all, 1, &out->b, steps_b))
         return false;
-    if (!strcmp(out->a.sweep.var.text, out->b.sweep.var.text))
-        return calc_fail(lx->error, second->at, second->len, "%s is given twice", out->b.sweep.var.text);
+    if (!knob_apart(&out->a.sweep.var, &out->b.sweep.var, second->at, second->len, lx->error))
+        return false;
     sweep *s = &out->a.sweep;
     s->across = &out->b.sweep;
     s->with = s->across->var;

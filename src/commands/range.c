@@ -179,8 +179,8 @@ static bool read_with(shell *sh, const lexer *lx, const parsed *all, const given
     if (fresh &&
         !occurs_elsewhere(lx->text, h->hole[0].at, s->with.text)) /* no definition can use a new name */
         snprintf(sh->calc.note, sizeof sh->calc.note, "nothing here depends on %s", s->with.text);
-    if (!s->along && !strcmp(s->with.text, s->var.text))
-        return calc_fail(lx->error, h->hole[0].at, h->hole[0].len, "%s is given twice", s->with.text);
+    if (!s->along && !knob_apart(&s->var, &s->with, h->hole[0].at, h->hole[0].len, lx->error))
+        return false;
     return range_read_values(sh, lx, &h->hole[1], s);
 }
 
@@ -324,9 +324,9 @@ bool range_read_rows(shell *sh, lexer *lx, parsed *all, file_rows *from, size_t 
         if (!strcmp(h->of->name, "with") && !read_with(sh, lx, all, h, &out->sweep))
             return false;
     for (size_t i = 0; out->sweep.curves && i < from->at.names; i++)
-        if (!strcmp(from->at.column[i].name.text, out->sweep.with.text))
-            return calc_fail(lx->error, at->hole[0].at, at->hole[0].len, "%s is given twice",
-                             out->sweep.with.text);
+        if (!knob_apart(&from->at.column[i].name, &out->sweep.with, at->hole[0].at, at->hole[0].len,
+                        lx->error))
+            return false;
     return true;
 }
 

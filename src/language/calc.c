@@ -229,15 +229,23 @@ typedef struct assigned {
     const assignment *but; /* skip this one */
 } assigned;
 
-/* Refuses n without A, which would change the meaning of A, and A together with h or r0. */
+/* Refuses two inputs of which one replaces the other: they are set together, so that there is no last one. */
+static bool all_apart(lexer *lx, const assignment *all, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < i; j++)
+            if (all[i].q && all[j].q &&
+                !calc_apart(quantity_input(all[j].q), quantity_input(all[i].q), all[i].at, all[i].len,
+                            lx->error))
+                return false;
+    return true;
+}
+
+/* Refuses n without A, which would change the meaning of A. */
 static bool power_holds(const calc *c, lexer *lx, const assignment *all, size_t count) {
-    const assignment *n = of_input(all, count, IN_N), *A = of_input(all, count, IN_A),
-                     *h = of_input(all, count, IN_H);
-    h = h ? h : of_input(all, count, IN_R0);
-    if (n && !A && c->scene.in.set[IN_A])
-        return calc_fail(lx->error, n->at, n->len,
-                         "A belongs to the n it was given with: set both (n = 3, A = 50 m^-2)");
-    return !A || !h || calc_fail(lx->error, h->at, h->len, "give either A or both h and r0");
+    const assignment *n = of_input(all, count, IN_N);
+    return !n || of_input(all, count, IN_A) || !c->scene.in.set[IN_A] ||
+           calc_fail(lx->error, n->at, n->len,
+                     "A belongs to the n it was given with: set both (n = 3, A = 50 m^-2)");
 }
 
 static void put_assigned(inputs *in, void *context) {
@@ -360,7 +368,7 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
 
 /* of_scene: some are of inputs. */
 static bool put_all(calc *c, lexer *lx, assignment *all, size_t count, bool of_scene) {
-    if (!power_holds(c, lx, all, count))
+    if (!all_apart(lx, all, count) || !power_holds(c, lx, all, count))
         return false;
     for (size_t i = 0; i < count; i++) { /* += of inputs */
         long double old;

@@ -79,6 +79,9 @@ bool calc_bind(calc *c, lexer *lx, input in, counted **out);
 /* Does the scene use the input now? Else sets an error. */
 bool calc_takes(const calc *c, input in, calc_error *error);
 
+/* Can the two inputs be set together? Not if one replaces the other; the error is at the place given. */
+bool calc_apart(input one, input other, size_t at, size_t len, calc_error *error);
+
 /* Checks the dimension of a value; a bare 0 has any. */
 bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim d);
 

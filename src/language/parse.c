@@ -151,9 +151,8 @@ static bool parse_change(parser *p, expr_at *at) {
     if (!knob_name(p->c, lx, q)) /* whether the scene takes it is checked later */
         return false;
     for (size_t i = 0; i < at->count; i++)
-        if (!strcmp(at->change[i].p.text, q->text))
-            return calc_fail(lx->error, at->change[at->count].at, strlen(q->text), "%s is given twice",
-                             q->text);
+        if (!knob_apart(&at->change[i].p, q, at->change[at->count].at, strlen(q->text), lx->error))
+            return false;
     lex_next(lx);
     return parse_inner(p, &at->change[at->count++].value, p->bound);
 }

@@ -46,6 +46,15 @@ bool calc_takes(const calc *c, input in, calc_error *error) {
                      quantity_of_input(cycle_input(by))->name, q->name);
 }
 
+bool calc_apart(input one, input other, size_t at, size_t len, calc_error *error) {
+    if (!(inputs_replaced(one) & INPUT_BIT(other)))
+        return true;
+    if (one == IN_A || other == IN_A)
+        return calc_fail(error, at, len, "give either A or both h and r0");
+    return calc_fail(error, at, len, "give either %s or %s", quantity_of_input(one)->name,
+                     quantity_of_input(other)->name);
+}
+
 /* Does the text name a unit of angle? atan() returns radians that also count as a number. */
 static bool says_angle(const char *text, size_t len) {
     for (size_t i = 0, n; i < len; i += n + !n) {

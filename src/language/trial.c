@@ -3,6 +3,7 @@
 #include "language/trial.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "number/array.h"
 
@@ -146,6 +147,12 @@ bool knob_name(calc *c, lexer *lx, knob *out) {
     }
     lex_next(lx);
     return true;
+}
+
+bool knob_apart(const knob *a, const knob *b, size_t at, size_t len, calc_error *error) {
+    if (!strcmp(a->text, b->text))
+        return calc_fail(error, at, len, "%s is given twice", b->text);
+    return !a->is_input || !b->is_input || calc_apart(a->in, b->in, at, len, error);
 }
 
 /* ---- along a load ------------------------------------------------------------------------------ */

@@ -35,6 +35,9 @@ bool knob_read(calc *c, lexer *lx, knob *out);
 /* The same, whether or not the scene takes the input now. */
 bool knob_name(calc *c, lexer *lx, knob *out);
 
+/* Can the two be changed together? Not if they are one, or one replaces the other; the error is about `b`. */
+bool knob_apart(const knob *a, const knob *b, size_t at, size_t len, calc_error *error);
+
 /* The same for an input, or a name that has a value. */
 bool knob_known(calc *c, lexer *lx, knob *out);
 

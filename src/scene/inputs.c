@@ -230,20 +230,23 @@ void inputs_unset(inputs *in, input_set set) {
         }
 }
 
-/* Unsets the inputs that `which` replaces: A and h (r/r0)^n are alternatives, as are the moduli of a body; an
- * input of the second body makes it a separate body. */
+input_set inputs_replaced(input by) {
+    const input_set bit = INPUT_BIT(by), power = INPUT_BIT(IN_H) | INPUT_BIT(IN_R0);
+    return bit & INPUT_MODULUS     ? INPUT_MODULUS & ~bit
+           : bit & INPUT_MODULUS_2 ? INPUT_MODULUS_2 & ~bit
+           : bit & power           ? INPUT_BIT(IN_A)
+           : by == IN_A            ? power
+                                   : 0;
+}
+
+/* Unsets the inputs that `which` replaces; an input of the second body makes it a separate body. */
 static void unset_replaced(inputs *in, input which) {
     const input_set bit = INPUT_BIT(which), second = INPUT_MODULUS_2 | INPUT_BIT(IN_NU_2);
     if (bit & second && in->second != SECOND_GIVEN) {
         inputs_unset(in, second & ~bit);
         in->second = SECOND_GIVEN;
     }
-    if (bit & INPUT_MODULI)
-        inputs_unset(in, (bit & INPUT_MODULUS ? INPUT_MODULUS : INPUT_MODULUS_2) & ~bit);
-    if (which == IN_A)
-        inputs_unset(in, INPUT_BIT(IN_H) | INPUT_BIT(IN_R0));
-    else if (which == IN_H || which == IN_R0)
-        inputs_unset(in, INPUT_BIT(IN_A));
+    inputs_unset(in, inputs_replaced(which));
 }
 
 void inputs_bind(inputs *in, input which, counted *to) {

@@ -133,7 +133,9 @@ bool inputs_any(const inputs *in, input_set set);
 /* Is Poisson's ratio given? With Estar alone a press does not need it. */
 bool inputs_know_nu(const inputs *in);
 
-/* Sets a value, unbinds, and unsets what the value replaces: A or h, r0; a modulus; a second body. */
+/* The inputs that one replaces: A and h (r/r0)^n are alternatives, as are the moduli of a body. */
+input_set inputs_replaced(input by);
+/* Sets a value, unbinds, and unsets what the value replaces, or that the second body is as the first. */
 void inputs_put(inputs *in, input which, double v);
 void inputs_unset(inputs *in, input_set set);
 /* Replaces a binding by `to` (owned from then on; NULL: none); the value stays. */
