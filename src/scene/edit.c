@@ -17,9 +17,9 @@ static bool begins(scene *s, calc_error *error) {
     fret_material material;
     calc_error mine;
     error_clear(&mine);
-    if (s->in.geometry ? scene_normal(s, &normal, &mine)
-                       : !scene_settle(s, INPUT_MATERIAL | INPUT_BIT(IN_C0), error_quiet()) ||
-                             scene_material(s, false, &material, &mine))
+    const bool known = scene_settle(s, INPUT_MATERIAL, &mine);
+    if ((!known && !s->in.geometry) || (known && inputs_material(&s->in, s->in.v[IN_K], &material, &mine) &&
+                                        (!s->in.geometry || scene_normal(s, &normal, &mine))))
         return true;
     if (mine.kind == ERROR_MISSING && !mine.circle && !mine.stop)
         return true;
