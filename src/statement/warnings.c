@@ -83,7 +83,7 @@ static long double least_radius(scene *s, const char **name) {
 
 static void warn_half_space(shell *sh) {
     scene *s = &sh->calc.scene;
-    fret_press press;
+    fret_press press = {.a = 0};
     bool within = false;
     const char *name;
     long double slope = 0;
