@@ -112,15 +112,17 @@ static size_t best_of(const places *p) {
     return best;
 }
 
-/* May the optimum lie near place i, which is not the best? Yes if no neighbour is better and one is worse by
- * more than i is worse than the best, or has no value: f may go on falling up to the limit of the scene. */
+/* May the optimum lie near place i, which is not the best? Yes beside a place without a value, since f may
+ * fall up to the limit of the scene; else if no neighbour is better and one is worse by more than i is worse
+ * than the best. */
 static bool is_rival(const places *p, size_t i, size_t best) {
     const long double f = p->at[i].f, before = i > 0 ? p->at[i - 1].f : f,
-                      after = i + 1 < p->count ? p->at[i + 1].f : f;
-    if (isnan(f) || i == best || before < f || after < f)
+                      after = i + 1 < p->count ? p->at[i + 1].f : f, highest = fmaxl(before, after);
+    if (isnan(f) || i == best)
         return false;
-    const long double rise = fmaxl(before, after) - f;
-    return isnan(before) || isnan(after) || (rise > 0 && f - rise < p->at[best].f);
+    return isnan(before) || isnan(after) ||
+           (!is_less(before, f) && !is_less(after, f) && is_less(f, highest) &&
+            f - (highest - f) < p->at[best].f);
 }
 
 static bool has_rivals(const places *p) {
@@ -203,21 +205,31 @@ static bool leave_end(line *l, double next) {
     return best_part(l) == end || narrow(l, fmin(end, next), fmax(end, next));
 }
 
-/* Goes towards `bad`, a neighbour without a value. other: that on the far side, or the place itself. */
+/* Goes from the best place to the limit before `bad`, a neighbour without a value, even where f rises: it may
+ * fall again close to gross slip. Then searches about the best place met. other: the neighbour on the far
+ * side, or the place itself; NaN: a neighbour that is better. */
 static bool approach_edge(line *l, double bad, double other) {
+    const double begin = best_part(l);
+    double good = begin, before = other, after = bad; /* the neighbours with values of the best place */
+    bool falls = true;                                /* the best place is the nearest to the limit */
     for (int i = 0; i < EDGE; i++) {
-        const double good = best_part(l), mid = bad + (good - bad) / 2;
+        const double mid = bad + (good - bad) / 2;
         const long double f = line_at(l, mid).f;
         if (l->s->p.error->raised)
             return false;
-        if (isnan(f))
+        if (isnan(f)) {
             bad = mid;
-        else if (best_part(l) == mid)
-            other = good;
-        else
-            return other == good ? leave_end(l, mid) : narrow(l, fmin(mid, other), fmax(mid, other));
+            continue;
+        }
+        if (best_part(l) == mid)
+            before = good, falls = true;
+        else if (falls)
+            after = mid, falls = false;
+        good = mid;
     }
-    return true;
+    return falls                                     ? true
+           : best_part(l) == begin && other == begin ? leave_end(l, after)
+                                                     : narrow(l, fmin(before, after), fmax(before, after));
 }
 
 static bool scan_line(line *l, places *all, int parts) {
@@ -238,9 +250,9 @@ static bool go_about(line *l, const places *all, size_t i) {
                 *after = i + 1 < all->count ? here + 1 : here;
     const double lo = before->u[l->axis], u = best_part(l), hi = after->u[l->axis];
     if (isnan(before->f))
-        return approach_edge(l, lo, hi);
+        return approach_edge(l, lo, is_less(after->f, here->f) ? (double)NAN : hi);
     if (isnan(after->f))
-        return approach_edge(l, hi, lo);
+        return approach_edge(l, hi, is_less(before->f, here->f) ? (double)NAN : lo);
     if (u == lo || u == hi)
         return leave_end(l, u == lo ? hi : lo);
     return narrow(l, lo, hi);

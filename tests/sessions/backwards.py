@@ -79,6 +79,9 @@ OPTIMA = (
     # the lowest is at the limit of the scene, another place of the scan is lower
     ("minimize cos(2.7*(x + 0.89)) + 0.1*(x + 0.89)^2 + 0*sqrt(x - 0.78) over x = -1.7 .. 2.7",
      0.07690039003102905, {"x": 0.78}),
+    # the same with two names, where it rises within the last step only, and only close to the limit
+    ("maximize max(1 - 0.5*x, 10*(x - 2.6)) + 0*sqrt(2.74 - x) - y over x = 0 .. 3, y = 0 .. 1", 1.4, {"x": 2.74, "y": 0}),
+    ("maximize max(1 - 0.5*x, 100*(x - 2.725)) + 0*sqrt(2.74 - x) - y over x = 0 .. 3, y = 0 .. 1", 1.5, {"x": 2.74, "y": 0}),
     # an optimum close to an end
     ("minimize x + 1e-17/x over x = 0 .. 1", 2 * math.sqrt(1e-17), {"x": math.sqrt(1e-17)}),
     ("minimize (x - 7e-5)^2 + (y - 0.5)^2 over x = 0 .. 1, y = 0 .. 1", 0, {"x": 7e-5, "y": 0.5}),
