@@ -227,9 +227,10 @@ static bool approach_edge(line *l, double bad, double other) {
             after = mid, falls = false;
         good = mid;
     }
-    return falls                                     ? true
-           : best_part(l) == begin && other == begin ? leave_end(l, after)
-                                                     : narrow(l, fmin(before, after), fmax(before, after));
+    if (falls || (best_part(l) == begin && isnan(other)))
+        return true;
+    return best_part(l) == begin && other == begin ? leave_end(l, after)
+                                                   : narrow(l, fmin(before, after), fmax(before, after));
 }
 
 static bool scan_line(line *l, places *all, int parts) {
