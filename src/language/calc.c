@@ -8,23 +8,27 @@
 
 /* ---- life -------------------------------------------------------------------------------------- */
 
-/* Does the value still have the input's dimension? Names in its definition may have changed theirs. */
-static bool keeps_dim(scene *s, input in, const value *v, calc_error *error) {
+/* Has the value of a definition the input's dimension? Names in it may have changed theirs. */
+static bool has_dim(scene *s, input in, const definition *d, const value *v, calc_error *error) {
     const quantity *q = quantity_of_input(in);
     long double n;
-    lexer none = {.error = error};
+    lexer text = {.text = d->text, .error = error};
     if (in == IN_A && s->in.bindings & INPUT_BIT(IN_N) && !scene_get(s, IN_N, &n, error))
         return false;
-    error->strange = !value_dim(&none, q->name, 0, 0, *v, quantity_dim(q, s));
-    return !error->strange;
+    error->strange = !value_dim(&text, q->name, 0, strlen(d->text), *v, quantity_dim(q, s));
+    if (!error->strange)
+        return true;
+    error->at = error->len = 0; /* places in the definition are none in the statement */
+    return false;
 }
 
 /* The callback scene_definition: evaluates the definition that an input is bound to. */
-static bool evaluate(void *context, scene *s, input in, counted *d, value *out, calc_error *error) {
+static bool evaluate(void *context, scene *s, input in, counted *bound, value *out, calc_error *error) {
     calc *c = context;
     scene *outer = c->now;
+    definition *d = (definition *)bound;
     c->now = s;
-    bool ok = definition_value(c, (definition *)d, out, error) && keeps_dim(s, in, out, error);
+    const bool ok = definition_value(c, d, out, error) && has_dim(s, in, d, out, error);
     c->now = outer;
     return ok;
 }
@@ -285,37 +289,24 @@ static bool amplitude_is_left(const calc_error *error, const assignment *all, si
            error->status.code == FRET_GROSS_SLIP && !strcmp(error->status.quantity, "FA");
 }
 
-/* Evaluates a definition in a scratch scene in which no bound input has a value yet, so that circles show. It
- * may lack inputs, but a circle or a wrong dimension is refused. */
+/* Evaluates the definition of a name in a scratch scene in which no bound input has a value yet, so that
+ * circles show. It may lack inputs, but a circle or a wrong dimension is refused. */
 static bool definition_holds(calc *c, lexer *lx, const assignment *a) {
     calc_error error = ERROR_NONE;
-    long double number;
     value v;
     scene probe, *outer = c->now;
     if (a->d->parameters)
         return true;
     scene_clone(&probe, outer);
-    if (a->q)
-        inputs_bind(&probe.in, quantity_input(a->q), counted_hold(&a->d->base));
     scene_forget(&probe);
     c->now = &probe;
-    const bool ok = a->q ? scene_get(&probe, quantity_input(a->q), &number, &error)
-                         : definition_value(c, a->d, &v, &error);
+    definition_value(c, a->d, &v, &error);
     c->now = outer;
-    if (a->q && (ok || error.strange) && definition_value(c, a->d, &v, error_quiet()))
-        (void)value_dim(lx, a->q->name, a->value_at, a->value_len, v, quantity_dim(a->q, &c->scene));
     scene_free(&probe);
     if (!error.circle && !error.strange)
         return !lx->error->raised;
     calc_word(c, &error);
     return calc_fail(lx->error, a->value_at, a->value_len, "%s", error.text);
-}
-
-static bool bindings_hold(calc *c, lexer *lx, const assignment *all, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (all[i].d && all[i].q && !definition_holds(c, lx, &all[i]))
-            return false;
-    return true;
 }
 
 /* Notes a new name that resembles an input. */
@@ -378,8 +369,6 @@ static bool put_all(calc *c, lexer *lx, assignment *all, size_t count, bool of_s
             return false;
         all[i].v.v += old;
     }
-    if (!bindings_hold(c, lx, all, count))
-        return false;
     for (size_t i = 0; i < count; i++)
         if (!all[i].q && !put_name(c, lx, &all[i]))
             return false;
@@ -429,8 +418,11 @@ bool calc_assign(calc *c, lexer *lx) {
              calc_place(lx->error, all[i].value_at, all[i].value_len);
     }
     ok = ok && put_undoable(c, lx, all, count);
-    if (!ok)
-        calc_place(lx->error, all[count - 1].value_at, all[count - 1].value_len);
+    if (!ok) {
+        const assignment *a = of_input(all, count, (input)lx->error->input);
+        a = a ? a : &all[count - 1];
+        calc_place(lx->error, a->value_at, a->value_len);
+    }
     for (size_t i = 0; i < count; i++)
         counted_drop(all[i].d ? &all[i].d->base : NULL);
     return ok;

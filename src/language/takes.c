@@ -87,8 +87,6 @@ bool value_dim(lexer *lx, const char *name, size_t at, size_t len, value v, dim 
     if (plain)
         return calc_fail(lx->error, at, len, "%s needs a unit: it is %s%s%s", name, want,
                          strstr(want, unit_text) ? "" : ", in ", strstr(want, unit_text) ? "" : unit_text);
-    if (len == 0) /* a definition, whose text is elsewhere */
-        return calc_fail(lx->error, at, len, "%s is %s, not %s", name, want, got);
     const bool line = dim_equal(d, DIM_FORCE) && dim_equal(v.d, DIM_STIFFNESS);
     return calc_fail(lx->error, at, len, "%s is %s, not %s (%.*s)%s", name, want, got, LEX_SHOWN(len),
                      lx->text + at, line ? ": line contact is not axisymmetric and cannot be computed" : "");

@@ -46,7 +46,7 @@ static bool bound_holds(scene *s, calc_error *error) {
         long double v;
         error_clear(&mine);
         if (s->in.bindings & INPUT_BIT(in) && !scene_get(s, in, &v, &mine) &&
-            (mine.stop || mine.circle || (mine.kind == ERROR_STATUS && mine.input >= 0))) {
+            (mine.stop || mine.circle || mine.strange || (mine.kind == ERROR_STATUS && mine.input >= 0))) {
             *error = mine;
             return false;
         }

@@ -177,6 +177,8 @@ static bool settle(scene *s, input in, calc_error *error) {
         rewind_for_definition(&then, amplitude);
     bool ok = s->evaluate(s->context, &then, in, s->in.bound[in], &v, error);
     scene_free(&then);
+    if (!ok && (error->circle || error->strange))
+        error->input = (int)in; /* whose definition is wrong, whatever the scene */
     if (amplitude && s->before && s->early && !error->circle) {
         error_clear(error);
         return calc_fail(error, 0, 0,
