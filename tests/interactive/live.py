@@ -1121,6 +1121,7 @@ def little(tests):
         live.key("n", "the cycle swings FN too")
     tests.check("and is held again", live.key("n", "the cycle holds FN"), live.screen.text())
     tests.check("half of what slides", live.key(" ", r"cycle FA=200 mN"), live.screen.text())
+    tests.check("a larger amplitude, by mN", live.key("+", "FA 220 mN"), live.screen.text())
     live.end()
 
 

@@ -107,6 +107,11 @@ def drifting(tests):
         wrong = what.startswith("a")
         tests.check("fit: residuals with " + what, event and ("residuals are correlated" in done.stderr) == wrong
                     and (what == "nothing" or (event["neighbours"] > 0.5) == wrong), tests.report(done))
+    name = write(tests, "small.csv", "u,y", [(u, 1e-3 * u + 1e-4) for u in range(1, 9)])
+    values, event, done = answers(tests, "s = 1; fit s for y = s*u to " + name)
+    rest = [1e-3 * u + 1e-4 - values["s"] * u for u in range(1, 9)]
+    tests.check("fit: neighbours of small residuals", event and abs(event["neighbours"] - sum(
+        a * b for a, b in zip(rest, rest[1:])) / sum(a * a for a in rest)) < 1e-6, tests.report(done))
 
 
 def closed_loop(tests):
