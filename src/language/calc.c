@@ -290,7 +290,7 @@ static bool amplitude_is_left(const calc_error *error, const assignment *all, si
 }
 
 /* Evaluates the definition of a name in a scratch scene in which no bound input has a value yet, so that
- * circles show. It may lack inputs, but a circle or a wrong dimension is refused. */
+ * circles show. Dimensions that do not match are noted only: those of what it uses may change. */
 static bool definition_holds(calc *c, lexer *lx, const assignment *a) {
     calc_error error = ERROR_NONE;
     value v;
@@ -303,10 +303,11 @@ static bool definition_holds(calc *c, lexer *lx, const assignment *a) {
     definition_value(c, a->d, &v, &error);
     c->now = outer;
     scene_free(&probe);
-    if (!error.circle && !error.strange)
-        return !lx->error->raised;
     calc_word(c, &error);
-    return calc_fail(lx->error, a->value_at, a->value_len, "%s", error.text);
+    if (error.strange)
+        snprintf(c->note, sizeof c->note, "%s has no value so far: %.*s", a->d->label, CALC_NOTE / 2,
+                 error.text);
+    return !error.circle || calc_fail(lx->error, a->value_at, a->value_len, "%s", error.text);
 }
 
 /* Notes a new name that resembles an input. */

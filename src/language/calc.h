@@ -25,7 +25,7 @@ typedef struct undo {
     size_t base_steps;       /* length of the load program in the oldest state */
 } undo;
 
-enum { CHAIN = 100, CALC_NOTE = 200 };
+enum { CHAIN = 100, CALC_NOTE = 300 };
 
 typedef struct calc {
     scene scene;

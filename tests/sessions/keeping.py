@@ -76,6 +76,9 @@ SCENES = (
     "material steel; second rigid; geometry sum 2:50 m^-1, 4:2e6 m^-3; mu = 0.2; press a=0.1 mm; step dz=1 um dx=20 nm",
     "material PTFE; geometry flat-rounded b=1 mm R=10 mm; friction 0.1; press dz=1 um",
     "k = 0.5, c0 = 2 mm",
+    "q1 = 4; p1 := 2*q1; r1 := p1 + 1; q1 = 30 m^-1",  # r1 has no value any more
+    "geometry power n=2 A=50 m^-1; r1 := A + 1 m^-1; geometry power n=3 A=50 m^-2",
+    "w0 = 1; " + "; ".join("w%d := w%d" % (i + 1, i) for i in range(100)) + "; e = 2; w0 := e",
     "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=5 mm; friction 0.4; press FN=100 N; most = dxmax",  # dxmax has more digits than fit
 )
 ASKED = "show\nshow variables\nset digits 17\nFN, dz, a\nFx, dx, c, W, U\ndW\nkt, kn\nhistory"
