@@ -289,25 +289,14 @@ static bool amplitude_is_left(const calc_error *error, const assignment *all, si
            error->status.code == FRET_GROSS_SLIP && !strcmp(error->status.quantity, "FA");
 }
 
-/* Evaluates the definition of a name in a scratch scene in which no bound input has a value yet, so that
- * circles show. Dimensions that do not match are noted only: those of what it uses may change. */
-static bool definition_holds(calc *c, lexer *lx, const assignment *a) {
+/* Notes a definition whose dimensions do not match. It is taken: those of what it uses may change. */
+static void note_no_value(calc *c, definition *d) {
     calc_error error = ERROR_NONE;
     value v;
-    scene probe, *outer = c->now;
-    if (a->d->parameters)
-        return true;
-    scene_clone(&probe, outer);
-    scene_forget(&probe);
-    c->now = &probe;
-    definition_value(c, a->d, &v, &error);
-    c->now = outer;
-    scene_free(&probe);
+    if (d->parameters || definition_value(c, d, &v, &error) || !error.strange)
+        return;
     calc_word(c, &error);
-    if (error.strange)
-        snprintf(c->note, sizeof c->note, "%s has no value so far: %.*s", a->d->label, CALC_NOTE / 2,
-                 error.text);
-    return !error.circle || calc_fail(lx->error, a->value_at, a->value_len, "%s", error.text);
+    snprintf(c->note, sizeof c->note, "%s has no value so far: %.*s", d->label, CALC_NOTE / 2, error.text);
 }
 
 /* Notes a new name that resembles an input. */
@@ -355,7 +344,9 @@ static bool put_name(calc *c, lexer *lx, const assignment *a) {
     if (!undo_name(c, i))
         return calc_no_memory(lx->error);
     names_put(&c->names, i, a->v, a->d ? counted_hold(&a->d->base) : NULL);
-    return !a->d || definition_holds(c, lx, a);
+    if (a->d)
+        note_no_value(c, a->d);
+    return true;
 }
 
 /* of_scene: some are of inputs. */
