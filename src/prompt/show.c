@@ -18,7 +18,7 @@
 enum { VALUE_TEXT = 160 };
 
 typedef struct writer {
-    const calc *c;
+    calc *c;
     FILE *to;
     bool any; /* something has been written */
 } writer;
@@ -28,9 +28,10 @@ static const definition *binding(const writer *w, input in) {
 }
 
 /* Bound inputs, too, are written by their value first: a definition may need the load, which needs the value.
- * Before there is a load they may have none. */
+ * Before there is a load they may have none, or only one of earlier inputs. */
 static bool is_set(const writer *w, input in) {
-    return w->c->scene.in.set[in] && !(binding(w, in) && input_status(in, w->c->scene.in.v[in]).code);
+    long double v;
+    return w->c->scene.in.set[in] && (!binding(w, in) || scene_get(&w->c->scene, in, &v, error_quiet()));
 }
 
 static void write_start(writer *w, const char *words) {

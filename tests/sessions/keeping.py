@@ -77,6 +77,7 @@ SCENES = (
     "material PTFE; geometry flat-rounded b=1 mm R=10 mm; friction 0.1; press dz=1 um",
     "k = 0.5, c0 = 2 mm",
     "q1 = 4; p1 := 2*q1; r1 := p1 + 1; q1 = 30 m^-1",  # r1 has no value any more
+    "nu = 0.3; w = 2; nu := 2*k; k := c0*1 mm",  # nu has no value any more
     "geometry power n=2 A=50 m^-1; r1 := A + 1 m^-1; geometry power n=3 A=50 m^-2",
     "w0 = 1; " + "; ".join("w%d := w%d" % (i + 1, i) for i in range(100)) + "; e = 2; w0 := e",
     "material E0=210 GPa nu=0.3 k=0.2 c0=1 mm; geometry sphere R=5 mm; friction 0.4; press FN=100 N; most = dxmax",  # dxmax has more digits than fit
