@@ -48,11 +48,11 @@ static fret_status find_stuck(const fret_wear_held *held, fret_wear_end *e) {
         if (!(e->y > 0))
             return gross(held, mu * eta * e->depth);
     } else if (held->by_displacement) {
-        const fret_real most = fret_law_depth(n, s.held), K = fret_law_at_depth(n, most * 1e-18L).K;
-        if (!(drag < most)) /* no stick later either: the tip wears like the rest */
+        const fret_real most = fret_law_depth(n, s.held);
+        /* K grows with the depth, so that without gross slip the load is short at first. With it the tip
+         * wears as well. */
+        if (!(drag < most && short_of_load(most * 1e-18L, NULL, &s) > 0))
             return gross(held, mu * eta * most);
-        if (!(short_of_load(most * 1e-18L, NULL, &s) > 0))
-            return gross(held, mu * eta * s.held / K);
         e->y = fret_root(short_of_load, &s, most * 1e-18L, most, most / 2);
         e->depth = e->y + drag;
     } else if (held->by_depth) {

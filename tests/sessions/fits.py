@@ -158,6 +158,9 @@ def noisy_in_both(tests):
             values, event, done = answers(tests, SETUP % (E, start) + "; fit mu, E0 along " + name + said)
             tests.check("fit: begun at E0 = %g GPa, mu = %g" % (E, start), event and all(
                 abs(values[n] - want[0][n]) < 1e-5 * want[1]["deviation"][n] for n in ("mu", "E0")), tests.report(done))
+    values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + write(tests, "both-peak.csv", "dx [um],Fx [N]", rows[50:200]))
+    tests.check("fit: noise in both columns, from a turning point on", event and abs(values["mu"] - mu) < 2 * event["deviation"]["mu"]
+                and abs(values["E0"] - E0) < 2 * event["deviation"]["E0"] and event["turning_points"] == 2, tests.report(done))
     loaded = write(tests, "both-load.csv", "dx [um],Fx [N],FN [N]", [row + (FN + noise.gauss(0, 0.5),) for row in rows])
     values, event, done = answers(tests, SETUP % (210, 0.4) + "; fit mu, E0 along " + loaded)
     tests.check("fit: noise in three columns", event and abs(values["mu"] - mu) < 2 * event["deviation"]["mu"]
