@@ -614,6 +614,8 @@ def corners(tests):
     head = lambda pattern: lambda screen: re.search(pattern, screen.row(0))  # noqa: E731
     tests.check("the smallest amplitude", live.key("----------", head("FA 2 N")) and live.key("-", None) and
                 live.key("[", head(r"FA 2 N.* 0\.25/s")), live.screen.text())
+    tests.check("the speed goes from 1/16 to 8 cycles a second", live.key("[" * 6, head(r" 0\.0625/s")) and live.key("]" * 12, head(" 8/s")) and
+                live.key("[" * 5, head(r" 0\.25/s")), live.screen.text())
     tests.check("FN swings by up to 40 %", live.key("nnnn", head("FNA 40 N")) and live.key("n", "the cycle holds FN"),
                 live.screen.text())
     tests.check("the phase goes round", live.key("a" * 17, "phase of FN against Fx: 345 deg") and

@@ -472,6 +472,8 @@ def pages(tests):
         places = [line.index("*") / width for line in lines if "*" in line]
         tests.check("what leaves the frame is cut off: " + plot, len(places) == len(lines) > 10 and 0.19 < min(places) < 0.25
                     and 0.45 < max(places) < 0.51 and not done.stderr, tests.report(done))
+    done = tests.run("-c", "set plot terminal block; set plot 50x12; plot x for x = 0 .. 1 title \"One\" | x for x = 1 .. 2 title \"Two\"", env={"LC_ALL": "C.UTF-8"})
+    tests.check("two figures by braille, one below the other", re.search(r"One\n(.*\n){10,}.*Two\n(.*\n){10,}", done.stdout), tests.report(done))
     done = tests.run("-c", "plot -x - 5 against x for x = 1 .. 2 to below.gp; plot x against x for x = 1 .. 2 xrange 10 .. -1 log x")
     with open(os.path.join(tests.dir, "below.gp"), encoding="utf-8") as f:
         text = f.read()
