@@ -389,8 +389,8 @@ typedef struct spots {
     const plot_map *map;
     const plot_axis *x, *y;
     size_t count;
-    double at[LEVELS][2]; /* places chosen, as parts of the frame */
-    double best, here[2]; /* best score and place for the present level */
+    double at[LEVELS][2];           /* places chosen, as parts of the frame */
+    double best, here[2], value[2]; /* best score and place for the present level, and x and y there */
 } spots;
 
 /* Scores the place where a level crosses between two neighbouring points of the grid, if it does. */
@@ -413,10 +413,13 @@ static void offer(spots *s, size_t from, size_t to, double level) {
         s->best = score;
         s->here[0] = u;
         s->here[1] = v;
+        s->value[0] = x;
+        s->value[1] = y;
     }
 }
 
-/* Writes the labels of the contours; a contour without room gets none. */
+/* Writes the labels of the contours; a contour without room gets none. They stand at values of x and y:
+ * splot takes parts of the frame linearly, also along a logarithmic axis. */
 static void set_values(const scribe *s, const plot_map *m, const plot_axis *x, const plot_axis *y,
                        const double *level, size_t n) {
     spots of = {.map = m, .x = x, .y = y};
@@ -430,13 +433,12 @@ static void set_values(const scribe *s, const plot_map *m, const plot_axis *x, c
         }
         if (!(of.best > -INFINITY))
             continue;
-        const double u = x->flip ? 1 - of.here[0] : of.here[0], v = y->flip ? 1 - of.here[1] : of.here[1];
         fprintf(
             s->to,
             s->kind->form == PLOT_TEX
-                ? "set label '{\\fboxsep1pt\\colorbox{white}{%.4g}}' at graph %.4g,graph %.4g center front\n"
-                : "set label '%.4g' at graph %.4g,graph %.4g center front boxed\n",
-            level[k], u, v);
+                ? "set label '{\\fboxsep1pt\\colorbox{white}{%.4g}}' at first %.6g,first %.6g center front\n"
+                : "set label '%.4g' at first %.6g,first %.6g center front boxed\n",
+            level[k], of.value[0], of.value[1]);
         memcpy(of.at[of.count++], of.here, sizeof of.here);
     }
 }

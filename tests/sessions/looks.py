@@ -12,6 +12,7 @@ from harness import at_work
 SCENE = ("material E0=210 GPa nu=0.3; geometry sphere R=10 mm; friction 0.4; press FN=100 N\n"
          "c0 := a0\ncycle FA=36 N\n")
 A, R = 1.8662555784086242e-4, 0.01
+LABEL = r"^set label '(\S+)' at first (\S+),first (\S+) "  # of a contour
 
 
 def script(tests, name, plots, head=SCENE):
@@ -227,19 +228,24 @@ def maps(tests):
         text, _ = script(tests, "a map from " + high, "plot map x*y for x = 1 .. 2 for y = " + high)
         tests.check("room for the labels of y = " + high, abs(float(re.search("set lmargin at screen ([0-9.]+)", text)[1]) - margin) < 1e-4, text[:600])
     text, _ = script(tests, "contours and their values", "plot map dW(F) for F = 1 N .. 30 N for mu = 0.4 .. 0.8")
-    values = re.findall(r"^set label '(\S+)' at graph (\S+),graph (\S+) ", text, re.M)
+    values = [[float(v) for v in spot] for spot in re.findall(LABEL, text, re.M)]
     levels = re.search(r"^set cntrparam levels discrete (.*)$", text, re.M).group(1).split(",")
     there = [float(line.split()[2]) for line in re.search(r"\$map0_0 << END\n(.*?)END", text, re.S).group(1).splitlines() if line]
     tests.check("contours are of what is there", len(levels) > 2 and [float(v) for v in levels] == sorted(set(map(float, levels))) and
                 min(there) < float(levels[0]) and float(levels[-1]) < max(there), "%s %g %g" % (levels, min(there), max(there)))
-    apart = [max(abs(float(a[1]) - float(b[1])) / 0.16, abs(float(a[2]) - float(b[2])) / 0.08)
-             for i, a in enumerate(values) for b in values[:i]]
+    spots = [((x - 1) / 29, (y - 0.4) / 0.4) for _, x, y in values]
+    apart = [max(abs(a[0] - b[0]) / 0.16, abs(a[1] - b[1]) / 0.08) for i, a in enumerate(spots) for b in spots[:i]]
     tests.check("values stand on contours, apart and within the frame", 2 < len(values) <= len(levels) and
-                {float(v[0]) for v in values} <= set(map(float, levels)) and min(apart) >= 1 and
-                all(0.08 <= float(v[1]) <= 0.92 and 0.04 <= float(v[2]) <= 0.96 for v in values), str(values))
+                {v[0] for v in values} <= set(map(float, levels)) and min(apart) >= 1 and
+                all(0.08 <= u <= 0.92 and 0.04 <= v <= 0.96 for u, v in spots), str(values))
     text, _ = script(tests, "values on contours", "plot map y + 2*z for y = 0 .. 1 for z = 0 .. 1")
-    values = [list(map(float, v)) for v in re.findall(r"^set label '(\S+)' at graph (\S+),graph (\S+) ", text, re.M)]
+    values = [list(map(float, v)) for v in re.findall(LABEL, text, re.M)]
     tests.check("where the contours are", len(values) > 2 and all(abs(y + 2 * z - v) < 2e-3 for v, y, z in values), str(values))
+    for look in ("", " flip y"):  # in the coordinates of the axes: gnuplot 5.4 takes parts of a frame linearly, also along logarithms
+        text, _ = script(tests, "values along logarithms" + look, "plot map y*z for y = 1 .. 1000 log for z = 1 .. 10 log" + look)
+        values = [list(map(float, v)) for v in re.findall(LABEL, text, re.M)]
+        tests.check("where these contours are" + look, [v[0] for v in values] == [10, 100, 1000] and
+                    all(abs(y * z - v) < 0.01 * v for v, y, z in values), str(values))
     text, _ = script(tests, "contours at an edge bear none", "plot map y^60 + z^60 for y = 0 .. 1 for z = 0 .. 1")
     tests.check("no value beyond the frame", "set contour" in text and "set label '" not in text, text[-1500:])
     text, series = script(tests, "stress below part of a contact",
