@@ -89,13 +89,17 @@ enum { LOOKS = sizeof looks / sizeof *looks };
 static const int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12};
 enum { MARKS = sizeof marks / sizeof *marks };
 
-/* Double quotes, and octal codes for all that is not harmless. Single quotes are unsafe: '' stands for a
- * quote, but a text that contains two in a row would end the string, and what follows would be a command. */
+/* Double quotes, with octal codes for all that is not harmless, and for a digit behind such a code, of which
+ * gnuplot would make it a part. Single quotes are unsafe: '' stands for a quote, but a text that contains two
+ * in a row would end the string, and what follows would be a command. */
 void plot_quote(FILE *to, const char *text) {
     static const char harmless[] = " _{}^/:=.,;()[]<>+*-!?&~|%";
+    bool coded = false;
     putc('"', to);
-    for (const unsigned char *p = (const unsigned char *)text; *p; p++)
-        fprintf(to, *p >= 0x80 || isalnum(*p) || strchr(harmless, *p) ? "%c" : "\\%03o", *p);
+    for (const unsigned char *p = (const unsigned char *)text; *p; p++) {
+        coded = *p < 0x80 && !strchr(harmless, *p) && !(isalnum(*p) && (!coded || *p > '7'));
+        fprintf(to, coded ? "\\%03o" : "%c", *p);
+    }
     putc('"', to);
 }
 
