@@ -188,6 +188,7 @@ typedef struct scribe {
     const plot_kind *kind;
     double scale; /* of font, lines and marks relative to the usual size */
     double text;  /* the factor that the user gives for texts */
+    double wide;  /* characters that the key of a panel has room for in a row */
     size_t frame, panel;
     size_t panels, column; /* number of panels side by side; the column of this one */
     bool has_lower, below; /* the panel has one below it; it is one below another */
@@ -252,9 +253,10 @@ static size_t key_entries(scribe *s, const plot_panel *p, size_t *longest) {
     return p->key_off ? 0 : entries;
 }
 
-/* The columns of entries in a key below the frame. */
+/* The columns of entries in a key below the frame: no more than gnuplot finds room for. */
 static int key_columns(const scribe *s, size_t longest) {
-    return longest > 40 ? 1 : longest > 24 ? 2 : s->panels > 1 ? 3 : 4;
+    enum { SAMPLE = 5 };
+    return (int)fmin(fmax(s->wide / (double)(longest + SAMPLE), 1), s->panels > 1 ? 3 : 4);
 }
 
 /* Puts the key outside the frame: at the right if entries are many and short, else below. */
@@ -523,6 +525,8 @@ static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, c
     fputs("set border lw 1.2\nset ylabel offset 0,0\nset tics front\nset mxtics\nset mytics\n", s->to);
     if (s->below && !y.log)
         fprintf(s->to, "set ytics %.9g\nset mytics 1\n", plot_step((y.hi - y.lo) / 5));
+    if (s->panels > 1 && s->text > 1 && !x.log) /* gnuplot's own numbers would touch */
+        fprintf(s->to, "set xtics %.9g\n", plot_step((x.hi - x.lo) / 5));
     if (!p->map.nx)
         fputs("set grid back lt 1 lc rgb '#e6e6e6' lw 1\n", s->to);
     if (!p->map.nx && !x.log && !y.log)
@@ -589,6 +593,7 @@ bool plot_write_picture(FILE *to, const plot_reel *reel, const plot_kind *kind, 
                         .kind = kind,
                         .scale = scale,
                         .text = text,
+                        .wide = 0.079 * (w * kind->font / ((double)panels * points) - 130), /* measured */
                         .frame = n,
                         .panel = i,
                         .panels = panels,

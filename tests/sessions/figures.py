@@ -95,6 +95,22 @@ def tex(tests, where):
     tests.check("TeX takes the figure", done.returncode == 0, done.stdout[-2000:])
 
 
+def keys(tests):
+    """The key of a panel stands below the name of its axis; with larger texts the numbers along the axis stay apart."""
+    where = folder(tests, "keys")
+    for paper in ("auto", "slide", "column"):
+        for name in ("x", "x+1000000", "x+1000000000", "x+10000000000000000000", "x" + "+100000" * 6):
+            curves = ", ".join(name + "+%d" % i for i in range(6))
+            done = tests.run("-c", "set plot %s; plot %s for x = -700 .. 700 | x for x = 0 .. 1 to a.svg" % (paper, curves), cwd=where)
+            at = re.findall(r'translate\([\d.]+,([\d.]+)\)[^>]*>\s*<text>(.*?)</text>', read(where + "/a.svg").decode()) if not done.returncode else []
+            at = [(float(y), re.sub("<.*?>|\\s", "", text)) for y, text in at]
+            label, key = [y for y, text in at if text == "x"], [y for y, text in at if re.match(r"x\+[^,]*\d$", text)]
+            tests.check("a key on paper %s, %d long" % (paper, len(name)), len(key) == 6 and label and min(key) - label[0] > 12,
+                        tests.report(done) + str(at))
+            numbers = [text for y, text in at if y == max(v for v, t in at if t == "0") and text.endswith("00")]
+            tests.check("numbers on paper " + paper, (len(numbers) <= 4) == (paper != "auto"), str(numbers))
+
+
 def points_of(path):
     """The blocks of points in a gnuplot script that was kept."""
     blocks = re.findall(r"^\$data\S+ << END\n(.*?)^END$", read(path).decode(), re.S | re.M)
@@ -253,4 +269,4 @@ def foreign_terminal(tests):
 
 
 def run(tests):
-    tests.each([lambda one=one: one(tests) for one in (forms, captions, points, names, targets, stopped, messages, foreign_terminal)])
+    tests.each([lambda one=one: one(tests) for one in (forms, keys, captions, points, names, targets, stopped, messages, foreign_terminal)])
