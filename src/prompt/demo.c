@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command demo: plays a scripted session, at a terminal a step per key. The scene that it makes stays;
  * undo takes it as one change. */
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <termios.h>
@@ -18,11 +19,11 @@
 
 /* ---- keys -------------------------------------------------------------------------------------- */
 
-typedef enum wish { GO_ON, GO_BACK, LEAVE } wish;
+typedef enum wish { GO_ON, GO_BACK, LEAVE, STOP } wish;
 
 static wish read_key(void) {
     struct termios before, raw;
-    unsigned char c = 0;
+    unsigned char c = 0, rest[32];
     if (tcgetattr(STDIN_FILENO, &before))
         return LEAVE;
     const int guard = file_guard_terminal(&before, "");
@@ -30,21 +31,30 @@ static wish read_key(void) {
     raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO);
     raw.c_cc[VMIN] = 1;
     raw.c_cc[VTIME] = 0;
+    raw.c_cc[VSUSP] = _POSIX_VDISABLE; /* Ctrl-Z is read, and stops the program in its old modes */
     tcsetattr(STDIN_FILENO, TCSADRAIN, &raw);
     const ssize_t n = read(STDIN_FILENO, &c, 1); /* Ctrl-C interrupts it */
+    raw.c_cc[VMIN] = 0;
+    tcsetattr(STDIN_FILENO, TCSADRAIN, &raw);
+    enum { CTRL_D = 4, ESCAPE = 27, ASCII = 128 };
+    while ((c == ESCAPE || c >= ASCII) && read(STDIN_FILENO, rest, sizeof rest) > 0) /* of the same key */
+        continue;
     tcsetattr(STDIN_FILENO, TCSADRAIN, &before);
     file_unguard(guard);
-    enum { CTRL_D = 4 };
+    if (n == 1 && c && c == before.c_cc[VSUSP])
+        return STOP;
     return n != 1 || c == 'q' || c == 'Q' || c == CTRL_D ? LEAVE : c == 'b' || c == 'B' ? GO_BACK : GO_ON;
 }
 
 /* Asks on the terminal, not on the session's output: the question must not get into a transcript. */
 static wish ask_key(const shell *sh) {
     static const char question[] = "(any key: go on, b: back, q: leave)";
+    wish w;
     fflush(sh->out);
-    fputs(question, stdout);
-    fflush(stdout);
-    const wish w = read_key();
+    do {
+        fputs(question, stdout);
+        fflush(stdout);
+    } while ((w = read_key()) == STOP && !kill(0, SIGTSTP));
     printf("\r%*s\r", (int)sizeof question - 1, "");
     fflush(stdout);
     if (w == GO_BACK)
