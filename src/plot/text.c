@@ -66,10 +66,10 @@ static void put_tex(writer *w, unsigned c) {
     for (size_t i = 0; i < sizeof special / sizeof *special; i++)
         if (c == (unsigned char)special[i].c) {
             /* \textquotedbl needs a font encoding that may not be loaded: '' is used instead */
-            fputs(c == '"'               ? "''"
-                  : w->math && c != '\\' ? (char[2]){special[i].c, 0}
-                                         : special[i].tex,
-                  w->to);
+            if (w->math && strchr("\\^", (int)c))
+                fprintf(w->to, "\\mbox{%s}", special[i].tex);
+            else
+                fputs(c == '"' ? "''" : w->math ? (char[2]){special[i].c, 0} : special[i].tex, w->to);
             return;
         }
     if (strchr("#$%&_{}", (int)c))
@@ -255,12 +255,13 @@ static void superscript(writer *w, const char *p, size_t n) {
     fputs(tex ? "}$" : "}", w->to);
 }
 
-/* Bytes of an exponent that superscript() can show: a number, and in Unicode an integer only. */
+/* Bytes of an exponent that superscript() can show: a number without power or exponent of its own, and in
+ * Unicode an integer only. */
 static size_t exponent_length(const writer *w, const char *p, const char *end) {
     size_t sign = p < end && *p == '-', n = sign;
     while (p + n < end && (isdigit((unsigned char)p[n]) || (p[n] == '.' && w->form != PLOT_UNICODE)))
         n++;
-    bool cut = p + n < end && p[n] == '.';
+    bool cut = p + n < end && strchr(".^eE", p[n]);
     return n > sign && !cut ? n : 0;
 }
 
@@ -306,18 +307,33 @@ static size_t unit_length(const char *p, const char *end) {
     return unit_parse(&lx, &unused) ? lx.last : 0;
 }
 
-static void put_operator(writer *w, char c, const char *rest, const char *end) {
-    if (c == '*')
-        puts_text(w, rest < end && isdigit((unsigned char)*rest) ? "·" : "\u2009");
-    else if (c == '-')
+/* Would the product at p read as another one without a sign, as in x*-1, 2*3 and a/b*c? */
+static bool needs_sign(const char *begin, const char *p, const char *end) {
+    const char *next = p + 1;
+    size_t i = (size_t)(p - begin);
+    int depth = 0;
+    while (next < end && *next == ' ')
+        next++;
+    if (next < end && (isdigit((unsigned char)*next) || strchr("+-.", *next)))
+        return true;
+    while (i > 0 && depth >= 0 && (depth || !strchr("/+-,", begin[i - 1])))
+        depth += begin[--i] == ')' ? 1 : begin[i] == '(' ? -1 : 0;
+    return i > 0 && !depth && begin[i - 1] == '/';
+}
+
+static void put_operator(writer *w, const char *begin, const char *p, const char *end) {
+    if (*p == '*')
+        puts_text(w, needs_sign(begin, p, end) ? "·" : "\u2009");
+    else if (*p == '-')
         puts_text(w, "−");
-    else if (c == ' ' && w->math)
+    else if (*p == ' ' && w->math)
         fputs("\\ ", w->to);
     else
-        put(w, &c, 1);
+        put(w, p, 1);
 }
 
 static void put_expression(writer *w, const char *p, const char *end) {
+    const char *begin = p;
     bool after_number = false;
     w->math = w->form == PLOT_TEX;
     if (w->math)
@@ -336,7 +352,7 @@ static void put_expression(writer *w, const char *p, const char *end) {
             superscript(w, p + 1, e);
             n = 1 + e;
         } else if ((unsigned char)*p < 0x80) {
-            put_operator(w, *p, p + 1, end);
+            put_operator(w, begin, p, end);
         } else {
             n = character_at(p, (size_t)(end - p), NULL);
             n = n ? n : 1;

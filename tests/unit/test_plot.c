@@ -50,6 +50,13 @@ static void names(void) {
     LABEL("FN = 20 N, c0 = 1 um", "", "FN = 20 N, c0 = 1 um", "FN = 20 N, c0 = 1 µm", NULL, NULL);
     LABEL("x", "MPa*m^0.5", "x [MPa*m^0.5]", "x [MPa·m^0.5]", "{/:Italic x} [MPa·m^{0.5}]", NULL);
     LABEL("2*3*a^-2", "", "2*3*a^-2", "2·3 a⁻²", NULL, "\\relax $2\\cdot 3\\,a^{-2}$");
+    LABEL("x*-1 + 2 * 3", "", "x*-1 + 2 * 3", "x·−1 + 2 · 3", NULL, NULL); /* not x - 1 */
+    LABEL("a/b*c + a*(b/c + x*y)*b", "", "a/b*c + a*(b/c + x*y)*b", "a/b·c + a (b/c + x y) b", NULL, NULL);
+    LABEL("a/(b*c)*x", "", "a/(b*c)*x", "a/(b c)·x", NULL, NULL); /* not a/(b c x) */
+    LABEL("x^2^3 + x^(1/3) + x^2e1", "", "x^2^3 + x^(1/3) + x^2e1", "x^2³ + x^(1/3) + x^2e1",
+          "{/:Italic x}\\^2^{3} + {/:Italic x}\\^(1/3) + {/:Italic x}\\^2e1",
+          "\\relax $x\\mbox{\\textasciicircum{}}2^{3}\\ +\\ x\\mbox{\\textasciicircum{}}(1/3)\\ +\\ "
+          "x\\mbox{\\textasciicircum{}}2e1$");
     LABEL("1e-6*x + 2e3", "", "1e-6*x + 2e3", "1e-6 x + 2e3", "1e-6\u2009{/:Italic x} + 2e3", NULL);
     LABEL("phase", "deg", "phase [deg]", "φ [°]", NULL, NULL);
     LABEL("force_max*x1", "", "force_max*x1", "force_max x1", "force\\_max\u2009{/:Italic x}_{1}", NULL);
