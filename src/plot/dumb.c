@@ -15,7 +15,7 @@ static void set_tics(FILE *to, char name, const page_ruler *r) {
         fprintf(to, "set logscale %c\n", name);
     fprintf(to, "set %ctics (", name);
     for (int i = 0; i < r->count; i++)
-        fprintf(to, "%s'%s' %.12g", i ? "," : "", r->text[i], r->at[i]);
+        fprintf(to, "%s'%s' %.12g", i ? "," : "", r->text[i], r->at[i] * (i || !r->axis.log ? 1 : PLOT_HAIR));
     fputs(")\n", to);
 }
 

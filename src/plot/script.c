@@ -216,7 +216,7 @@ static void set_log_tics(scribe *s, char name, const plot_axis *a) {
     const size_t n = plot_log_tics(a, at);
     fprintf(s->to, "set %ctics (", name);
     for (size_t i = 0; i < n; i++)
-        fprintf(s->to, "%s%g", i ? "," : "", at[i]);
+        fprintf(s->to, "%s%.10g", i ? "," : "", at[i] * (i ? 1 : PLOT_HAIR));
     fputs(")\n", s->to);
 }
 

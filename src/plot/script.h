@@ -40,6 +40,8 @@ double plot_part(const plot_axis *a, double v);
 double plot_step(double least);
 /* Tics of a logarithmic axis over less than two decades, at 1, 2, 5 or equal steps; returns how many. */
 enum { PLOT_TICS = 12 };
+/* Factor of the first tic of a logarithmic axis: gnuplot loses one of 10 or 100 at the lower limit. */
+#define PLOT_HAIR (1 + 1e-9)
 size_t plot_log_tics(const plot_axis *a, double at[PLOT_TICS]);
 
 /* Chooses at most `room` levels for contours of z, ascending, and returns their number. */

@@ -149,6 +149,13 @@ def points(tests):
     rows = tests.run("-c", "set plot 60x12\nplot x^2 for x = 1 .. 1e6 log log xy").stdout.splitlines()
     tests.check("decades along the axes in the terminal", [rows[i].split()[0] for i in (1, 4, 6, 9)] == ["1e+12", "1e+08", "10000", "1"]
                 and rows[10].split() == ["1", "100", "10000", "1e+06"], "\n".join(rows))
+    for lo in (1, 10, 100, 10000):
+        rows = tests.run("-c", "set plot 60x12; plot x for x = %d .. %d log; plot x^2 for x = %d .. %d log to l.svg" % (2 * (lo, 10 * lo)),
+                         cwd=where).stdout.splitlines()
+        numbers = [re.sub("<.*?>", "", text) for text in re.findall("<text>(.*?)</text>", read(where + "/l.svg").decode())]
+        tests.check("numbers at both ends of a logarithmic axis from %d" % lo, rows[10].split() == [str(lo), str(10 * lo)] and
+                    [str(n * lo) in numbers for n in (1, 2, 5, 10)] == 4 * [True], str(rows[10:]) + str(numbers))
+        os.remove(where + "/l.svg")
     done = tests.run("-c", SCENE + "plot loop to x.png", cwd=where, env={"TMPDIR": "/nonexistent"})
     tests.check("no folder for gnuplot", done.returncode == 1 and "cannot make a temporary file in /nonexistent"
                 in done.stderr, tests.report(done))
