@@ -491,8 +491,6 @@ static void draw_map(scribe *s, const plot_panel *p, const plot_axis *x, const p
                                         : "set logscale cb\nset format cb '10^{%T}'\n",
               s->to);
     set_text(s, "cblabel offset 1.6,0", p->map.label);
-    if (s->panels > 1 && !x->log) /* narrow */
-        fprintf(s->to, "set xtics %.9g\n", plot_step((x->hi - x->lo) / 6));
     if (!y->log)
         fprintf(s->to, "set ytics %.9g\n", step);
     fputs("set ylabel offset -1.5,0\n", s->to); /* gnuplot underestimates the width of numbers */
@@ -525,8 +523,8 @@ static bool draw_panel(scribe *s, const plot_figure *f, const plot_extents *e, c
     fputs("set border lw 1.2\nset ylabel offset 0,0\nset tics front\nset mxtics\nset mytics\n", s->to);
     if (s->below && !y.log)
         fprintf(s->to, "set ytics %.9g\nset mytics 1\n", plot_step((y.hi - y.lo) / 5));
-    if (s->panels > 1 && s->text > 1 && !x.log) /* gnuplot's own numbers would touch */
-        fprintf(s->to, "set xtics %.9g\n", plot_step((x.hi - x.lo) / 5));
+    if (s->panels > 1 && (p->map.nx || s->text > 1) && !x.log) /* gnuplot's own numbers would touch */
+        fprintf(s->to, "set xtics %.9g\n", plot_step((x.hi - x.lo) / 6));
     if (!p->map.nx)
         fputs("set grid back lt 1 lc rgb '#e6e6e6' lw 1\n", s->to);
     if (!p->map.nx && !x.log && !y.log)

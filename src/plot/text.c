@@ -255,8 +255,7 @@ static void superscript(writer *w, const char *p, size_t n) {
     fputs(tex ? "}$" : "}", w->to);
 }
 
-/* Bytes of an exponent that superscript() can show: a number without power or exponent of its own, and in
- * Unicode an integer only. */
+/* Bytes of an exponent that superscript() can show: nothing but a number, and in Unicode an integer only. */
 static size_t exponent_length(const writer *w, const char *p, const char *end) {
     size_t sign = p < end && *p == '-', n = sign;
     while (p + n < end && (isdigit((unsigned char)p[n]) || (p[n] == '.' && w->form != PLOT_UNICODE)))
@@ -309,12 +308,10 @@ static size_t unit_length(const char *p, const char *end) {
 
 /* Would the product at p read as another one without a sign, as in x*-1, 2*3 and a/b*c? */
 static bool needs_sign(const char *begin, const char *p, const char *end) {
-    const char *next = p + 1;
+    const char *next = p + 1 + strspn(p + 1, " ");
     size_t i = (size_t)(p - begin);
     int depth = 0;
-    while (next < end && *next == ' ')
-        next++;
-    if (next < end && (isdigit((unsigned char)*next) || strchr("+-.", *next)))
+    if (next < end && strchr("0123456789+-.", *next))
         return true;
     while (i > 0 && depth >= 0 && (depth || !strchr("/+-,", begin[i - 1])))
         depth += begin[--i] == ')' ? 1 : begin[i] == '(' ? -1 : 0;
