@@ -63,12 +63,13 @@ static double area(const measured *m, const loop_cycle *c, double drift_x, doubl
     return (double)(sum - F0 / 2 * x0);
 }
 
-/* Rows (2 or more) from `from` towards `to` in which v changes by at most `part` of v[to] - v[from]. */
+/* Rows from `from` towards `to` in which v changes by at most `part` of v[to] - v[from], or one more if v has
+ * not changed yet: a rig may rest where it turns. */
 static size_t rows_within(const double *v, size_t from, size_t to, double part) {
     const int step = to > from ? 1 : -1;
     const double far = part * fabs(v[to] - v[from]);
     size_t row = from, n = 1;
-    while (row != to && (n < 2 || fabs(v[row + (size_t)step] - v[from]) <= far)) {
+    while (row != to && (v[row] == v[from] || fabs(v[row + (size_t)step] - v[from]) <= far)) {
         row += (size_t)step;
         n++;
     }
@@ -87,7 +88,7 @@ static double unloading(const measured *m, size_t from, size_t to) {
     const double *x = m->x + first, *F = m->F + first, n = (double)(end - first),
                  fall = fabs(m->F[end - 1] - m->F[first]);
     bool ok = turning_parabola(F, x, end - first, m->F[from], false, c);
-    if (ok && fabs(c[2]) * fall * fall < 3 * sqrt(180 / n) * hypot(m->noise_x, m->noise_F * c[1]))
+    if (!ok || fabs(c[2]) * fall * fall < 3 * sqrt(180 / n) * hypot(m->noise_x, m->noise_F * c[1]))
         ok = turning_parabola(F, x, end - first, m->F[from], true, c);
     return ok && c[1] != 0 ? 1 / c[1] : NAN;
 }

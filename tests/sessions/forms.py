@@ -163,21 +163,23 @@ def write(tests, name, rows, head="dx [um],Fx [N]\n"):
 
 
 def polygons(tests):
-    """Loops that are polygons, given by their corners: area, amplitudes, stiffness and centre are those of the polygon."""
+    """Loops that are polygons, given by their corners: area, amplitudes, stiffness and centre are those of the polygon, also where a
+    rig rests at its turning points (rows held)."""
     dice = random.Random(4)
-    for many in 1, 5, 40:
+    for many, held in (1, 1), (5, 1), (40, 1), (1, 3), (5, 3), (40, 3):
         A, F, K, x0, F0 = dice.uniform(1, 9), dice.uniform(5, 90), dice.uniform(20, 90), dice.uniform(-1, 1), dice.uniform(-3, 3)
         back = 2 * F / K
         corners = [(A, F), (A - back, -F), (-A, -F), (back - A, F), (A, F)]
         rows = []
         for (xa, Fa), (xb, Fb) in zip(corners, corners[1:]):
             rows += [(x0 + xa + (xb - xa) * i / many, F0 + Fa + (Fb - Fa) * i / many) for i in range(many)]
+            rows[-many:-many] = (held - 1) * [rows[-many]] if abs(xa) == A else []
         rows.append(rows[0])
         exact = [(Fraction(x), Fraction(f)) for x, f in rows]
         dW = abs(float(sum((a[1] + b[1]) * (b[0] - a[0]) for a, b in zip(exact, exact[1:])) / 2)) * 1e-6
         path = write(tests, "polygon.csv", rows)
         got, done = table(tests, "loop " + path)
-        tests.check("loop of a polygon of %d rows" % len(rows), len(got) == 1 and near(got[0]["dW"], dW) and near(got[0]["dxA"], A * 1e-6) and
+        tests.check("loop of a polygon of %d rows, turning points held for %d" % (len(rows), held), len(got) == 1 and near(got[0]["dW"], dW) and near(got[0]["dxA"], A * 1e-6) and
                     near(got[0]["FA"], F) and near(got[0]["unloading"], K * 1e6, 1e-11) and near(got[0]["secant"], F / A * 1e6)
                     and near(got[0]["dx0"], x0 * 1e-6, 1e-11) and near(got[0]["Fx0"], F0, 1e-11) and got[0]["slides"] == 1
                     and abs(got[0]["flank"]) < 1e-12, tests.report(done) + str(got))
