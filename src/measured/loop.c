@@ -28,10 +28,14 @@ static bool closes(const measured *m) {
     return gap <= fmax(0.1 * width, 2 * fabs(m->x[1] - m->x[0]));
 }
 
-/* Adds the first and the last row to the turning points if d_x is there as at the turning point two on. */
+/* Adds the first row and the farthest behind the last turning point to the turning points, if d_x is there as
+ * at the turning point two on. The last row may lie behind the farthest: there F_x has fallen steeply. */
 static void add_ends(measured *m) {
-    const size_t last = m->rows - 1, n = m->turns;
-    size_t *turn = m->turn;
+    const size_t n = m->turns;
+    size_t *turn = m->turn, last = m->rows - 1;
+    for (size_t i = last; i > turn[n - 1]; i--)
+        if (fabs(m->x[i] - m->x[turn[n - 1]]) > fabs(m->x[last] - m->x[turn[n - 1]]))
+            last = i;
     const bool both = n == 1 && is_like(m, 0, last, turn[0]),
                begins = n > 1 && is_like(m, 0, turn[1], turn[0]),
                ends = n > 1 && is_like(m, last, turn[n - 2], turn[n - 1]);

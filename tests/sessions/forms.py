@@ -275,6 +275,15 @@ def where_cycles_begin(tests):
         got, done = table(tests, "loop " + write(tests, "way.csv", rows))
         tests.check("loop " + name, len(got) == (2 if name == "two" else 1) and all(near(r["dW"], 54e-6, 0.005) and r["slides"] == 1 for r in got),
                     tests.report(done) + str(got))
+    for begin in [i for i in range(24) if i not in (10, 22)]:  # a triangular drive, 24 rows a cycle, which may end behind a turning point: a loop with F = 20 + 5 dx on its flanks
+        x = [4 * abs(((begin + i) / 24) % 1 - 0.5) - 1 for i in range(62)]
+        F, stick = [], 0.0
+        for now, before in zip(x, x[:1] + x):
+            stick = max(-20.0, min(20.0, stick + 200 * (now - before)))
+            F.append(stick + 5 * now)
+        got, done = table(tests, "loop " + write(tests, "way.csv", list(zip(x, F))[10:]))
+        tests.check("loop of a triangular drive, from row %d" % begin, len(got) in (1, 2) and
+                    all(near(r["dxA"], 1e-6) and near(r["FA"], 25) for r in got), tests.report(done) + str(got))
     for name, rows, words in (("half a loop", turn[:31], "no cycle is closed: dx turns 0 times in 31 rows"),
                               ("three quarters", turn[:46], "no cycle is closed: dx turns "), ("one row", turn[:1], "no cycle is closed: dx turns 0 times in 1 rows"),
                               ("rest", [(0, 0)] * 9, "no cycle is closed: dx turns 0 times in 9 rows")):
