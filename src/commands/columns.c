@@ -48,7 +48,7 @@ static csv_values *column_at(csv *c, lexer *lx) {
     char *end;
     const unsigned long number = lx->kind == T_NUMBER ? strtoul(name, &end, 10) : 0;
     if (lx->kind != T_NUMBER)
-        column = csv_find(c, name);
+        column = csv_in_header(c, name);
     else if (*end == 0 && number > 0 && number <= c->columns)
         column = &c->column[number - 1];
     csv_layout(c, layout, sizeof layout);
@@ -69,9 +69,12 @@ static bool apply_using(csv *c, const lexer *lx, const given_clause *h) {
     lexer own = hole_lexer(lx, &h->hole[1]);
     char called[CSV_NAME];
     unit u;
-    csv_values *column = column_at(c, &own);
+    csv_values *column = column_at(c, &own), *other;
     if (!column)
         return false;
+    snprintf(called, sizeof called, "%.*s", (int)name->len, lx->text + name->at);
+    if ((other = csv_find(c, called)) && other->given)
+        return calc_fail(lx->error, name->at, name->len, "%.60s is given twice", called);
     if (own.kind != T_END) {
         const size_t at = own.at;
         if (!unit_parse(&own, &u)) /* the reader has seen that nothing follows it */
@@ -85,7 +88,6 @@ static bool apply_using(csv *c, const lexer *lx, const given_clause *h) {
         column->d = u.d;
         column->has_unit = true;
     }
-    snprintf(called, sizeof called, "%.*s", (int)name->len, lx->text + name->at);
     csv_rename(c, column, called);
     column->given = true;
     return true;

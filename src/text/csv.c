@@ -389,7 +389,8 @@ static bool read_title(const finder *t, csv_values *column) {
             return false;
     }
     const field own = field_trimmed(title, name);
-    snprintf(column->name, sizeof column->name, "%.*s", (int)own.len, own.text);
+    snprintf(column->own, sizeof column->own, "%.*s", (int)own.len, own.text);
+    memcpy(column->name, column->own, sizeof column->name);
     return true;
 }
 
@@ -603,8 +604,16 @@ csv_values *csv_find(csv *c, const char *name) {
     for (csv_values *v = c->column; v < c->column + c->columns && *name; v++)
         if (!strcmp(v->name, name))
             return v;
+    csv_values *v = csv_in_header(c, name);
+    return v && !v->given ? v : NULL;
+}
+
+csv_values *csv_in_header(csv *c, const char *name) {
     for (csv_values *v = c->column; v < c->column + c->columns && *name; v++)
-        if (!v->given && !strcmp(v->title, name))
+        if (!strcmp(v->own, name))
+            return v;
+    for (csv_values *v = c->column; v < c->column + c->columns && *name; v++)
+        if (!strcmp(v->title, name))
             return v;
     return NULL;
 }
@@ -621,10 +630,8 @@ void csv_rename(csv *c, csv_values *column, const char *name) {
 void csv_names(const csv *c, char *buf, size_t size) {
     *buf = 0;
     for (size_t i = 0; i < c->columns; i++) {
-        const csv_values *v = &c->column[i];
-        const char *own = v->given ? v->title : v->name;
-        if (*own)
-            list_word(buf, size, ", ", own);
+        if (*c->column[i].own)
+            list_word(buf, size, ", ", c->column[i].own);
         else
             text_add(buf, size, "%s%zu", i ? ", " : "", i + 1);
     }

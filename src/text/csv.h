@@ -12,7 +12,8 @@ enum { CSV_COLUMNS = 64, CSV_NAME = 128, CSV_MARKS = 2 };
 
 /* One column. Its values are read, and its errors reported, only on request: other columns may hold text. */
 typedef struct csv_values {
-    char name[CSV_NAME];  /* the name without the unit, or the one given by csv_rename; empty: none */
+    char own[CSV_NAME];   /* the name in the header, without the unit; empty: none */
+    char name[CSV_NAME];  /* the same, or the one given by csv_rename; empty: none */
     char title[CSV_NAME]; /* the text of the header, with the unit; empty: none */
     bool given;           /* csv_rename has changed the name */
     bool twice;           /* another column has the same name: the name does not select this one */
@@ -56,6 +57,8 @@ void csv_free(csv *c);
 
 /* The first column with this name or else this title; NULL: there is none. Its values are not read. */
 csv_values *csv_find(csv *c, const char *name);
+/* The same by the header alone, whatever csv_rename has done. */
+csv_values *csv_in_header(csv *c, const char *name);
 /* Gives a column another name; a column that had this name before has no name then. */
 void csv_rename(csv *c, csv_values *column, const char *name);
 /* Reads the values of a column unless that is done. False with the error if a cell is not a number. */

@@ -188,7 +188,7 @@ def over(tests):
     fails(tests, "plot pressure over " + path, " has no column r: its columns are Fx, dx, by line 1, \"Fx [kN],dx [nm]\"; say which it is: using r=COLUMN")
     with open(path, "w", encoding="ascii") as f:
         f.write("Fx [kN],u [nm]\n0.01,200\n-0.02,-500\n")
-    fails(tests, "plot pressure over " + path, " has no column p: its columns are Fx, u [nm], ")
+    fails(tests, "plot pressure over " + path, " has no column p: its columns are Fx, u, ")
     fails(tests, "plot loop over /nonexistent.csv", "cannot read /nonexistent.csv")
     for columns, row, axis in (("Fx [N],t", "1,2", "dx"), ("dx [um],t", "1,2", "Fx")):
         with open(path, "w", encoding="ascii") as f:
