@@ -280,6 +280,17 @@ bool columns_load(const shell *sh, csv *data, size_t expressions, named_columns 
     return true;
 }
 
+const quantity *columns_hidden(const shell *sh, csv *data, const expr *e, size_t *i) {
+    const quantity *of;
+    bool call;
+    size_t at;
+    while ((of = expr_quantity(e, (*i)++, &call, &at)))
+        if (!call && csv_find(data, of->name) &&
+            !(quantity_is_input(of) && calc_takes(&sh->calc, quantity_input(of), error_quiet())))
+            break;
+    return of;
+}
+
 bool columns_missed(const shell *sh, const lexer *lx, csv *data) {
     char name[CSV_NAME];
     calc_error wrong = ERROR_NONE, *error = lx->error;

@@ -79,6 +79,9 @@ bool columns_show_names(shell *sh, csv *data, parsed *all, named_columns *out, c
 /* Keeps the columns that matter: inputs, and names that the first `expressions` of sh->list mention. Reads
  * them and leaves out rows without a value. A column of an input that is not mentioned may be unreadable. */
 bool columns_load(const shell *sh, csv *data, size_t expressions, named_columns *out, calc_error *error);
+/* The next quantity of the expression, from the i-th on, that is also a column but does not take its values
+ * from it: a result, or an input that the scene does not take. NULL: there is none. */
+const quantity *columns_hidden(const shell *sh, csv *data, const expr *e, size_t *i);
 /* Explains the error of an unknown name: its column cannot be read, or which columns there are. False. */
 bool columns_missed(const shell *sh, const lexer *lx, csv *data);
 

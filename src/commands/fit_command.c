@@ -32,25 +32,16 @@ static bool read_names(shell *sh, lexer *lx, fit_question *q) {
     }
 }
 
-/* Raises an error, and is true, if the equation has a quantity that is also a column but does not take its
- * values from it (a result, or an input that the scene does not take). */
+/* Raises an error, and is true, if a quantity of the equation hides a column. */
 static bool ambiguous(const shell *sh, csv *data, const expr *e, calc_error *error) {
-    const quantity *of;
-    bool call;
-    size_t at;
-    for (size_t i = 0; (of = expr_quantity(e, i, &call, &at)); i++) {
-        const bool is_input = quantity_is_input(of);
-        if (call || !csv_find(data, of->name) ||
-            (is_input && calc_takes(&sh->calc, quantity_input(of), error_quiet())))
-            continue;
-        calc_fail(error, e->at, e->len,
-                  is_input ? "%s is an input that this scene does not take, and a column of the file: rename "
-                             "the column"
-                           : "%s is a result of the scene and a column of the file: rename the column",
-                  of->name);
-        return true;
-    }
-    return false;
+    size_t i = 0;
+    const quantity *of = columns_hidden(sh, data, e, &i);
+    return of && !calc_fail(error, e->at, e->len,
+                            quantity_is_input(of)
+                                ? "%s is an input that this scene does not take, and a column of the file: "
+                                  "rename the column"
+                                : "%s is a result of the scene and a column of the file: rename the column",
+                            of->name);
 }
 
 static bool read_equation(shell *sh, lexer *lx, parsed *all, fit_question *q, csv *data,

@@ -286,6 +286,14 @@ void rows_close(file_rows *r) {
     r->given = false;
 }
 
+/* Notes which names are the scene's and not columns; an expression that is such a name alone is compared. */
+static void note_hidden(shell *sh, csv *data, const expr *e) {
+    size_t i = 0;
+    for (const quantity *of; e->count > 1 && (of = columns_hidden(sh, data, e, &i));)
+        shell_note(sh, "%s is the scene's here, not the column of %.200s: using NAME=%s names that", of->name,
+                   data->path, of->name);
+}
+
 /* The sweep over the rows sets inputs, and names that the first `count` expressions mention. */
 static bool rows_range(shell *sh, const lexer *lx, parsed *all, file_rows *r, size_t count, sweep *out) {
     static const char *const others[] = {"for", "along", "steps", "log"};
@@ -308,6 +316,8 @@ static bool rows_range(shell *sh, const lexer *lx, parsed *all, file_rows *r, si
                          "no column of %.100s is used: they are %s; using NAME=COLUMN names one",
                          r->data.path, columns);
     }
+    for (size_t k = 0; k < count; k++)
+        note_hidden(sh, &r->data, &sh->list[k]);
     r->at = (sweep_rows){r->names.count, r->names.column};
     out->at = &r->at;
     out->var = r->at.names == 1 ? r->at.column[0].name : (knob){.text = "row"};

@@ -325,6 +325,15 @@ def rows_compared(tests):
     tests.check("residuals, using", done.returncode == 0 and "rms = %.6g nm over 3 rows" % (rms * 1e9) in drawn, tests.report(done) + drawn[:800])
 
 
+def results_as_columns(tests):
+    """A column named as a result is no range: an expression of that name takes the scene's, and a note says so."""
+    path = write(tests, "results.csv", [], "FN [N],Fx [N],dz [um]\n20,3,1.2\n80,4,3\n")
+    for what, notes in ("c(Fx)", ["Fx"]), ("dz", []), ("dz in nm, a", []), ("dz/a, 2*dz + c(Fx)*dz/a", ["dz", "dz", "Fx"]), ("c(FN/9)", []):
+        done = tests.run("-c", SCENE + "table %s at %s" % (what, path))
+        said = [line.split()[1] for line in done.stderr.splitlines() if "is the scene's here, not the column of" in line]
+        tests.check("table at: notes on " + what, done.returncode == 0 and said == notes, tests.report(done))
+
+
 def many_rows(tests):
     """A long file: the time per row does not grow with the number of rows."""
     path = write(tests, "long.csv", [(2 * math.sin(i / 60), 30 * math.sin(i / 60 + 0.3)) for i in range(100000)])
@@ -335,4 +344,4 @@ def many_rows(tests):
 
 
 def run(tests):
-    tests.each([lambda room=room: room(tests) for room in (forms, words, polygons, sampled, drifting, wrong_way, noisy, much_noise, where_cycles_begin, rows_compared, many_rows)])
+    tests.each([lambda room=room: room(tests) for room in (forms, words, polygons, sampled, drifting, wrong_way, noisy, much_noise, where_cycles_begin, rows_compared, results_as_columns, many_rows)])
