@@ -345,7 +345,7 @@ static void remark_uncertain(shell *sh, answer *out, const uncertainty_question 
         char mean[CALC_VALUE_TEXT], spread[CALC_VALUE_TEXT];
         calc_value_text(u->d, u->mean, mean);
         calc_value_text(u->d, u->spread, spread);
-        shell_note(sh, "the Monte Carlo result for %s differs: mean  %s, deviation %s", c->name, mean,
+        shell_note(sh, "the Monte Carlo result for %s differs: mean %s, deviation %s", c->name, mean,
                    spread);
     }
     if (u->samples < q->samples)
