@@ -170,8 +170,8 @@ def noise(tests):
         tests.check("freely too, profile %d" % seed, abs(left - NOISE) < 4 * NOISE / math.sqrt(2 * n) and
                     close(got, [sphere(r) for r in AT], 4 * NOISE * math.sqrt((event["pieces"] + 2) / n)),
                     "%s %s" % (event, got))
-    rows = profile(lambda r: 50 * r ** 2 * (1 - 0.3 * r ** 2 + 0.3 * r ** 6))
-    for tolerance in 1.5, 0.1, 0.055:
+    bowl, cone = profile(lambda r: 50 * r ** 2 * (1 - 0.3 * r ** 2 + 0.3 * r ** 6)), profile(lambda r: 40 * abs(r))
+    for tolerance, rows in (1.5, bowl), (0.1, bowl), (0.055, bowl), (0.1, cone), (0.085, cone), (0.07, cone):
         event, _ = smooth(tests, rows, "%g um" % tolerance)
         misfit = 1e6 * event.get("rms", 1)
         fewer = []
