@@ -200,10 +200,10 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
                      a->turns, a->turns == 1 ? "" : "s");
     }
     for (size_t i = 0; i < q->count; i++)
-        if (a->uneven[i] && (isinf(a->above[i]) || isinf(a->below[i])))
+        if (a->uneven[i] && !isinf(a->above[i]) != !isinf(a->below[i]))
             shell_note(sh, "the data give only a bound of %s from %s", q->name[i].text,
                        isinf(a->above[i]) ? "below" : "above");
-        else if (a->uneven[i])
+        else if (a->uneven[i] && !isinf(a->above[i]))
             shell_note(
                 sh,
                 "the errors of %s down and up differ: each goes to where the least sum of squares with it "

@@ -813,6 +813,11 @@ def uneven(tests):
                         and event["upper"]["q"] is None, tests.report(text))
             data = tests.run("--format=csv", "-c", script).stdout.splitlines()
             tests.check("fit: its columns", data[0].startswith("q,q deviation,q lower,q upper") and data[1].split(",")[3] == "", str(data))
+    noise = random.Random(1)
+    name = write(tests, "unbounded.csv", "u,y", [(0.2 * i, noise.gauss(0, 1)) for i in range(20)])
+    done = tests.run("-c", "q = 1; fit q for y = 0.001*sin(q*u) to " + name)
+    tests.check("fit: bounded from no side", "inf, +inf)" in done.stdout and "the data hardly determine q" in done.stderr and
+                "bound of" not in done.stderr and "down and up differ" not in done.stderr, tests.report(done))
 
 
 def run(tests):
