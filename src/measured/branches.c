@@ -39,7 +39,8 @@ static void find_levels(branches *b, const size_t *at) {
     for (size_t i = 0; i < b->turns; i++) {
         const size_t from = i ? (at[i - 1] + at[i]) / 2 : at[i] / 2,
                      to = i + 1 < b->turns ? (at[i] + at[i + 1]) / 2 : (at[i] + last) / 2;
-        b->about[i] = turning_about(b->dx, at[i], from, to, b->noise_dx);
+        b->about[i] = at[i] < last ? turning_about(b->dx, at[i], from, to, b->noise_dx)
+                                   : (turning){.first = last}; /* it may turn behind the last row */
         b->force[i] = turning_level(b->Fx, at[i], from, at[i], b->noise_Fx, false);
         turning wide = turning_about(b->dx, at[i], from, to, fmax(b->noise_dx, b->range / 24));
         if (wide.n > 1) {
