@@ -257,9 +257,8 @@ static void take_size(void) {
         refresh();
     else
         reset_prog_mode(); /* the shell may have changed the modes */
-    if (!ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) && size.ws_row > 0 && size.ws_col > 0 &&
-        (size.ws_row != LINES || size.ws_col != COLS))
-        resizeterm(size.ws_row, size.ws_col);
+    if (!ioctl(STDOUT_FILENO, TIOCGWINSZ, &size))
+        resizeterm(size.ws_row, size.ws_col); /* which refuses a size of 0 */
     clearok(curscr, TRUE);
     curs_set(0);
     if (own.mouse)

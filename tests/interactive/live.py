@@ -265,6 +265,9 @@ def sizes(tests):
         ok = live.wait(lambda s: "loop: Fx over dx" in s.text() and re.search(r"Fx +0 N", s.text()) and s.row(rows - 1))
         tests.check("the size becomes %dx%d" % (rows, cols), ok and ("energy" in live.screen.text()) == (rows >= 40) and "q quit  ? keys" in live.screen.text(),
                     live.screen.text())
+    live.child.setwinsize(0, 0)
+    tests.check("a terminal that does not know its size any more keeps the last", live.key("n", "FNA 10 N") and "q quit  ? keys" in live.screen.text(),
+                live.screen.text())
     live.end()
     with tests.file(SCENE + "\n" + "# A long remark\n" * 20) as path:
         live = Live(tests, path, size=(10, 40))

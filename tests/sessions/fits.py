@@ -107,6 +107,12 @@ def drifting(tests):
         wrong = what.startswith("a")
         tests.check("fit: residuals with " + what, event and ("residuals are correlated" in done.stderr) == wrong
                     and (what == "nothing" or (event["neighbours"] > 0.5) == wrong), tests.report(done))
+    path = [2e-6 * math.sin(2 * math.pi * i / 200) for i in range(251)]
+    for offset in (0, 5e-4):
+        name = write(tests, "visible.csv", "dx [um],Fx [N]", [(d * 1e6, f + offset) for d, f in zip(path, loop(0.62, 210e9, path))])
+        done = tests.run("-c", SETUP % (210, 0.4) + "; fit mu, E0 along %s noise dx=1 nm Fx=5 N" % name)
+        tests.check("fit: an offset of %g N, far below the noise that is stated" % offset, done.returncode == 0 and
+                    ("residuals are correlated" in done.stderr) == (offset > 0), tests.report(done))
     name = write(tests, "small.csv", "u,y", [(u, 1e-3 * u + 1e-4) for u in range(1, 9)])
     values, event, done = answers(tests, "s = 1; fit s for y = s*u to " + name)
     rest = [1e-3 * u + 1e-4 - values["s"] * u for u in range(1, 9)]
