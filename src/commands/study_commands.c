@@ -345,8 +345,7 @@ static void remark_uncertain(shell *sh, answer *out, const uncertainty_question 
         char mean[CALC_VALUE_TEXT], spread[CALC_VALUE_TEXT];
         calc_value_text(u->d, u->mean, mean);
         calc_value_text(u->d, u->spread, spread);
-        shell_note(sh, "the Monte Carlo result for %s differs: mean %s, deviation %s", c->name, mean,
-                   spread);
+        shell_note(sh, "the Monte Carlo result for %s differs: mean %s, deviation %s", c->name, mean, spread);
     }
     if (u->samples < q->samples)
         shell_note(sh, "%u of %u samples of %s %s no value: %s", q->samples - u->samples, q->samples, c->name,

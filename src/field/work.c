@@ -176,16 +176,17 @@ static fret_real gross_work(place_asked *a, const slip_phase *p) {
                : p->gain * (s.to - s.from) / rise * fret_integral_ends(straight_rate, &s, tolerance(a));
 }
 
-/* The work of the part of a straight phase in which the front lies inside r and the edge outside. */
+/* The work of the part of a straight phase in which the front lies inside r and the edge outside: the front
+ * is never outside the edge. */
 static fret_real straight_work(place_asked *a, const slip_phase *p) {
     const coordinate by = p->kind == LINEAR_IN_LOAD ? LOAD : DEPTH;
     const fret_real at = a->at[by], travel = p->front[0] - p->front[1], rise = p->edge[1] - p->edge[0];
     const fret_real crosses = rise != 0 ? (at - p->edge[0]) / rise : 0;
-    fret_real from = p->front[0] > at ? (p->front[0] - at) / travel : 0, to = 1;
+    fret_real from = 0, to = 1;
     if (!(travel > 0) || !(p->front[1] < at) || !(fmaxl(p->edge[0], p->edge[1]) > at))
         return 0;
     if (p->edge[0] < at)
-        from = fmaxl(from, crosses);
+        from = crosses;
     else if (p->edge[1] < at)
         to = crosses;
     if (!(to > from))
