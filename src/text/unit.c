@@ -198,8 +198,9 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
     static const struct {
         const char *name;
         long double scale;
-    } steps[] = {{"G", 1e9L}, {"M", 1e6L}, {"k", 1e3L}, {"", 1}, {"m", 1e-3L}, {"u", 1e-6L}, {"n", 1e-9L}};
-    enum { STEPS = sizeof steps / sizeof *steps };
+    } steps[] = {{"G", 1e9L},  {"M", 1e6L},  {"k", 1e3L},  {"", 1},
+                 {"m", 1e-3L}, {"u", 1e-6L}, {"n", 1e-9L}, {"", 1e-12L}};
+    enum { STEPS = sizeof steps / sizeof *steps - 1 }; /* the last has no prefix */
     if (dim_is_angle(d)) {
         snprintf(buf, size, "deg");
         return FRET_PI / 180;
@@ -208,13 +209,14 @@ long double unit_choose(dim d, long double value, int digits, char *buf, size_t 
     const struct named *row = find_named(d);
     if (!row || !row->prefixes || value == 0 || !isfinite(value))
         return 1;
-    /* A value that would be printed as 1000 takes the next prefix. half[n]: half a unit of the n-th digit. */
+    /* A value that would be printed as 1000 takes the next prefix. What is printed is the quotient as a
+     * double; half[n]: half a unit of the n-th digit. */
     static const long double half[] = {0.5L,   5e-2L,  5e-3L,  5e-4L,  5e-5L,  5e-6L,
                                        5e-7L,  5e-8L,  5e-9L,  5e-10L, 5e-11L, 5e-12L,
                                        5e-13L, 5e-14L, 5e-15L, 5e-16L, 5e-17L, 5e-18L};
-    long double edge = 1 - half[digits];
+    long double edge = 1000 - 1000 * half[digits];
     size_t j = 0;
-    while (j < STEPS && fabsl(value) < steps[j].scale * edge)
+    while (j < STEPS && (double)(fabsl(value) / steps[j + 1].scale) < edge)
         j++;
     if (j == STEPS || fabsl(value) >= 1e12L)
         return 1;

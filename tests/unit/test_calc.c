@@ -2,6 +2,8 @@
 /* The small parts of the language, and what memory that runs out leaves of it: each allocation of a statement
  * fails once. The Makefile links this program so that the language allocates through the functions here. */
 #include <errno.h>
+#include <float.h>
+#include <math.h>
 #include <sys/time.h>
 
 #include "failing.h"
@@ -93,6 +95,16 @@ static void units(void) {
     const long double none[] = {0, (long double)INFINITY, (long double)NAN, 1e-12L, 1e12L};
     for (size_t i = 0; i < sizeof none / sizeof *none; i++)
         CHECK(unit_choose(DIM_LENGTH, none[i], 6, text, sizeof text) == 1 && !strcmp(text, "m"));
+    for (int digits = 1; digits <= 17;
+         digits++) /* nothing is printed as 1000 of a unit that has a larger one */
+        for (int exponent = -6; exponent <= 9; exponent += 3)
+            for (int off = -2; off <= 2; off++) {
+                const double tie = (double)(powl(10, exponent) * (1 - 5 * powl(10, -digits - 1))),
+                             v = tie * (1 + off * DBL_EPSILON);
+                const long double scale = unit_choose(DIM_LENGTH, v, digits, text, sizeof text);
+                snprintf(text, sizeof text, "%.*g", digits, (double)(v / scale));
+                CHECK(strtod(text, NULL) < 1000);
+            }
 }
 
 static void ranges(void) {
