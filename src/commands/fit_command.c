@@ -484,6 +484,7 @@ bool do_fit(shell *sh, lexer *lx, parsed *all) {
         if (ok) {
             fit_forget(sh);
             sh->fitted = f;
+            file_in_close(&f->data.in); /* of another statement the file may be the target */
         }
     }
     if (sh->fitted != f)

@@ -323,9 +323,7 @@ int shell_replay(const shell *sh, const char *path, double tolerance, calc_error
     shell_init(&r.sh, sh->out, sh->out);
     r.sh.replaying = true;
     nesting++;
-    file_keep(in.fd, true);
     bool ok = take_lines(&r, &in, error);
-    file_keep(in.fd, false);
     nesting--;
     if (ok && !shell_stop) {
         print_safe(r.out, path, strlen(path));

@@ -25,6 +25,7 @@ void csv_free(csv *c) {
     free(c->row);
     free(c->text);
     free(c->path);
+    file_in_close(&c->in);
     *c = (csv){.path = NULL};
 }
 
@@ -32,25 +33,22 @@ void csv_free(csv *c) {
 
 /* Reads the file into c->text as UTF-8. A file with line ends CR arrives as one line and is split here. */
 static bool read_text(csv *c, size_t *len, calc_error *error) {
-    file_in in;
+    file_in *in = &c->in;
     file_text all;
     file_got got = FILE_GOT_END;
     bool ok = true;
-    if (!file_in_open(&in, c->path, c->stop, error))
+    if (!file_in_open(in, c->path, c->stop, error))
         return false;
-    if (!file_text_open(&all)) {
-        file_in_close(&in);
+    if (!file_text_open(&all))
         return calc_no_memory(error);
-    }
-    while (ok && (got = file_in_line(&in, error)) == FILE_GOT_LINE) {
-        fwrite(in.line, 1, in.length, all.to);
+    while (ok && (got = file_in_line(in, error)) == FILE_GOT_LINE) {
+        fwrite(in->line, 1, in->length, all.to);
         putc('\n', all.to);
-        ok = !memchr(in.line, 0, in.length) ||
+        ok = !memchr(in->line, 0, in->length) ||
              calc_fail(error, 0, 0, "%s:%llu: this is no text, or UTF-16 without its mark: save it as UTF-8",
-                       c->path, in.number);
+                       c->path, in->number);
     }
-    const bool single = in.read == 1;
-    file_in_close(&in);
+    const bool single = in->read == 1;
     if (!file_text_close(&all))
         return calc_no_memory(error);
     c->text = all.text;

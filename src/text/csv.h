@@ -31,6 +31,7 @@ typedef struct csv_row {
 
 typedef struct csv {
     char *path, *text; /* the name of the file, and its content in UTF-8 */
+    file_in in;        /* open until csv_free or file_in_close: no output may replace the file */
     file_stop stop;
     const char *encoding; /* the encoding for a notice to the user, or NULL */
     char separator;       /* ' ': blanks and tabs */

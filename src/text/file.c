@@ -125,10 +125,10 @@ static int open_direct(const char *path, file_stop stop) {
     }
 }
 
-enum { KEPT = 16 }; /* enough for two recordings, the history and nested transcripts */
+enum { KEPT = 64 }; /* enough for two recordings, the history, nested scripts and what they read */
 
 /* The registered files: 1 + descriptor, or 0 for a free row. */
-static int kept[KEPT] = {1 + STDOUT_FILENO, 1 + STDERR_FILENO};
+static int kept[KEPT] = {1 + STDIN_FILENO, 1 + STDOUT_FILENO, 1 + STDERR_FILENO};
 
 void file_keep(int fd, bool open) {
     int i = 0;

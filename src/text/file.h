@@ -90,9 +90,9 @@ bool file_log_open(file_log *log, const char *name, file_stop stop, bool *overwr
 bool file_log_add(file_log *log, const char *bytes, size_t n, calc_error *error);
 void file_log_close(file_log *log);
 
-/* Registers (open) or removes a descriptor that the session keeps open: a recording, the history, a
- * transcript being replayed. Standard output and error are always registered. Output must not replace such a
- * file: what the session writes there would be lost. */
+/* Registers (open) or removes a descriptor that the session keeps open: a recording, the history, a file that
+ * is being read. The standard streams are always registered. Output must not replace such a file: what the
+ * session writes there, or the user's data, would be lost. */
 void file_keep(int fd, bool open);
 struct stat;
 /* Is it a registered file? */

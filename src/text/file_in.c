@@ -59,8 +59,9 @@ bool file_in_open(file_in *in, const char *name, file_stop stop, calc_error *err
     if (fd < 0)
         return cannot_read(name, code, error);
     bool ok = file_in_take(in, fd, name, stop, error);
+    in->owned = ok;
     if (ok)
-        in->owned = true;
+        file_keep(fd, true);
     else
         close(fd);
     return ok;
@@ -91,8 +92,10 @@ bool file_in_typed(file_in *in, file_ask *ask, void *self, file_stop stop, calc_
 }
 
 void file_in_close(file_in *in) {
-    if (in->owned)
+    if (in->owned) {
+        file_keep(in->fd, false);
         close(in->fd);
+    }
     free(in->name);
     free(in->block);
     free(in->line);

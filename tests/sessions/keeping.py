@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests save, record, replay and copies of a terminal; and the JSON output of such sessions."""
 import json
+import math
 import os
 import random
 import re
@@ -514,6 +515,21 @@ def in_use(tests):
             text = f.read()
         tests.check("standard output, no target: " + statement, done.returncode == 1 and b": this session is using it\n" in done.stderr and
                     text == "1+1 = 2\n77+1 = 78\n", "%s%s" % (done.stderr, text))
+    rows = "dx [um],Fx [N],force [N],sample,v1\n" + "".join("%.12g,%.12g,%d,%d,1\n" % (math.sin(i / 4), 10 * math.sin(i / 4 + 0.3), i + 1, i + 1) for i in range(60))
+    os.symlink("read.csv", os.path.join(where, "other.csv"))
+    os.symlink("by.fret", os.path.join(where, "link.fret"))
+    for statement in ("loop %s to %s", "table dz(force) at %s to %s", "table dz(force) at other.csv to read.csv", "source by.fret", "loop ./%s to ../in-use/%s"):
+        for read, written in (("read.csv", "read.csv"), ("other.csv", "read.csv"), ("read.csv", "other.csv")):
+            for name, text in (("read.csv", rows), ("by.fret", "1 + 1\nsave link.fret\n2 + 2")):
+                with open(os.path.join(where, name), "w", encoding="ascii") as f:
+                    f.write(text)
+            said = statement % (read, written) if "%" in statement else statement
+            done = tests.run("-c", SCENE + said, cwd=where)
+            with open(os.path.join(where, "read.csv"), encoding="ascii") as f, open(os.path.join(where, "by.fret"), encoding="ascii") as script:
+                tests.check("read, no target: %s" % said, done.returncode == 1 and ": this session is using it\n" in done.stderr and f.read() == rows and
+                            script.read() == text, tests.report(done))
+    done = tests.run("-c", SCENE + "loop read.csv; table dz(force) at read.csv; table dz(x) for x = 1 N .. 2 N to read.csv", cwd=where)
+    tests.check("read before, a target", done.returncode == 0 and "\noverwrote read.csv (" in done.stderr, tests.report(done))
     done = tests.run("-c", "record /dev/null\ntable x for x = 1 .. 2 to /dev/null\nrecord off\ntable x for x = 1 .. 2 to /dev/stdout")
     tests.check("a device is one for all", done.returncode == 0 and done.stdout.count("\n") == 22 and not done.stderr, tests.report(done))
 
