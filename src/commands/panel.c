@@ -293,7 +293,7 @@ static bool name_residuals(panel_job *job, dim d, char name[TITLE]) {
     char rms[NUMBER_TEXT + COLUMN_UNIT], title[200];
     snprintf(name, TITLE, "file %s - %.300s", c->with->name, job->columns[0].name);
     format_value(&job->sh->set, (value){columns_rms(c), d}, rms, sizeof rms);
-    snprintf(title, sizeof title, "rms = %s over %zu rows", rms, c->rows);
+    snprintf(title, sizeof title, "rms = %s over %zu row%s", rms, c->rows, c->rows == 1 ? "" : "s");
     job->p->title = job->p->title ? job->p->title : strdup(title);
     return job->p->title || calc_no_memory(job->error);
 }

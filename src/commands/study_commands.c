@@ -275,7 +275,8 @@ static bool take_given(csv *file, uncertainty_question *q, const csv_values *giv
     if (!number)
         return false;
     if (file->columns != q->expressions + 1)
-        return calc_fail(error, 0, 0, "%.200s holds no samples of %zu values", file->path, q->expressions);
+        return calc_fail(error, 0, 0, "%.200s holds no samples of %zu value%s", file->path, q->expressions,
+                         q->expressions == 1 ? "" : "s");
     for (size_t i = 0; i < file->rows || i < q->samples; i++)
         if (i >= file->rows || i >= q->samples || number->v[i] != (double)(i + 1))
             return calc_fail(

@@ -175,10 +175,10 @@ static void report_compared(shell *sh, const table_job *job) {
         format_value(&sh->set, (value){rms, own->d}, text[0], sizeof text[0]);
         format_value(&sh->set, (value){c->worst, own->d}, text[1], sizeof text[1]);
         answer_words(&a,
-                     "file %s - %s: rms = %s (%.3Lg %% of the largest) over %zu rows, worst = %s in row %zu "
+                     "file %s - %s: rms = %s (%.3Lg %% of the largest) over %zu row%s, worst = %s in row %zu "
                      "(line %zu)\n",
                      c->with->name, own->name, text[0], c->largest > 0 ? 100 * rms / c->largest : 0, c->rows,
-                     text[1], c->worst_row + 1, line);
+                     c->rows == 1 ? "" : "s", text[1], c->worst_row + 1, line);
     }
     answer_end(&a, true);
 }

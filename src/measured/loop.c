@@ -139,8 +139,8 @@ static loop_cycle measure(const measured *m, size_t a, size_t b, size_t c) {
 static bool measure_all(measured *m, loop_answer *out, calc_error *error) {
     const size_t cycles = m->turns < 3 ? 0 : (m->turns - 1) / 2;
     if (cycles == 0)
-        return calc_fail(error, 0, 0, "no cycle is closed: dx turns %zu time%s in %zu rows", m->turns,
-                         m->turns == 1 ? "" : "s", m->rows);
+        return calc_fail(error, 0, 0, "no cycle is closed: dx turns %zu time%s in %zu row%s", m->turns,
+                         m->turns == 1 ? "" : "s", m->rows, m->rows == 1 ? "" : "s");
     out->cycle = malloc(cycles * sizeof *out->cycle);
     if (!out->cycle)
         return calc_no_memory(error);

@@ -551,8 +551,8 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     *out = (fit_answer){.rms = 0};
     gsl_set_error_handler_off();
     if (question->rows <= question->count)
-        return calc_fail(error, 0, 0, "%zu rows cannot determine %zu parameters", question->rows,
-                         question->count);
+        return calc_fail(error, 0, 0, "%zu row%s cannot determine %zu parameter%s", question->rows,
+                         question->rows == 1 ? "" : "s", question->count, question->count == 1 ? "" : "s");
     fitting *s = calloc(1, sizeof *s);
     if (!s)
         return calc_no_memory(error);

@@ -604,7 +604,7 @@ def not_closed(tests):
 
 
 def refusals(tests):
-    files = {"line": ("u,y [mm]", STRAIGHT), "exact": ("u,y", STRAIGHT[:4]), "two": ("u,y", ((1, 2), (2, 4.1))),
+    files = {"line": ("u,y [mm]", STRAIGHT), "exact": ("u,y", STRAIGHT[:4]), "two": ("u,y", ((1, 2), (2, 4.1))), "one": ("u,x", ((1, 2),)),
              "zero": ("u,y", ((1, 0), (2, 0), (3, 0))), "neg": ("force [N],depth [um]", ((1, 2), (-3, 6), (4, 8))),
              "fn": ("FN [mm],y", ((1, 2), (2, 4))), "along": ("dx [N],Fx [N]", ((0, 0), (1, 1))),
              "no": ("dx [um],W", ((0, 0), (1, 1))), "down": ("dx [um],Fx [N],FN [N]", ((0, 0, 100), (0.1, 4, -3), (1, 2, 1))),
@@ -618,6 +618,7 @@ def refusals(tests):
     for script, want in (
             ("s = 1; fit s for y = s to {line}", "the left side is a length, the right side is a number"),
             ("s = 1; q = 1; fit s, q for y = s + q*u to {two}", "2 rows cannot determine 2 parameters"),
+            ("s = 1; fit s for u = s*x to {one}", "1 row cannot determine 1 parameter\n"),
             ("s = 1; q = 2; fit s, q for y = s*q*u to {exact}", "the data cannot tell s and q apart"),
             ("s = 1; q = 2; t = 3; fit s, q, t for y + u^2 = s*q*u + s*t*u^2 to {exact}", "the data cannot tell s, q and t apart"),
             ("s = 1; fit s for y = s*u + sqrt(-(s - 1)^2) to {exact}",

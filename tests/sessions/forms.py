@@ -288,7 +288,7 @@ def where_cycles_begin(tests):
         tests.check("loop of a triangular drive, from row %d" % begin, len(got) in (1, 2) and
                     all(near(r["dxA"], 1e-6) and near(r["FA"], 25) for r in got), tests.report(done) + str(got))
     for name, rows, words in (("half a loop", turn[:31], "no cycle is closed: dx turns 0 times in 31 rows"),
-                              ("three quarters", turn[:46], "no cycle is closed: dx turns "), ("one row", turn[:1], "no cycle is closed: dx turns 0 times in 1 rows"),
+                              ("three quarters", turn[:46], "no cycle is closed: dx turns "), ("one row", turn[:1], "no cycle is closed: dx turns 0 times in 1 row\n"),
                               ("rest", [(0, 0)] * 9, "no cycle is closed: dx turns 0 times in 9 rows")):
         done = tests.run("-c", "loop " + write(tests, "way.csv", rows))
         tests.check("loop of " + name, words in done.stderr and done.returncode == 1, tests.report(done))
@@ -323,6 +323,11 @@ def rows_compared(tests):
     with open(os.path.join(tests.dir, "rest.gp"), encoding="utf-8") as f:
         drawn = f.read()
     tests.check("residuals, using", done.returncode == 0 and "rms = %.6g nm over 3 rows" % (rms * 1e9) in drawn, tests.report(done) + drawn[:800])
+    with open(path, "w", encoding="utf-8") as f:
+        f.write("FN [N],dz [um]\n20,1.21\n")
+    done = tests.run("-c", SCENE + "table dz at %s; plot dz for FN = 1 N .. 9 N over %s residuals to %s/rest.gp" % (path, path, tests.dir))
+    with open(os.path.join(tests.dir, "rest.gp"), encoding="utf-8") as f:
+        tests.check("over one row", " over 1 row, worst" in done.stdout and " over 1 row" in f.read().replace("over 1 rows", ""), tests.report(done))
 
 
 def results_as_columns(tests):
