@@ -219,9 +219,10 @@ static void remark_fit(shell *sh, answer *out, const fit_question *q, const fit_
             "that does not fit; the standard errors are too small",
             a->together);
     if (a->twice)
-        shell_note(
-            sh,
-            "the loop is closed and does not begin at rest: it is run twice, and the second run compared");
+        shell_note(sh, "the path begins within a steady cycle, not at rest: it is run twice, and the second "
+                       "run compared");
+    else if (!q->sides && fabs(q->loop.Fx[0]) > 6 * a->noise_Fx)
+        shell_note(sh, "the first row is taken as reached from rest");
     if (sh->set.timing)
         shell_say(sh, "fit: Levenberg and Marquardt's method, %u iterations, %u evaluations of %zu rows",
                   a->iterations, a->evaluations, q->rows);
@@ -281,7 +282,7 @@ static bool fit_cycle(const fit_question *q, const loop_cycle *c, const double *
     one.loop.Fx += first;
     if (one.loop.normal)
         one.loop.normal += first;
-    one.loop.closed = true;
+    one.loop.steady = true;
     one.from = from;
     return fit(&one, a, error);
 }

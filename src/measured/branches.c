@@ -19,16 +19,17 @@ static double range_of(const double *v, size_t n) {
     return hi - lo;
 }
 
-/* Adds the first row if the contact was moved there from rest, and the last one of a closed loop. */
-static void add_ends(branches *b, size_t *at) {
+/* Adds the first row if the contact was moved there from rest, and the last one of a cycle between turns. */
+static void add_ends(branches *b, size_t *at, bool steady) {
     const double next = b->turns ? b->dx[at[0]] : b->dx[b->rows - 1];
-    if (!b->twice && b->turns && fabs(b->dx[0]) > 6 * b->noise_dx && (b->dx[0] > 0) != (next > b->dx[0])) {
+    if (!steady && b->turns && fabs(b->dx[0]) > 6 * b->noise_dx && (b->dx[0] > 0) != (next > b->dx[0])) {
         memmove(at + 1, at, b->turns * sizeof *at);
         at[0] = 0;
         b->turns++;
     }
-    if (b->twice && b->turns % 2)
+    if (steady && b->turns == 1)
         at[b->turns++] = b->rows - 1;
+    b->passed = steady ? b->turns - b->turns % 2 : 0;
 }
 
 /* A branch ends at the crest of a curve fitted to the rows at its turning point. Whether crests are round or
@@ -72,7 +73,7 @@ void branches_begin(branches *b) {
 /* ---- branches ---------------------------------------------------------------------------------- */
 
 static double begin_of(const branches *b, size_t branch) {
-    return branch ? b->turn[branch - 1] : b->twice && b->turns ? b->turn[b->turns - 1] : 0;
+    return branch ? b->turn[branch - 1] : b->passed ? b->turn[b->passed - 1] : 0;
 }
 
 static double end_of(const branches *b, size_t branch) {
@@ -132,10 +133,9 @@ static bool find_loads(branches *b, calc_error *error) {
     return true;
 }
 
-bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, calc_error *error) {
+bool branches_find(branches *b, double noise_dx, double noise_Fx, bool steady, calc_error *error) {
     const size_t n = b->rows;
     size_t *at = malloc((n + 2) * sizeof *at);
-    b->twice = twice;
     b->range = range_of(b->dx, n);
     b->first = malloc((n + 3) * sizeof *b->first);
     b->about = malloc((n + 2) * sizeof *b->about);
@@ -148,7 +148,7 @@ bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, ca
     if (noise_dx == 0 && n < 16 * (b->turns + 1)) /* too few rows to tell noise from curvature */
         b->noise_dx = b->noise_Fx = 0;
     b->noise_Fx = noise_Fx > 0 ? noise_Fx : b->noise_Fx;
-    add_ends(b, at);
+    add_ends(b, at, steady);
     const double height = range_of(b->Fx, n);
     b->noise_Fx = fmax(b->noise_Fx, 1e-6 * height);
     b->noisy = noise_dx > 0 ||
@@ -304,10 +304,10 @@ static void finish_levels(branches *b, bool whole) {
     }
 }
 
-/* Moves the contact through the turning points that a closed loop has passed before its first row. */
+/* Moves the contact through the turning points of the cycles before the first row. */
 static bool run_before(const branches *b, branches_step *step, void *context) {
     double x, F;
-    for (size_t i = 0; i < b->turns && b->twice; i++)
+    for (size_t i = 0; i < b->passed; i++)
         if (!step(context, b->turn[i], b->normal ? b->load[i * NODES + NODES - 1] : 0, &x, &F))
             return false;
     return true;

@@ -18,9 +18,9 @@ typedef struct branches {
     const double *dx, *Fx, *normal; /* rows, borrowed; normal may be NULL */
     double noise_dx, noise_Fx;      /* standard deviations */
     double compliance, d0, F0;      /* of the rig: the contact's d_x is dx - d0 - compliance (Fx - F0) */
-    bool twice;   /* a closed loop that begins between turning points: the model passes all of them first */
-    bool noisy;   /* the noise of d_x matters: turning points are unknowns */
-    size_t turns; /* number of turning points; there are turns + 1 branches */
+    size_t passed;         /* turning points that the model passes before the first row: whole cycles, or 0 */
+    bool noisy;            /* the noise of d_x matters: turning points are unknowns */
+    size_t turns;          /* number of turning points; there are turns + 1 branches */
     double *level, *force; /* dx and Fx of each turning point, as measured */
     double range;          /* of dx */
     size_t *first;         /* first row of each branch, then `rows` */
@@ -37,8 +37,9 @@ typedef struct branches {
     double *memory;
 } branches;
 
-/* Finds the branches of b->rows. noise_dx, noise_Fx: 0 to estimate them. Free with branches_free always. */
-bool branches_find(branches *b, double noise_dx, double noise_Fx, bool twice, calc_error *error);
+/* Finds the branches of b->rows. noise_dx, noise_Fx: 0 to estimate them. steady: the rows begin within a
+ * steady cycle, not at rest. Free with branches_free always. */
+bool branches_find(branches *b, double noise_dx, double noise_Fx, bool steady, calc_error *error);
 void branches_free(branches *b);
 
 /* The number of nodes of the curve. */

@@ -362,7 +362,8 @@ static bool judge_fit(fitting *s, fit_answer *out, calc_error *error) {
     const gsl_vector *f = gsl_multilarge_nlinear_residual(s->w);
     const double squares = pow(gsl_blas_dnrm2(f), 2), v = squares / (double)(r->of->rows - p);
     double C[UNKNOWNS][UNKNOWNS];
-    *out = (fit_answer){.d = r->d, .twice = r->twice, .noisy = r->loop.noisy, .turns = r->unknowns - p};
+    *out = (fit_answer){
+        .d = r->d, .twice = r->loop.passed > 0, .noisy = r->loop.noisy, .turns = r->unknowns - p};
     out->rms = sqrt(squares / (double)r->of->rows) * r->unit;
     look_for_drift(r, f, out);
     const bool ok = determined(r, C, error);
@@ -547,7 +548,7 @@ static bool keep_points(residuals *r, fit_points *p, calc_error *error) {
     return ok;
 }
 
-bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
+static bool fit_as(const fit_question *question, fit_answer *out, calc_error *error) {
     *out = (fit_answer){.rms = 0};
     gsl_set_error_handler_off();
     if (question->rows <= question->count)
@@ -567,4 +568,24 @@ bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     residuals_close(r);
     free(s);
     return ok;
+}
+
+/* Does a path begin at rest or within a steady cycle? The way that fits better is taken. */
+bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
+    fit_question one = *question;
+    fit_answer steady;
+    calc_error why = ERROR_NONE;
+    const bool ok = fit_as(question, out, error);
+    if (question->sides || question->loop.steady || error->stop)
+        return ok;
+    one.loop.steady = true;
+    one.points = NULL;
+    one.from = ok ? out->value : question->from;
+    if (!fit_as(&one, &steady, &why) || !steady.twice || (ok && out->rms <= steady.rms * (1 + 1e-6)))
+        return why.stop ? *error = why, false : ok;
+    error_clear(error);
+    fit_points_free(question->points);
+    one.points = question->points;
+    one.from = steady.value;
+    return fit_as(&one, out, error);
 }

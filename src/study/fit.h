@@ -20,7 +20,7 @@ typedef struct fit_answer {
     double together;      /* correlation of successive residuals; near 0 for white noise */
     bool drifts;          /* `together` is significant: the standard errors are too small */
     dim d;                /* dimension of the residuals */
-    bool twice;           /* a closed loop that does not begin at rest: run twice, the second pass compared */
+    bool twice;           /* begun within a steady cycle, not at rest: run twice, the second pass compared */
     unsigned evaluations; /* of all rows */
     unsigned iterations;
 } fit_answer;

@@ -89,8 +89,8 @@ static fret_status run_rows(residuals *r, runner *run, double *out) {
     const fit_loop *loop = &r->of->loop;
     fret_status st = status_ok;
     fret_state now;
-    for (size_t pass = 0; pass < 1u + r->twice; pass++)
-        for (size_t i = 0; i < r->of->rows && !st.code; i++) {
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < (pass ? r->of->rows : r->loop.first[r->loop.passed]) && !st.code; i++) {
             r->bad_row = i;
             st = step_to(r, run, loop->rig ? BY_RIG : BY_DISPLACEMENT, loop->dx[i] - r->loop.d0,
                          loop->normal ? loop->normal[i] : 0, &now);
@@ -183,14 +183,14 @@ bool residuals_at(residuals *r, double *out) {
 /* ---- slopes ------------------------------------------------------------------------------------ */
 
 /* A turning point affects the rows from the branch that it ends until the next but one turning point erases
- * it from the memory of the contact, and the levels of the turning points there. The last one of a closed
- * loop is passed before all rows and affects them all, as names do. */
+ * it from the memory of the contact, and the levels of the turning points there. The last one that is passed
+ * before all rows affects them all, as names do; with it go those behind it. */
 enum { FELT = 4 };
 
 /* The number of turning points that affect only some rows. */
 static size_t banded(const residuals *r) {
-    const size_t turns = r->unknowns - r->of->count;
-    return turns - (r->twice && turns > 0);
+    const size_t turns = r->unknowns - r->of->count, passed = r->loop.passed;
+    return passed && turns ? passed - 1 : turns;
 }
 
 static void put_slopes(residuals *r, size_t unknown, size_t begin, size_t end) {
@@ -274,19 +274,6 @@ bool residuals_slopes(residuals *r) {
 
 /* ---- opening ----------------------------------------------------------------------------------- */
 
-/* Is it a closed loop that does not begin at rest? Then it is run twice, for the period before. */
-static bool begins_midway(const fit_question *of) {
-    const fit_loop *l = &of->loop;
-    double dx = 0, Fx = 0;
-    for (size_t i = 0; i < of->rows; i++) {
-        dx = fmax(dx, fabs(l->dx[i]));
-        Fx = fmax(Fx, fabs(l->Fx[i]));
-    }
-    const bool at_rest = fabs(l->dx[0]) < 0.05 * dx && fabs(l->Fx[0]) < 0.05 * Fx;
-    const size_t last = of->rows - 1;
-    return !at_rest && fabs(l->dx[last] - l->dx[0]) < 0.1 * dx && fabs(l->Fx[last] - l->Fx[0]) < 0.2 * Fx;
-}
-
 static bool open_points(residuals *r, calc_error *error) {
     static const size_t passes = 10; /* a fit evaluates all rows at least as often */
     const fit_question *of = r->of;
@@ -307,9 +294,8 @@ static bool open_loop(residuals *r, calc_error *error) {
     const fit_question *of = r->of;
     const fit_loop *loop = &of->loop;
     r->loop = (branches){.rows = of->rows, .dx = loop->dx, .Fx = loop->Fx, .normal = loop->normal};
-    r->twice = loop->closed || begins_midway(of);
     if ((loop->rig && !read_rig(r, &r->p.t->scene, error)) ||
-        !branches_find(&r->loop, loop->noise_dx, loop->noise_Fx, r->twice, error))
+        !branches_find(&r->loop, loop->noise_dx, loop->noise_Fx, loop->steady, error))
         return false;
     if (r->loop.noisy) {
         r->unknowns += r->loop.turns;

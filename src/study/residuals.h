@@ -18,7 +18,7 @@ typedef struct fit_loop {
     const double *normal;      /* F_N or delta_z at each row; NULL: as pressed */
     load_by normal_by;         /* BY_FORCE, BY_DISPLACEMENT */
     double noise_dx, noise_Fx; /* standard deviations; 0: estimated */
-    bool closed;               /* one cycle of many: it begins between turning points */
+    bool steady;               /* it begins within a steady cycle, not at rest */
 } fit_loop;
 
 /* The data for plotting a fit, in SI: both sides and the residual at each row, and the curve of a loop. */
@@ -67,7 +67,7 @@ typedef struct residuals {
     /* private */
     knob knobs[FIT_NAMES + FIT_COLUMNS]; /* names, then columns */
     double K_rig;                        /* of the rig that has read the loop, else 0 */
-    bool known, twice;                   /* `d` is known; the loop is run twice */
+    bool known;                          /* `d` is known */
     long double x[FIT_NAMES];            /* present values of the names */
     double now[UNKNOWNS];                /* q of the latest residuals */
     double sloped[UNKNOWNS];             /* q of `slopes` if has_slopes */
