@@ -19,8 +19,6 @@
 
 /* ---- keys -------------------------------------------------------------------------------------- */
 
-typedef enum wish { GO_ON, GO_BACK, LEAVE, STOP } wish;
-
 static wish read_key(void) {
     struct termios before, raw;
     unsigned char c = 0, rest[32];
@@ -47,7 +45,8 @@ static wish read_key(void) {
 }
 
 /* Asks on the terminal, not on the session's output: the question must not get into a transcript. */
-static wish ask_key(const shell *sh) {
+static wish ask_key(shell *sh, unsigned step) {
+    (void)step;
     static const char question[] = "(any key: go on, b: back, q: leave)";
     wish w;
     fflush(sh->out);
@@ -57,8 +56,6 @@ static wish ask_key(const shell *sh) {
     } while ((w = read_key()) == STOP && !kill(0, SIGTSTP));
     printf("\r%*s\r", (int)sizeof question - 1, "");
     fflush(stdout);
-    if (w == GO_BACK)
-        fputs("(back)\n", sh->out);
     return shell_stop ? LEAVE : w;
 }
 
@@ -68,8 +65,9 @@ static wish ask_key(const shell *sh) {
 typedef struct lesson {
     shell *sh;
     const script *s;
-    bool keys;    /* wait for a key at each step */
-    settings set; /* of the user, restored at the end, as are model and springs */
+    ask_wish *ask; /* at each step; or NULL */
+    unsigned step; /* from 1 */
+    settings set;  /* of the user, restored at the end, as are model and springs */
     model_id model;
     unsigned springs;
     unsigned long group; /* number of the user's last change, for undo */
@@ -121,7 +119,7 @@ static bool rewind_to(lesson *l, size_t to) {
             run_in_lesson(l, l->s->line[i]);
     l->sh->out = out;
     l->sh->err = err;
-    l->sh->waits = l->keys;
+    l->sh->waits = l->ask == ask_key;
     return true;
 }
 
@@ -181,11 +179,15 @@ static bool play_step(lesson *l, size_t *i) {
         tell_remark(l, "");
     for (size_t j = *i; j < statements; j++)
         tell_remark(l, s->line[j]);
-    const wish w = l->keys && s->line[statements] ? ask_key(l->sh) : GO_ON;
+    const wish w = l->ask && s->line[statements] ? l->ask(l->sh, l->step) : GO_ON;
+    if (w != GO_ON && !shell_stop) /* a replay needs to know it */
+        fprintf(l->sh->out, "(%s at step %u)\n", w == GO_BACK ? "back" : "left", l->step);
     if (w == GO_ON) {
         run_step(l, statements, end);
         *i = end;
+        l->step++;
     } else if (w == GO_BACK && l->before) {
+        l->step -= *i > 0;
         *i = step_before(s, *i);
         rewind_to(l, *i);
     }
@@ -212,9 +214,11 @@ static void tell_next(const lesson *l) {
 static bool play_lesson(lesson *l) {
     shell *sh = l->sh;
     const bool stopped = sh->stopped, refused = sh->refused, interactive = sh->interactive, waits = sh->waits;
+    ask_wish *const replayed = sh->replayed;
     const int depth = progress_suspend();
     sh->stopped = sh->refused = sh->interactive = false; /* not interactive: an error is one line */
-    sh->waits = l->keys;
+    sh->waits = l->ask == ask_key;
+    sh->replayed = NULL; /* a lesson within this one asks nothing */
     tell_line(l, PAGE_TITLE, l->s->title);
     for (size_t i = 0; l->s->line[i] && play_step(l, &i);)
         ;
@@ -227,6 +231,7 @@ static bool play_lesson(lesson *l) {
     sh->refused |= refused;
     sh->interactive = interactive;
     sh->waits = waits;
+    sh->replayed = replayed;
     progress_resume(depth);
     if (ok)
         tell_next(l);
@@ -241,7 +246,7 @@ static bool play_lesson(lesson *l) {
 static bool write_lesson(lesson *l, FILE *to) {
     shell *sh = l->sh;
     const settings set = sh->set;
-    l->keys = false;
+    l->ask = NULL;
     l->set.format = FORMAT_TEXT;
     l->set.pages = l->set.color = l->set.color_out = false;
     if (!record_page(sh, to, l->s->title, l->error))
@@ -278,7 +283,8 @@ static bool play(shell *sh, lexer *lx, const script *s, bool tour, target *page)
     const bool text = sh->set.format == FORMAT_TEXT;
     lesson l = {.sh = sh,
                 .s = s,
-                .keys = sh->interactive && text && isatty(STDOUT_FILENO),
+                .ask = sh->interactive && text && isatty(STDOUT_FILENO) ? ask_key : sh->replayed,
+                .step = 1,
                 .set = sh->set,
                 .model = now->model,
                 .springs = now->springs,

@@ -153,18 +153,24 @@ static bool compare(char *want, char *got, double tolerance) {
 /* ---- a statement ------------------------------------------------------------------------------- */
 
 typedef struct replay {
+    shell sh; /* first: find_wish finds the replay by it */
     FILE *out;
     double tolerance;
     const char *path;
     size_t passed, failed;
-    shell sh;
+    file_in in;
+    file_got read; /* what reading the last line came to */
+    bool held;     /* the last line is not taken yet */
+    calc_error *error;
     char *statement;
     size_t length;
     file_text want; /* the answer in the transcript; open from a statement to the next */
     size_t at;      /* line number of the statement; 0: none yet */
     bool waits;     /* not run yet: it is run if an answer follows */
-    size_t prompts; /* prompts in its output (of a demo) that are still to come: these begin no statement */
-    char *got;      /* the answer of this run */
+    size_t prompts; /* prompts in its output (of a demo): these begin no statement */
+    size_t seen;    /* prompts in the answer in the transcript, so far */
+    file_text run;  /* the answer of this run, while it grows */
+    char *got;      /* complete */
 } replay;
 
 static void show(FILE *out, char mark, char *line, bool asides) {
@@ -193,21 +199,60 @@ static size_t count_prompts(char *line) {
     return count;
 }
 
+/* Reads a line, unless one is held. False: there is none. */
+static bool hold_line(replay *r) {
+    if (!r->held && r->read == FILE_GOT_LINE)
+        r->held = (r->read = file_in_line(&r->in, r->error)) == FILE_GOT_LINE;
+    return r->held;
+}
+
+/* Does the line held begin a statement, rather than one of a lesson that has shown it? */
+static bool begins_another(const replay *r) {
+    return r->seen == r->prompts && begins_with_prompt(r->in.line, r->in.length);
+}
+
+/* Takes the line held as one of the answer. */
+static void take_answer(replay *r) {
+    r->seen += begins_with_prompt(r->in.line, r->in.length);
+    if (r->at)
+        fprintf(r->want.to, "%s\n", r->in.line);
+    r->held = false;
+}
+
+/* Reads the answer on, until it tells of this step or a later one, or has a prompt not shown yet. */
+static wish find_wish(shell *sh, unsigned step) {
+    replay *r = (replay *)sh;
+    char what;
+    unsigned at;
+    fflush(sh->out);
+    r->run.text[r->run.size] = 0;
+    for (r->prompts = count_prompts(r->run.text); r->want.to && hold_line(r); take_answer(r))
+        if (sscanf(r->in.line, "(%c%*3s at step %u)", &what, &at) == 2) {
+            if (at != step)
+                break;
+            take_answer(r);
+            return what == 'b' ? GO_BACK : LEAVE;
+        } else if (begins_another(r)) {
+            break;
+        }
+    return GO_ON;
+}
+
 /* Runs the statement. False: out of memory. */
 static bool run_statement(replay *r) {
-    file_text got;
     free(r->got);
     r->got = NULL;
-    if (!file_text_open(&got))
+    r->seen = 0;
+    if (!file_text_open(&r->run))
         return false;
     const source from = {NULL, true};
-    r->sh.out = r->sh.err = got.to;
+    r->sh.out = r->sh.err = r->run.to;
     r->sh.quit = false;
     if (!shell_special(&r->sh, &from, r->statement))
         shell_line(&r->sh, &from, r->statement, r->length, r->at);
-    if (!file_text_close(&got))
+    if (!file_text_close(&r->run))
         return false;
-    r->got = got.text;
+    r->got = r->run.text;
     if (r->sh.stopped && !shell_stop)
         return false; /* out of memory */
     r->prompts = count_prompts(r->got);
@@ -278,52 +323,51 @@ static bool judge_answer(replay *r) {
 
 /* ---- the transcript ---------------------------------------------------------------------------- */
 
-static bool take_line(replay *r, file_in *in, calc_error *error) {
-    size_t n = in->length;
-    const bool prompt = strip_prompt(in->line, &n) != in->line;
-    if (!prompt || r->prompts > 0) {
-        r->prompts -= prompt;
-        if (r->at)
-            fprintf(r->want.to, "%s\n", in->line);
+static bool take_line(replay *r) {
+    file_in *in = &r->in;
+    if (!begins_another(r)) {
+        take_answer(r);
         return true;
     }
-    const size_t before = in->length - n;
-    if (!judge_answer(r) || file_in_rest(in, error) != FILE_GOT_LINE)
+    size_t n = in->length;
+    const size_t before = (size_t)(strip_prompt(in->line, &n) - in->line);
+    r->held = false;
+    if (!judge_answer(r) || file_in_rest(in, r->error) != FILE_GOT_LINE)
         return false;
     r->at = (size_t)in->number;
     return begin_statement(r, in->line + before, in->length - before);
 }
 
-static bool take_lines(replay *r, file_in *in, calc_error *error) {
+static bool take_lines(replay *r) {
     bool ok = true;
-    file_got got = FILE_GOT_END;
-    while (ok && !shell_stop && (got = file_in_line(in, error)) == FILE_GOT_LINE)
-        ok = take_line(r, in, error);
-    if (ok && got != FILE_GOT_ERROR)
+    while (ok && !shell_stop && hold_line(r))
+        ok = take_line(r);
+    if (ok && r->read != FILE_GOT_ERROR)
         ok = judge_answer(r);
     if (!ok && !shell_stop)
-        calc_no_memory(error); /* does nothing if an error was raised before */
-    if (ok && got == FILE_GOT_END && r->passed + r->failed == 0)
-        ok = calc_fail(error, 0, 0, "%s holds no lines that begin with `fret> `", r->path);
-    return ok && got != FILE_GOT_ERROR;
+        calc_no_memory(r->error); /* does nothing if an error was raised before */
+    if (ok && r->read == FILE_GOT_END && r->passed + r->failed == 0)
+        ok = calc_fail(r->error, 0, 0, "%s holds no lines that begin with `fret> `", r->path);
+    return ok && r->read != FILE_GOT_ERROR;
 }
 
 int shell_replay(const shell *sh, const char *path, double tolerance, calc_error *error) {
     static int nesting; /* a transcript may replay others */
     enum { NESTING = 8 };
-    file_in in = {.fd = -1};
+    replay r = {.tolerance = tolerance, .path = path, .in.fd = -1, .read = FILE_GOT_LINE, .error = error};
     text_out t;
     if (nesting == NESTING)
         calc_raise(error, 0, 0, "transcripts are nested more than %d deep", NESTING);
-    else if (file_in_script(&in, path, &shell_stop, error) && !text_begin(&t, sh, TEXT_PICTURE, error))
-        file_in_close(&in);
+    else if (file_in_script(&r.in, path, &shell_stop, error) && !text_begin(&t, sh, TEXT_PICTURE, error))
+        file_in_close(&r.in);
     if (error->raised)
         return EXIT_ERROR;
-    replay r = {.tolerance = tolerance, .path = path, .out = t.to};
+    r.out = t.to;
     shell_init(&r.sh, sh->out, sh->out);
     r.sh.replaying = true;
+    r.sh.replayed = find_wish;
     nesting++;
-    bool ok = take_lines(&r, &in, error);
+    bool ok = take_lines(&r);
     nesting--;
     if (ok && !shell_stop) {
         print_safe(r.out, path, strlen(path));
@@ -332,7 +376,7 @@ int shell_replay(const shell *sh, const char *path, double tolerance, calc_error
     if (shell_stop)
         calc_interrupted(error);
     ok &= text_end(&t, true);
-    file_in_close(&in);
+    file_in_close(&r.in);
     r.sh.out = r.sh.err = sh->out;
     shell_free(&r.sh);
     if (r.want.to && file_text_close(&r.want))

@@ -29,6 +29,11 @@ typedef struct run_share {
 
 enum { EXPRESSIONS = 40 };
 
+struct shell;
+/* What a learner wishes at a step of a lesson. STOP: the program, until it is continued. */
+typedef enum wish { GO_ON, GO_BACK, LEAVE, STOP } wish;
+typedef wish ask_wish(struct shell *sh, unsigned step);
+
 typedef struct shell {
     calc calc;
     settings set;
@@ -40,6 +45,7 @@ typedef struct shell {
     bool lost;               /* a recording could not be written */
     bool stopped, refused;   /* an error of that kind (calc_error) has occurred */
     bool replaying;          /* a transcript: see shell_aside */
+    ask_wish *replayed;      /* finds in the transcript what was wished; or NULL */
     struct recorder *record; /* or NULL */
     file_text typed;         /* lines typed at the prompt, for `save history`; closed in other sessions */
     unsigned warned;         /* bits of the warnings given that still hold, see warnings.c */

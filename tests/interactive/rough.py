@@ -435,7 +435,7 @@ def lessons(tests):
             for _ in range(2):
                 text += to_key(s)[1]
                 s.child.send("B")
-                s.child.expect(r"\(back\)")
+                s.child.expect(r"\(back at step \d\)")
         waits, more = to_key(s)
     said = re.findall(r"(?m)^(?:a|dz|a/R|k|FN).* = .*", clean(text + more))
     with open(os.path.join(os.path.dirname(__file__), "../../scripts/demos/01-pressing.txt"), encoding="utf-8") as f:
@@ -502,6 +502,8 @@ def thought(tests):
     live.child.send("q\x04")
     live.gone()
     path = os.path.join(tests.dir, "lesson.txt")
+    with open(os.path.join(tests.dir, "own.txt"), "w", encoding="ascii") as f:  # steps without prompts, and a lesson in a lesson
+        f.write("Own\n# One\nask \"1?\" = 1 within 1 %\n# Two\nask \"2?\" = 2 within 1 %\n# Three\nx = 3\n# Four\ndemo pressing\n# Five\nmu = 0.5")
     s = Session(tests, "--quiet")
     s.say("record " + path)
     play(s, "demo sticking")
@@ -509,6 +511,21 @@ def thought(tests):
     s.say("record off")
     done = tests.run("--replay", path)
     tests.check("a lesson played by keys replays", done.returncode == 0 and done.stdout.endswith(": 2 passed, 0 failed\n"), tests.report(done))
+    for keys in ("q", " q", "bq", "  bq", " bb bq", "     bb  bbbq", "   b       b q"):
+        s.say("reset all; mu = 0.2; record " + path)
+        for lesson in ("demo pressing", "a; demo ./own.txt"):
+            s.child.sendline(lesson)
+            for key in keys:
+                if not to_key(s)[0]:
+                    break
+                s.child.send(key)
+            else:
+                s.prompt()
+            s.say("mu, FN; Nw; x")
+        s.say("record off")
+        done = tests.run("--replay", path)
+        tests.check("a lesson played by '%s' replays" % keys, done.returncode == 0 and done.stdout.endswith(", 0 failed\n"),
+                    tests.report(done) + open(path, encoding="utf-8").read())
     leaves(s)
 
 
