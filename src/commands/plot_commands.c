@@ -327,8 +327,6 @@ static bool run_movie(movie *m, lexer *lx, const char *file) {
     m->frame = ok ? calloc(frames, sizeof *m->frame) : NULL;
     if (ok && !m->frame)
         ok = calc_no_memory(lx->error);
-    if (ok && frames < 2)
-        ok = calc_fail(lx->error, 0, 0, "an animation takes 2 frames or more");
     ok = ok && take_frames(m);
     progress_wipe();
     if (ok && file) { /* in the terminal the line would stand in the frames */

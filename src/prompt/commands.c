@@ -386,7 +386,7 @@ const command commands[] = {
      .run = do_animate,
      .reads = true,
      .keywords = "animation video movie gif springs",
-     .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [frames N:1000] [to FILE.gif]",
+     .takes = "FIGURE | EXPR, ... [against EXPR]* RANGE LOOK [frames N:2..1000] [to FILE.gif]",
      .summary = "moving figures along a load",
      .help = "Figures as in `plot`. Curves `along` a load, the same one for all, are drawn up\n"
              "to a moving instant; figures over a position, such as `springs` and `pressure`,\n"

@@ -119,9 +119,15 @@ static bool parse_hole(parsing *g, size_t n, char before) {
         return false;
     g->open = a;
     hole *h = &a->hole[a->holes++];
-    *h = (hole){.row = row, .before = before};
-    if (g->p[len] == ':')
-        h->most = (unsigned)strtoul(g->p + len + 1, NULL, 10);
+    *h = (hole){.row = row, .least = 1, .before = before};
+    if (g->p[len] == ':') {
+        char *end;
+        h->most = (unsigned)strtoul(g->p + len + 1, &end, 10);
+        if (*end == '.') {
+            h->least = h->most;
+            h->most = (unsigned)strtoul(end + 2, NULL, 10);
+        }
+    }
     if (row->kind == HOLE_VALUE) {
         const quantity *q = quantity_find(row->noun, strlen(row->noun));
         if (!q || !quantity_is_input(q))

@@ -9,7 +9,8 @@
  * quantity NAME, and an example behind it; with := it may be a live definition, with += an increment. Clauses
  * in [ ] are optional, in any order; [ ]* may repeat; | separates alternatives, one of which may be given. A
  * hole with ", ..." takes a list; where the clause has several holes, all of them repeat. A WORD with " ..."
- * may repeat, too. N:1000 is the largest number allowed. HOLE_CLAUSES: clauses that several rows share. */
+ * may repeat, too. N:1000 is the largest number allowed, N:2..1000 gives the least. HOLE_CLAUSES: clauses
+ * that several rows share. */
 #ifndef STATEMENT_GRAMMAR_H
 #define STATEMENT_GRAMMAR_H
 
@@ -43,8 +44,8 @@ typedef struct hole_row {
 
 typedef struct hole {
     const hole_row *row;
-    unsigned most; /* largest number allowed */
-    char before;   /* what separates it from the hole before: '=', '+' for +-, 0 for nothing */
+    unsigned least, most; /* numbers allowed */
+    char before;          /* what separates it from the hole before: '=', '+' for +-, 0 for nothing */
 } hole;
 
 typedef enum value_must { ANY, POSITIVE, CURVED } value_must; /* CURVED: a radius; not 0, inf for a plane */

@@ -471,15 +471,17 @@ static bool skip_quantity_name(lexer *lx, const grammar *f, const hole_row *row)
     return true;
 }
 
-static bool read_count(calc *c, lexer *lx, const char *what, unsigned limit, unsigned *out) {
+static bool read_count(calc *c, lexer *lx, const char *what, const hole *of, unsigned *out) {
     value v;
     size_t at = lx->at;
     if (lx->kind == T_END)
-        return lex_fail(lx, "expected a whole number from 1 to %u after %s", limit, what);
+        return lex_fail(lx, "expected a whole number from %u to %u after %s", of->least, of->most, what);
     if (!expr_value(c, lx, &v))
         return false;
-    if (!dim_equal(v.d, DIM_NONE) || !(v.v >= 1 && v.v <= limit) || v.v != (long double)(unsigned)v.v)
-        return calc_fail(lx->error, at, lx->last - at, "%s must be a whole number from 1 to %u", what, limit);
+    if (!dim_equal(v.d, DIM_NONE) || !(v.v >= of->least && v.v <= of->most) ||
+        v.v != (long double)(unsigned)v.v)
+        return calc_fail(lx->error, at, lx->last - at, "%s must be a whole number from %u to %u", what,
+                         of->least, of->most);
     *out = (unsigned)v.v;
     return true;
 }
@@ -509,7 +511,7 @@ static bool read_hole(shell *sh, lexer *lx, parsed *s, given_clause *h, unsigned
     case HOLE_CHOICE:
         return read_choice(lx, row, h);
     case HOLE_COUNT:
-        ok = read_count(&sh->calc, lx, count_name(s->by, a), of->most, &h->count);
+        ok = read_count(&sh->calc, lx, count_name(s->by, a), of, &h->count);
         break;
     case HOLE_FILE: {
         char name[FILE_NAME];

@@ -74,7 +74,7 @@ void takes_text(const char *takes, char *buf, size_t size) {
     size_t n = 0;
     for (const char *p = takes; *p && n + sizeof adds < size; p++)
         if (*p == ':' && (p[1] == '=' || (p > takes && p[-1] >= 'A' && p[-1] <= 'Z')))
-            p += strspn(p + 1, "0123456789");
+            p += strspn(p + 1, "0123456789.");
         else if (!(*p == '*' && p > takes && p[-1] == ']') && !(*p == '+' && p[1] == '='))
             buf[n++] = *p;
     strcpy(buf + n, more);

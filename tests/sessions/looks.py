@@ -357,7 +357,7 @@ def moving(tests):
           "all figures of an animation need the same load or the same input", pressed)
     fails(tests, "animate p(r) for r = 0 mm .. 1 mm for FN = 10 N .. -100 N frames 3", "FN = -45 N must be positive", pressed)
     fails(tests, "animate loop to x.png", "an animation goes to a .gif file or to the terminal")
-    fails(tests, "animate loop frames 1", "an animation takes 2 frames or more")
+    fails(tests, "animate loop frames 1", "frames must be a whole number from 2 to 1000")
     fails(tests, "animate springs", "there is no load yet", "material steel; geometry sphere R=10 mm; friction 0.4\n")
     where = os.path.join(tests.dir, "stop.gif")
     job = subprocess.Popen([tests.fret, "-c", SCENE + "animate springs | loop frames 1000 to " + where],
