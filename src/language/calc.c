@@ -91,16 +91,12 @@ bool assign_at(const lexer *lx) {
 
 /* The error for an assignment to a result, with the command that imposes it. */
 static bool is_result(lexer *lx, const quantity *q) {
-    const char *text = lx->text + lx->at, *comma = memchr(text, ',', lx->end - lx->at);
-    size_t len = comma ? (size_t)(comma - text) : lx->end - lx->at;
-    while (len > 0 && text[len - 1] == ' ')
-        len--;
     if (!quantity_has_value(q))
         return lex_fail(lx, "%s is a function of the scene: %s", q->name, q->title);
-    if (!q->imposed || memchr(text, ':', len))
+    if (!q->imposed)
         return lex_fail(lx, "%s is a result: it follows from the inputs and the load", q->name);
-    return lex_fail(lx, "%s is a result: it follows from the inputs and the load; try: %s %.*s", q->name,
-                    q->imposed, LEX_SHOWN(len), text);
+    return lex_fail(lx, "%s is a result: it follows from the inputs and the load; try: %s %s=...", q->name,
+                    q->imposed, q->name);
 }
 
 static bool name_allowed(calc *c, lexer *lx, assignment *a) {
