@@ -98,15 +98,18 @@ static bool draw_off_page(shell *sh, lexer *lx, plot_figure *frame, size_t frame
                       .terminal = terminal_kind(sh, on_terminal),
                       .color = sh->set.color_out && !data,
                       .unicode = typeset_unicode(),
-                      .moving = frames > 1 && on_terminal && sh->out == stdout && shell_escapes(),
                       .columns = sh->set.plot_width,
                       .rows = sh->set.plot_height,
                       .width = papers[sh->set.plot_paper].width,
                       .height = papers[sh->set.plot_paper].height,
                       .text = papers[sh->set.plot_paper].text,
                       .stop = &shell_stop};
+    int columns, rows;
+    terminal_size(sh, &columns, &rows);
+    if (frames > 1 && on_terminal && sh->out == stdout && shell_escapes() && to.columns <= columns)
+        to.moving = rows;
     if (!file && !to.columns)
-        terminal_size(sh, &to.columns, &to.rows);
+        to.columns = columns, to.rows = rows;
     fflush(sh->out);
     char *caption = sh->set.plot_caption ? caption_of(sh, file ? 100 : to.columns) : NULL;
     if (sh->set.plot_caption && !caption)

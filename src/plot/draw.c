@@ -167,8 +167,9 @@ static bool show_drawn(const plot_run *r, const scripted *s, calc_error *error) 
 static bool to_terminal(const plot_reel *reel, const plot_target *t, calc_error *error) {
     plot_run r;
     const plot_reel last = {reel->frame + reel->count - 1, 1, reel->extent, 0};
-    reel = t->moving ? reel : &last;
-    plot_pages pages = plot_pages_for(t, &reel->frame[0], reel->count > 1);
+    plot_pages pages = plot_pages_for(t, &reel->frame[0], t->moving);
+    if (pages.rows * (pages.beside ? 1 : (int)reel->frame[0].count) > t->moving) /* it would scroll */
+        reel = &last;
     scripted s = {.reel = reel, .target = t, .pages = &pages};
     if (pages.braille)
         return play(NULL, &s, error);

@@ -10,14 +10,15 @@
 
 #include "text/characters.h"
 
-enum { LEAST_ROWS = 8 };
+enum { LEAST_ROWS = 8, STACKED_ROWS = 6 };
 
 plot_pages plot_pages_for(const plot_target *t, const plot_figure *f, bool one_screen) {
     int w = t->columns ? t->columns : 79, h = t->rows ? t->rows : 24, n = (int)f->count;
     bool beside = n == 1 || (w / n >= 50 && plot_columns(f) == f->count);
     plot_pages p = {beside ? w / n : w, beside || !one_screen ? h : h / n, beside, t->terminal == PLOT_BLOCK};
     p.columns = p.columns < 30 ? 30 : p.columns;
-    p.rows = p.rows < LEAST_ROWS ? LEAST_ROWS : p.rows;
+    const int least = beside || !one_screen ? LEAST_ROWS : STACKED_ROWS;
+    p.rows = p.rows < least ? least : p.rows;
     return p;
 }
 

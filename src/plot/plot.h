@@ -130,7 +130,7 @@ typedef struct plot_target {
     FILE *out;              /* the terminal */
     plot_terminal terminal; /* the kind of output to `out`; PLOT_AUTO: PLOT_DUMB */
     bool color, unicode;    /* what the terminal can show */
-    bool moving;            /* `out` is a terminal whose cursor can go up: frames replace each other */
+    int moving;             /* frames replace each other in so many rows of `out`; 0: it is no terminal */
     int columns, rows;      /* size of the terminal; 0: 79 x 24 */
     int width, height;      /* size of a picture in pixels; 0: 900 (640 for each of several panels) x 675 */
     double text;            /* factor for texts and lines of a picture; 0: 1 */
@@ -142,8 +142,9 @@ typedef struct plot_target {
 bool plot_check(const char *file, file_stop stop, calc_error *error);
 
 /* Draws a figure, or `frames` figures with the same panels on common axes: to a .gif file, or in the
- * terminal, where only the last one is shown unless `moving`. Thins the series. On failure returns false with
- * the error and leaves no file behind. The report, which may be NULL, is filled in for files only. */
+ * terminal, where only the last one is shown unless they fit in `moving` rows. Thins the series. On failure
+ * returns false with the error and leaves no file behind. The report, which may be NULL, is filled in for
+ * files only. */
 bool plot_draw(plot_figure *frame, size_t frames, const plot_target *target, file_report *report,
                calc_error *error);
 

@@ -466,7 +466,12 @@ def moving(tests):
     s.say(SCENE + "; press FN=100 N; cycle FA=20 N")
     told = s.say("animate loop frames 3")
     tests.check("an animation in JSON", told.count('{"text":"') >= 1 and "\x1b" not in told, told[-500:])
-    s.say("set format text")
+    s.say("set format text; set report off")
+    for figures, moves in (("springs | loop | pressure", True), ("springs | loop | pressure | slip | load", False)):
+        s.child.sendline("animate %s frames 3" % figures)
+        told = s.child.before if s.child.expect(PROMPT) == 0 else ""
+        tests.check("frames that fit replace each other: " + figures, ("\x1b[2" in told.partition("pressure")[2]) == moves and
+                    told.count("hysteresis loop") == (3 if moves else 1), told[-500:])
     s.child.sendline("animate loop frames 300")
     s.child.expect("\x1b\\[[0-9]+A")
     s.child.sendintr()

@@ -966,7 +966,7 @@ static void animates(const char *tmp) {
     char *text = NULL;
     size_t room;
     FILE *out = open_memstream(&text, &room);
-    CHECK(plot_draw(frame, SEVEN, &(plot_target){.out = out, .columns = 50, .rows = 12, .moving = true}, NULL,
+    CHECK(plot_draw(frame, SEVEN, &(plot_target){.out = out, .columns = 50, .rows = 12, .moving = 12}, NULL,
                     fresh()));
     fclose(out);
     size_t ups = 0; /* the only letters A are of the cursor's way back up */
