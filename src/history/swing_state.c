@@ -250,9 +250,9 @@ static void put_layer(fret_memory *m, const fret_real from[2], const fret_real t
         return;
     fret_place at[2] = {{0, 0}, m->edge.at};
     const fret_level outer = {fret_law_other(m->normal, true, N1, &at[0]), N1};
-    const fret_real turn = (to[P] - from[P] - (to[M] - from[M])) / 2;
+    const fret_real back = fmaxl(0, to[M] - from[M]), on = fmaxl(0, to[P] - from[P]), turn = (on - back) / 2;
     layer *l = &m->layers[m->count++];
-    *l = (layer){m->edge, turn / load};
+    *l = (layer){m->edge, (on - back) / (on + back)}; /* exactly 1 or -1 where it slips */
     m->edge = (point){{outer.y, N1},
                       {l->inner.t[DEPTH] + l->sigma * fret_law_fall(m->normal, &outer, true, load, N0, at),
                        l->inner.t[LOAD] + turn},

@@ -120,6 +120,31 @@ static void swings(void) {
 
 enum { ROOM = 4000 };
 
+/* Where it slips within a period, it slips as chords too, and these are packed and unpacked. */
+static void slips_as_chords(double part) {
+    static double packed[20 * ROOM];
+    const unit_scene s = unit_make_scene(2, -0.2);
+    const fret_normal *n = unit_make_normal(&s);
+    const fret_sine sine = {.FA = 12, .FNA = 20, .phase = 2, .FN = 100};
+    fret_contact *c = make(n, FRET_EXACT), *chords = make(n, FRET_EXACT);
+    fret_state now, then;
+    size_t count;
+    CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 100 + 20 * cos(2), 12}));
+    CHECK_OK(fret_contact_swing(c, &sine, 0, 1));
+    CHECK_OK(fret_contact_swing(c, &sine, 0, part));
+    fret_contact_state(c, &now);
+    CHECK_OK(fret_contact_pack(c, packed, 20 * ROOM, &count));
+    CHECK_OK(fret_contact_chords(chords, c));
+    for (int i = 0; i < 2; i++) {
+        fret_contact_state(chords, &then);
+        CHECK_REL(then.c, now.c, 1e-6L);
+        CHECK_REL(then.kt, now.kt, 1e-6L);
+        CHECK_OK(fret_contact_unpack(chords, packed, count));
+    }
+    fret_contact_free(c);
+    fret_contact_free(chords);
+}
+
 /* Packed and unpacked into a new contact, it goes on as the old one, to the last bit. */
 static void packed(double n, double k, fret_exactness exactness) {
     static double to[ROOM], again[ROOM];
@@ -207,6 +232,8 @@ int main(int argc, char **argv) {
     unit_start("contact", argc, argv);
     CASE(both());
     CASE(swings());
+    for (int i = 1; i < 20; i++)
+        CASE(slips_as_chords(i / 20.0));
     CASE(packed(2, 0, FRET_EXACT));
     CASE(packed(1.3, -0.4, FRET_EXACT));
     CASE(packed(2, 0, FRET_DOUBLE));
