@@ -73,6 +73,7 @@ TOLD = (
     (PRESSED + "geometry exact-sphere R=10 mm\n", "a", ("    error: below 1e-13 of the value",), ()),
     (SUM, "W", ("    error: below 1e-13 of the largest value so far",), ()),
     (PRESSED + "set model springs 50\n", "W", ("    error: 0 J, against the exact value",), ()),
+    (PRESSED + "cycle FA=5 N FNA=30 N phase=180 deg\nset model springs 50\n", "dW", (r"    error: \S+ J, against the exact value",), ()),  # exactly 0
     # inputs that were given before, and that the geometry does not have
     (PRESSED + "c0 = 1 mm; geometry cone slope=0.1\n", "a", ("    slope = 0.1",), ("    c0 = ", "    R = ")),
     (PRESSED + "cycle FA=9 N FNA=10 N\n", "dW(5 N) conditioning", ("    FN now = 110 N", "    FNA = 10 N", "    no effect: .*FA.*"), ("    FA = 9 N",)),
