@@ -17,15 +17,25 @@ typedef struct measured {
 
 /* ---- cycles ------------------------------------------------------------------------------------ */
 
-/* Is d_x in `row` that of the turning point `other`, to a tenth of the stroke from there to `between`? */
+/* Is d_x in `row` that of the turning point `other`, to a part of the stroke from there to `between`? The
+ * last row, whose level tells the amplitude, must be nearer than the first, but may be a row or noise off. */
 static bool is_like(const measured *m, size_t row, size_t other, size_t between) {
-    return fabs(m->x[row] - m->x[other]) <= 0.1 * fabs(m->x[between] - m->x[other]);
+    const double stroke = fabs(m->x[between] - m->x[other]),
+                 off = row ? fmax(fabs(m->x[row] - m->x[row - 1]), 4 * m->noise_x) : 0.08 * stroke;
+    return fabs(m->x[row] - m->x[other]) <= 0.02 * stroke + off;
 }
 
-/* Does a loop that begins between turning points return to row 0, to a tenth of its width or two steps? */
-static bool closes(const measured *m) {
-    const double gap = fabs(m->x[m->rows - 1] - m->x[0]), width = fabs(m->x[m->turn[1]] - m->x[m->turn[0]]);
-    return gap <= fmax(0.1 * width, 2 * fabs(m->x[1] - m->x[0]));
+/* Does a loop that begins between two turning points return to row 0, to a tenth of its width or two steps?
+ * Leaves out rows behind it if F_x returns too: begun at rest it would not, and is no cycle. */
+static bool closes(measured *m) {
+    size_t at = m->rows - 1;
+    for (size_t i = at; m->turns == 2 && i > m->turn[1]; i--)
+        at = fabs(m->x[i] - m->x[0]) < fabs(m->x[at] - m->x[0]) ? i : at;
+    if (m->turns == 2 && fabs(m->F[at] - m->F[0]) <= fmax(0.6 * fabs(m->F[1] - m->F[0]), 4 * m->noise_F))
+        m->rows = at + 1;
+    return m->turns == 2 &&
+           fabs(m->x[m->rows - 1] - m->x[0]) <=
+               fmax(0.1 * fabs(m->x[m->turn[1]] - m->x[m->turn[0]]), 2 * fabs(m->x[1] - m->x[0]));
 }
 
 /* Adds the first row and the farthest behind the last turning point to the turning points, if d_x is there as
@@ -36,7 +46,7 @@ static void add_ends(measured *m) {
     for (size_t i = last; i > turn[n - 1]; i--)
         if (fabs(m->x[i] - m->x[turn[n - 1]]) > fabs(m->x[last] - m->x[turn[n - 1]]))
             last = i;
-    const bool both = n == 1 && is_like(m, 0, last, turn[0]),
+    const bool both = n == 1 && is_like(m, last, 0, turn[0]),
                begins = n > 1 && is_like(m, 0, turn[1], turn[0]),
                ends = n > 1 && is_like(m, last, turn[n - 2], turn[n - 1]);
     if (both || begins) {
@@ -201,8 +211,7 @@ bool loop_find(const double *dx, const double *Fx, size_t rows, loop_answer *out
             add_ends(&m);
         if (rows < 16 * (m.turns + 1)) /* too few rows to tell noise from curvature */
             m.noise_x = m.noise_F = 0;
-        ok = m.turns == 2 && closes(&m) ? measure_rotated(&m, rotated, out, error)
-                                        : measure_all(&m, out, error);
+        ok = closes(&m) ? measure_rotated(&m, rotated, out, error) : measure_all(&m, out, error);
     } else {
         ok = false;
     }

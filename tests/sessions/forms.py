@@ -278,6 +278,18 @@ def where_cycles_begin(tests):
         got, done = table(tests, "loop " + write(tests, "way.csv", rows))
         tests.check("loop " + name, len(got) == (2 if name == "two" else 1) and all(near(r["dW"], 54e-6, 0.005) and r["slides"] == 1 for r in got),
                     tests.report(done) + str(got))
+    some = [loop_of(2 * math.pi * i / M) for i in range(4 * M)]
+    for begin, end, cycles in ((0, 55, 0), (0, 115, 1), (0, 119, 2), (57, 118, 1), (15, 81, 1), (15, 95, 1), (45, 111, 1)):  # ends before its turning point, or behind its beginning
+        got, done = table(tests, "loop " + write(tests, "way.csv", some[begin:end + 1]))
+        tests.check("loop from row %d to %d" % (begin, end), len(got) == cycles and all(
+            near(r["dW"], 54e-6, 0.005) and near(r["dxA"], 1.2e-6, 0.012) and near(r["FA"], 30) for r in got), tests.report(done) + str(got))
+    tests.run("-c", SCENE + "table dx, Fx along cycle FA=30 N steps 100 to rest.csv", cwd=tests.dir)  # 80 rows a period
+    with open(os.path.join(tests.dir, "rest.csv"), encoding="ascii") as f:
+        lines = f.read().splitlines(True)
+    with open(os.path.join(tests.dir, "rest.csv"), "w", encoding="ascii") as f:
+        f.writelines(lines[:90])
+    done = tests.run("-c", "loop %s/rest.csv" % tests.dir)
+    tests.check("loop from rest, not closed", done.returncode == 1 and "no cycle is closed" in done.stderr, tests.report(done))
     for begin in [i for i in range(24) if i not in (10, 22)]:  # a triangular drive, 24 rows a cycle, which may end behind a turning point: a loop with F = 20 + 5 dx on its flanks
         x = [4 * abs(((begin + i) / 24) % 1 - 0.5) - 1 for i in range(62)]
         F, stick = [], 0.0
