@@ -17,6 +17,16 @@ static double weight(size_t n, double at, size_t i) {
     return c[0];
 }
 
+/* Turning points from the second row on, up and down, and none at the ends. */
+static void first_turns(void) {
+    size_t at[4];
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const double v[] = {0, 9.0 * sign, 1.0 * sign, 8.0 * sign};
+        CHECK(turning_points(v, 4, 0, at) == 2 && at[0] == 1 && at[1] == 2);
+        CHECK(turning_points(v, 2, 0, at) == 0);
+    }
+}
+
 static void round_crests(void) {
     double v[ROWS];
     for (size_t i = 0; i < ROWS; i++)
@@ -69,6 +79,7 @@ static void uneven_crests(void) {
 
 int main(int argc, char **argv) {
     unit_start("turning", argc, argv);
+    CASE(first_turns());
     CASE(round_crests());
     CASE(sharp_crests());
     CASE(uneven_crests());
