@@ -101,6 +101,10 @@ def beginning(tests):
         text = live.screen.text()
         tests.check(name, ok and wanted in text and text.isascii(), text)
         tests.check("colours: " + name, (re.search(r"\x1b\[(\d+;)*3\dm", live.raw) is not None) == (name == "eight colours"), repr(live.raw[-500:]))
+        red = r"\x1b\[(\d+;)*31m[^\x1b]*"
+        said = live.key(":foo\r", "unknown name 'foo'") and live.key(" ", "cycle FA=") and live.key(" ", "space again shows its end")
+        tests.check("an error is red, a hint is not: " + name, said and (re.search(red + "unknown name", live.raw) is not None) == (name == "eight colours")
+                    and not re.search(red + "the last cycle", live.raw), repr(live.raw[-2500:]))
         live.end()
     live = Live(tests, size=(8, 30))
     tests.check("a screen too small", live.wait("too small") and live.end() == 0, live.screen.text())
