@@ -74,7 +74,7 @@ static bool same_contact(const world *w) {
 
 /* What has none yet is made, of the contact as it is. */
 static bool have_normal(world *w) {
-    if (!w->normal && known_code(fret_normal_make(&w->material, &w->gap, NULL, NULL, &w->normal))) {
+    if (!w->normal && known_code(fret_normal_make(&w->material, &w->gap, NULL, w->stop, &w->normal))) {
         fret_normal_stop(w->normal, w->stop);
         w->old_table = w->table;
     }
