@@ -148,7 +148,7 @@ bool fret_memory_segment(const fret_memory *m, size_t i, fret_segment *out) {
 fret_real fret_memory_displacement(const fret_memory *m, fret_real x) {
     const fret_real y = fret_normal_profile(m->normal, x);
     fret_real u = 0;
-    if (isnan(x) || !(y < m->edge.y[DEPTH]))
+    if (isnan(x) || !m->count || !(y < m->edge.y[DEPTH])) /* none is left by loads 1e17 times as large */
         return isnan(x) ? x : 0;
     const layer *l = &m->layers[m->count - 1];
     for (; l > m->layers && l->inner.y[DEPTH] > y; l--)

@@ -228,12 +228,28 @@ static void packed_otherwise(void) {
     fret_contact_free(chords);
 }
 
+/* After a load beside which the present one is rounding, no layer is left. */
+static void after_a_blow(void) {
+    const unit_scene s = unit_make_scene(2, 0);
+    const fret_sine sine = {.FA = 10, .FNA = 30, .phase = 0, .FN = 100};
+    fret_contact *c = make(unit_make_normal(&s), FRET_EXACT);
+    for (int i = 0; i < 2; i++) {
+        CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, i ? 1e60 : 130, 10}));
+        CHECK_OK(fret_contact_step(c, &(fret_step){FRET_TO_FORCE, FRET_TO_FX, 130, 10}));
+        CHECK_OK(fret_contact_swing(c, &sine, 0, 0.5));
+    }
+    CHECK_OK(fret_contact_chords(c, c));
+    CHECK(isfinite(fret_contact_displacement(c, 1e-5L)));
+    fret_contact_free(c);
+}
+
 int main(int argc, char **argv) {
     unit_start("contact", argc, argv);
     CASE(both());
     CASE(swings());
     for (int i = 1; i < 20; i++)
         CASE(slips_as_chords(i / 20.0));
+    CASE(after_a_blow());
     CASE(packed(2, 0, FRET_EXACT));
     CASE(packed(1.3, -0.4, FRET_EXACT));
     CASE(packed(2, 0, FRET_DOUBLE));
