@@ -80,7 +80,7 @@ static fret_real other_rate(fret_real t, fret_real rest, void *context) {
 
 /* The integral over lo < |w| < hi, on the side of w = 0 that `side` names. */
 static fret_real sum_between(arc_integral *b, fret_real lo, fret_real hi) {
-    static const fret_real little = 1e-16L;
+    static const fret_real little = 1e-16L, small = 1e-10L; /* a smaller piece has no digits to check */
     const fret_real turned = b->side * (b->of.lag[P] - b->from);
     fret_real sum = 0;
     for (fret_real end; hi - lo > little; lo = end) { /* the sign of sigma changes at turns of F_x */
@@ -91,7 +91,8 @@ static fret_real sum_between(arc_integral *b, fret_real lo, fret_real hi) {
         b->lo = lo;
         b->hi = end;
         b->sign = load_path_fall(&b->of, P, b->from + b->side * (lo + end) / 2) > 0 ? -1 : 1;
-        sum += b->sign * fret_integral(other_rate, b, 1e-14L).value;
+        sum += b->sign * (end - lo < small ? fret_integral_smooth(other_rate, b)
+                                           : fret_integral(other_rate, b, 1e-14L).value);
     }
     return sum;
 }
