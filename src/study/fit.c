@@ -573,19 +573,28 @@ static bool fit_as(const fit_question *question, fit_answer *out, calc_error *er
 /* Does a path begin at rest or within a steady cycle? The way that fits better is taken. */
 bool fit(const fit_question *question, fit_answer *out, calc_error *error) {
     fit_question one = *question;
+    fit_points other = {.nodes = 0};
     fit_answer steady;
     calc_error why = ERROR_NONE;
-    const bool ok = fit_as(question, out, error);
+    bool ok = fit_as(question, out, error);
     if (question->sides || question->loop.steady || error->stop)
         return ok;
     one.loop.steady = true;
-    one.points = NULL;
+    one.points = question->points ? &other : NULL;
     one.from = ok ? out->value : question->from;
-    if (!fit_as(&one, &steady, &why) || !steady.twice || (ok && out->rms <= steady.rms * (1 + 1e-6)))
-        return why.stop ? *error = why, false : ok;
-    error_clear(error);
-    fit_points_free(question->points);
-    one.points = question->points;
-    one.from = steady.value;
-    return fit_as(&one, out, error);
+    if (fit_as(&one, &steady, &why) && steady.twice && !(ok && out->rms <= steady.rms * (1 + 1e-6))) {
+        error_clear(error);
+        *out = steady;
+        ok = true;
+        if (question->points) {
+            const fit_points rest = *question->points;
+            *question->points = other;
+            other = rest;
+        }
+    } else if (why.stop) {
+        *error = why;
+        ok = false;
+    }
+    fit_points_free(&other);
+    return ok;
 }
