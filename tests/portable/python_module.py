@@ -86,6 +86,16 @@ for call, says in ((lambda: ball.stress(0, 0, 1e-4), "k = 0.3 lies outside"), (l
         assert says in str(error), (says, error)
     else:
         raise AssertionError("taken: " + says)
+loaded = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).watch().press(FN=100).step(Fx=20)
+before = loaded.state, loaded.phases
+for refused in ({"FN": -1}, {"dz": float("inf")}, {"a": -1e-3}):
+    try:
+        loaded.press(**refused)
+    except fret.Error:
+        assert (loaded.state, loaded.phases) == before, refused
+    else:
+        raise AssertionError("taken: %s" % refused)
+assert pickle.loads(pickle.dumps(on_rigid)).state == on_rigid.state
 r = np.linspace(0, 1e-3, 50)
 rows = fret.Contact(steel, fret.table(r, r**2 / 0.02), mu=0.4).press(FN=100)
 ball = fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).press(FN=100)

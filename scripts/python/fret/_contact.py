@@ -39,7 +39,7 @@ class Material:
 
     def _struct(self) -> lib.Material:
         second = self.second or Body(self.E0, self.nu)
-        stiff = second is rigid
+        stiff = second == rigid
         return lib.Material((lib.Body(self.E0, self.nu, False), lib.Body(0 if stiff else second.E0, second.nu, stiff)),
                             self.k, self.c0)
 
@@ -206,13 +206,15 @@ class Contact:
     def press(self, FN: Optional[float] = None, dz: Optional[float] = None, a: Optional[float] = None) -> "Contact":
         """Presses the open bodies anew: to a force FN [N] >= 0, an indentation depth dz [m] (< 0: a gap) or a contact radius
         a [m] >= 0 (10)-(13). Returns the contact, as the other loads do that have no result. Raises Error where the number
-        is negative, no number, or beyond the end of the gap."""
+        is negative, no number, or beyond the end of the gap; the contact is then as before."""
         name, value = _one_of("press", FN=FN, dz=dz, a=a)
         if name == "a":
             name, value = "dz", float(self._pressed("radius", value).dz)
-        library.fret_contact_reset(self._contact.pointer)
+        anew = self.copy()
+        library.fret_contact_reset(anew._contact.pointer)
+        lib.check(library.fret_contact_copy(self._contact.pointer, anew.step(**{name: value})._contact.pointer))
         self._forget()
-        return self.step(**{name: value})
+        return self
 
     def step(self, FN: Optional[float] = None, dz: Optional[float] = None, Fx: Optional[float] = None,
              dx: Optional[float] = None) -> "Contact":
@@ -339,7 +341,7 @@ class Contact:
         stress = lib.Stress()
         for at in numpy.ndindex(places[0].shape):
             body = material.second if material.second and places[2][at] < 0 else material
-            if body is rigid:
+            if body == rigid:
                 raise lib.Error("z < 0 is in the second body, which is rigid: it has no stress")
             lib.check(library.fret_field_stress(field.pointer, body.nu, *(place[at] for place in places), ctypes.byref(stress)))
             found[(slice(None),) + at] = [getattr(stress, name) for name in Stress._fields]
