@@ -66,6 +66,15 @@ with fret.session() as s:
         else:
             raise AssertionError(refused)
     assert abs(s.value("a") - fret.Contact(steel, fret.sphere(R=10e-3), mu=0.4).press(FN=100).state.a) < 1e-3
+with fret.session() as s:
+    for statement in ("quit", "1 + 1"):
+        try:
+            s.run(statement)
+        except fret.SessionError as error:
+            assert "ended" in str(error), error
+            s._process.wait()
+        else:
+            raise AssertionError(statement)
 for wrong in (lambda: fret.Material(E0=-1, nu=0.3), lambda: fret.Material(E0=1e9, nu=0.3, k=1), lambda: fret.Material(E0=float("nan"), nu=0.3)):
     try:
         fret.Contact(wrong(), fret.sphere(R=10e-3), mu=0.4)

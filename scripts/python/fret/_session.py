@@ -79,9 +79,7 @@ class Session:
 
     def close(self) -> None:
         """Ends the program; nothing can be asked then."""
-        self._process.stdin.close()
-        self._process.stdout.close()
-        self._process.wait()
+        self._process.communicate()
 
     def __enter__(self) -> "Session":
         return self
