@@ -31,18 +31,40 @@ void csv_free(csv *c) {
 
 /* ---- the text ---------------------------------------------------------------------------------- */
 
+/* A line as `to FILE.json` writes it, {"event":"table","columns":{"F":"N","c(F)":"m"}} or
+ * {"F":20,"c(F)":0.1}, as one of CSV, "F [N]","c(F) [m]" or 20,0.1. */
+static void put_members(FILE *to, const char *line) {
+    static const char columns[] = "\"columns\":{", colon[] = "\":";
+    const char *head = strstr(line, columns), *name = head ? head + sizeof columns - 1 : line + 1, *value;
+    for (; *name == '"' && (value = strstr(name, colon)); name = value + (*value == ',')) {
+        const char *end = value;
+        value += sizeof colon - 1;
+        const int len = (int)strcspn(value, ",}");
+        if (head)
+            fprintf(to, "%.*s [%.*s]\"", (int)(end - name), name, len > 2 ? len - 2 : 0, value + 1);
+        else
+            fprintf(to, "%.*s", len, value);
+        value += len;
+        fputs(*value == ',' ? "," : "", to);
+    }
+}
+
 /* Reads the file into c->text as UTF-8. A file with line ends CR arrives as one line and is split here. */
 static bool read_text(csv *c, size_t *len, calc_error *error) {
     file_in *in = &c->in;
     file_text all;
     file_got got = FILE_GOT_END;
-    bool ok = true;
+    bool ok = true, json = false;
     if (!file_in_open(in, c->path, c->stop, error))
         return false;
     if (!file_text_open(&all))
         return calc_no_memory(error);
     while (ok && (got = file_in_line(in, error)) == FILE_GOT_LINE) {
-        fwrite(in->line, 1, in->length, all.to);
+        json = json || (in->number == 1 && !strncmp(in->line, "{\"event\":", 9));
+        if (json)
+            put_members(all.to, in->line);
+        else
+            fwrite(in->line, 1, in->length, all.to);
         putc('\n', all.to);
         ok = !memchr(in->line, 0, in->length) ||
              calc_fail(error, 0, 0, "%s:%llu: this is no text, or UTF-16 without its mark: save it as UTF-8",

@@ -52,7 +52,8 @@ typedef struct csv {
  * separator (semicolon, tab, comma, blanks) is the one between the most numbers; unless it is a comma, a
  * comma within a number is a decimal one. A number that may have a thousands separator (`1.500` beside
  * `950,5`) is an error. Fields may be quoted. Setting `stop` ends this reading, and csv_load later, with an
- * error. Errors name the file and the line, if any. Free with csv_free, also after a failure. */
+ * error. A table that was written as FILE.json is read, too. Errors name the file and the line, if any. Free
+ * with csv_free, also after a failure. */
 bool csv_read(const char *path, file_stop stop, csv *out, calc_error *error);
 void csv_free(csv *c);
 

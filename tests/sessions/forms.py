@@ -42,6 +42,7 @@ SAME = {
     "several-cycles.csv": "27 rows from line 2, 2 lines of words left out (line 13), 3 cycles",
     "header-again.csv": "19 rows from line 2, 2 cycles",
     "missing-values.csv": NAMED + ", 4 rows without a value left out" + ONE,
+    "members.json": NAMED + ONE,
     "force-turned.csv": NAMED + ONE + ", Fx falls where dx grows: its sign is turned",
 }
 SHIFT_JIS = ('11 rows from line 2, dx from "\u5909\u4f4d[\u03bcm]", Fx from "\u8377\u91cd[N]", read as Shift-JIS' + ONE,
