@@ -15,10 +15,6 @@
 #include "statement/setting_table.h"
 #include "text/file.h"
 
-#ifndef FRET_VERSION
-#define FRET_VERSION "unknown"
-#endif
-
 static const char usage[] =
     "usage: fret [OPTION...] [FILE...]\n"
     "  Calculates partial-slip contact of graded elastic solids. Without FILE or -c, reads\n"
@@ -103,10 +99,6 @@ static int take_tolerance(wishes *w, const char *text) {
     return EXIT_OK;
 }
 
-static int take_format(settings *set, const char *text) {
-    return setting_format(set, text) ? EXIT_OK : bad_usage("--format is text, csv or json, not", text);
-}
-
 /* Shares run side by side, a process each; so each uses one core unless its script sets more. */
 static int take_part(shell *sh, const char *text) {
     run_share *p = &sh->share;
@@ -133,11 +125,6 @@ static int take_color(wishes *w, const char *text) {
         if (!strcmp(names[i], text))
             return EXIT_OK;
     return bad_usage("--color is auto, always or never, not", text);
-}
-
-static int out_of_memory(void) {
-    fputs("error: out of memory\n", stderr);
-    return EXIT_ERROR;
 }
 
 enum {
@@ -191,7 +178,8 @@ static int take_option(int opt, wishes *w, shell *sh, char **argv) {
     case OPT_TOLERANCE:
         return take_tolerance(w, optarg);
     case OPT_FORMAT:
-        return take_format(&sh->set, optarg);
+        return setting_format(&sh->set, optarg) ? EXIT_OK
+                                                : bad_usage("--format is text, csv or json, not", optarg);
     case OPT_PART:
         return take_part(sh, optarg);
     case OPT_COLOR:
@@ -230,14 +218,19 @@ static int read_options(int argc, char **argv, wishes *w, shell *sh) {
 
 /* ---- jobs -------------------------------------------------------------------------------------- */
 
+/* Runs the scripts; if none is named, the standard input. */
 static int run_jobs(shell *sh, const wishes *w) {
-    int status = EXIT_OK;
+    int status = w->count ? EXIT_OK : shell_run(sh, "-", NULL);
     for (size_t i = 0; i < w->count && !sh->quit; i++) {
         const int one = shell_run(sh, w->jobs[i].path, w->jobs[i].text);
         if (one != EXIT_OK)
             status = one;
         if (one == EXIT_INTERRUPTED || (one != EXIT_OK && !sh->keep_going))
             break;
+    }
+    if (status == EXIT_OK && sh->share.of && !sh->share.met) {
+        shell_error(sh, "--part: there was no table, map or uncertainty whose rows could be shared");
+        return EXIT_ERROR;
     }
     return status;
 }
@@ -269,28 +262,15 @@ static int run_replays(shell *sh, const wishes *w) {
     return status;
 }
 
-static int run_part(shell *sh, const wishes *w) {
-    const int status = w->count ? run_jobs(sh, w) : shell_run(sh, "-", NULL);
-    if (status != EXIT_OK || sh->share.met)
-        return status;
-    shell_error(sh, "--part: there was no table, map or uncertainty whose rows could be shared");
-    return EXIT_ERROR;
-}
-
 static int run_wishes(shell *sh, const wishes *w) {
-    if (sh->share.of)
-        return live || w->replay || (!w->count && isatty(STDIN_FILENO))
-                   ? bad_usage("--part goes with a script", NULL)
-                   : run_part(sh, w);
+    const bool scripted = w->count || !isatty(STDIN_FILENO);
+    if (sh->share.of && (live || w->replay || !scripted))
+        return bad_usage("--part goes with a script", NULL);
     if (live)
         return run_live(sh, w);
     if (w->replay)
         return run_replays(sh, w);
-    if (w->count)
-        return run_jobs(sh, w);
-    if (isatty(STDIN_FILENO))
-        return shell_prompt(sh, quiet, !no_rc);
-    return shell_run(sh, "-", NULL);
+    return scripted ? run_jobs(sh, w) : shell_prompt(sh, quiet, !no_rc);
 }
 
 /* Opens closed standard streams so that using them still fails, but no later file gets their number. */
@@ -320,12 +300,10 @@ static int finish_output(shell *sh, int status) {
         shell_free(sh);
         signal(SIGPIPE, SIG_DFL);
         raise(SIGPIPE);
-    } /* unreached: it has ended us */
-    if (bad || fclose(sh->out)) {
-        if (status == EXIT_OK) { /* else an error has been reported before */
-            fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno ? errno : EIO));
-            status = EXIT_ERROR;
-        }
+    }                                                    /* unreached: it has ended us */
+    if ((bad || fclose(sh->out)) && status == EXIT_OK) { /* else an error has been reported before */
+        fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno ? errno : EIO));
+        status = EXIT_ERROR;
     }
     shell_free(sh);
     return status;
@@ -337,8 +315,10 @@ int main(int argc, char **argv) {
     keep_closed();
     check_home();
     wishes w = {.color = "auto", .jobs = calloc((size_t)argc + 1, sizeof *w.jobs)};
-    if (!w.jobs)
-        return out_of_memory();
+    if (!w.jobs) {
+        fputs("error: out of memory\n", stderr);
+        return EXIT_ERROR;
+    }
     if (!isatty(STDOUT_FILENO)) /* musl would write the first line at once, and forget its error by the end */
         setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     command_use(commands, holes);
