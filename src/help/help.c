@@ -97,8 +97,7 @@ static void quantity_help(FILE *to, size_t row) {
             *when = 0;
         snprintf(text, sizeof text, "%s%s%s%s%s%s", f->text, f->equation ? "  " : "",
                  f->equation ? f->equation : "", *when ? "  [" : "", when, *when ? "]" : "");
-        fputs("    ", to);
-        help_wrapped(to, text, 4, 8);
+        help_wrapped(to, "    ", text, 8);
     }
     dim_line(to, "", quantity_is_input(q) && quantity_input(q) == IN_A ? DIM_NONE : q->d, q->unit);
     if (quantity_is_input(q))
@@ -123,19 +122,17 @@ static entry command_entry(size_t i) {
 /* Writes the usage line of a row, the clauses that its holes such as RANGE stand for, and the summary. */
 static void usage_help(FILE *to, const grammar *f) {
     const hole_row *row;
-    char usage[GRAMMAR_USAGE], text[GRAMMAR_USAGE + 16];
+    char usage[GRAMMAR_USAGE], label[LINE_LABEL];
     grammar_usage(f, usage);
-    help_wrapped(to, usage, 0, 6);
+    help_wrapped(to, "", usage, 6);
     for (size_t h = 0; (row = hole_at(h)); h++) {
         if (row->kind != HOLE_CLAUSES || !strstr(f->takes, row->name))
             continue;
         grammar_clauses(row, usage);
-        snprintf(text, sizeof text, "%s: %s", row->name, usage);
-        fputs("      ", to);
-        help_wrapped(to, text, 6, 8);
+        snprintf(label, sizeof label, "      %s: ", row->name);
+        help_wrapped(to, label, usage, 8);
     }
-    fputs("  ", to);
-    help_wrapped(to, f->summary, 2, 2);
+    help_wrapped(to, "  ", f->summary, 2);
 }
 
 /* If the first argument is a word with a grammar of its own (`set`, `export`), writes these usages. */
@@ -144,8 +141,8 @@ static void choices_help(FILE *to, const grammar *f) {
     char usage[GRAMMAR_USAGE];
     for (size_t i = 0; row && row->form && (f = row->form(i)); i++) {
         grammar_usage(f, usage);
-        fprintf(to, "%s    %s\n        ", i ? "" : "\n", usage);
-        help_wrapped(to, f->summary, 8, 8);
+        fprintf(to, "%s    %s\n", i ? "" : "\n", usage);
+        help_wrapped(to, "        ", f->summary, 8);
     }
 }
 
@@ -223,8 +220,8 @@ static entry preset_entry(size_t i) {
 
 static void preset_help(FILE *to, size_t i) {
     const entry e = preset_entry(i);
-    fprintf(to, "%s%s\n  %s\n  ", e.command, e.name, e.numbers);
-    help_wrapped(to, e.keywords, 2, 2);
+    fprintf(to, "%s%s\n  %s\n", e.command, e.name, e.numbers);
+    help_wrapped(to, "  ", e.keywords, 2);
 }
 
 static entry figure_entry(size_t i) {
@@ -240,11 +237,8 @@ static void figure_help(FILE *to, size_t i) {
     else
         snprintf(text, sizeof text, "plot %s RANGE LOOK [to FILE]", f->name);
     fprintf(to, "%s\n  %s\n  %s\n", text, f->title, f->summary);
-    if (f->statement) {
-        snprintf(text, sizeof text, "as: plot %s", f->statement);
-        fputs("  ", to);
-        help_wrapped(to, text, 2, 6);
-    }
+    if (f->statement)
+        help_wrapped(to, "  as: plot ", f->statement, 6);
 }
 
 static entry unit_entry(size_t i) {
@@ -325,15 +319,14 @@ const char *help_name(size_t i) {
 
 /* Writes the group of commands that begins at row i as one wrapped line; returns where the next begins. */
 static size_t group_line(FILE *to, size_t i) {
-    enum { GROUP = 18 };
-    char names[HELP_TEXT] = "";
+    char names[HELP_TEXT] = "", label[LINE_LABEL];
     const command *c = command_row(i);
-    fprintf(to, "    %-*s", GROUP - 4, c->group);
+    snprintf(label, sizeof label, "    %-14s", c->group);
     do {
         list_word(names, sizeof names, " ", c->name);
         c = command_row(++i);
     } while (c && !c->group);
-    help_wrapped(to, names, GROUP, GROUP);
+    help_wrapped(to, label, names, 18);
     return i;
 }
 
@@ -350,8 +343,7 @@ static void overview(FILE *to) {
         i = group_line(to, i);
     for (size_t i = 0; topic_name(i); i++)
         list_word(names, sizeof names, ", ", topic_name(i));
-    fputs("Topics: ", to);
-    help_wrapped(to, names, 8, 8);
+    help_wrapped(to, "Topics: ", names, 8);
     fputs("help NAME explains any quantity, unit, geometry, setting or model, such as\n"
           "`help dW`; apropos WORD searches all help for a subject.\n\n"
           "Begin with `demo`, or:\n"

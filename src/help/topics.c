@@ -29,10 +29,10 @@ static void functions(FILE *to) {
 }
 
 static void quantity_line(FILE *to, const quantity *q, bool call) {
-    char name[LEX_NAME];
+    char name[LEX_NAME], label[LEX_NAME + 6];
     snprintf(name, sizeof name, call ? "%s(%s)" : "%s", q->name, q->argument);
-    fprintf(to, "    %-10s  ", name);
-    help_wrapped(to, q->title, 16, 16);
+    snprintf(label, sizeof label, "    %-10s  ", name);
+    help_wrapped(to, label, q->title, 16);
 }
 
 static void quantities(FILE *to) {
@@ -89,22 +89,19 @@ static const char *formula_of(const char *number) {
 
 /* Writes one equation and the quantities that cite it. text: NULL takes it from the quantities. */
 static void equation(FILE *to, const char *number, const char *text) {
-    char names[512] = "";
+    char names[512] = "", label[16];
     const quantity *q;
-    fprintf(to, "%-5s ", number);
     char own[512]; /* text up to the first `;` */
     if (!text)
         text = formula_of(number);
     snprintf(own, sizeof own, "%.*s", (int)strcspn(text, ";"), text);
+    snprintf(label, sizeof label, "%-5s ", number);
     for (size_t i = 0; (q = quantity_row(i)); i++)
         if (quotes(q, number))
             list_word(names, sizeof names, ", ", q->name);
-    enum { INDENT = 6 };
-    help_wrapped(to, own, INDENT, INDENT);
-    if (*names) {
-        fprintf(to, "%*sin: ", INDENT, "");
-        help_wrapped(to, names, INDENT + 4, INDENT + 4);
-    }
+    help_wrapped(to, label, own, 6);
+    if (*names)
+        help_wrapped(to, "      in: ", names, 10);
 }
 
 #define TITLE                                                                                                \
@@ -114,13 +111,12 @@ static const char reference[] = "J. Wilhayn, M. He\xc3\x9f: " TITLE
                                 ". Mathematics 2022, 10(19), 3641. https://doi.org/10.3390/math10193641";
 
 void help_cite(FILE *to) {
-    help_wrapped(to, reference, 0, 4);
+    help_wrapped(to, "", reference, 4);
     fputs("fret " FRET_VERSION ": an interactive calculator for partial-slip contact.\n\n"
           "@article{math10193641,\n"
-          "  author  = {Wilhayn, Josefine and He{\\ss}, Markus},\n"
-          "  title   = {",
+          "  author  = {Wilhayn, Josefine and He{\\ss}, Markus},\n",
           to);
-    help_wrapped(to, TITLE "},", 13, 13);
+    help_wrapped(to, "  title   = {", TITLE "},", 13);
     fputs("  journal = {Mathematics},\n"
           "  year    = {2022},\n"
           "  volume  = {10},\n"
@@ -137,7 +133,7 @@ void help_cite(FILE *to) {
 }
 
 static void reference_line(FILE *to) {
-    help_wrapped(to, reference, 0, 4);
+    help_wrapped(to, "", reference, 4);
 }
 
 static void equation_lines(FILE *to) {
@@ -160,28 +156,26 @@ static void paper_line(FILE *to, const script *s) {
         if (found)
             list_word(text, sizeof text, " ", *line + 2);
     }
-    fputs("    ", to);
-    help_wrapped(to, text, 4, 8);
+    help_wrapped(to, "    ", text, 8);
 }
 
 static void lessons(FILE *to) {
     enum { QUESTION = 200 };
-    char text[QUESTION];
+    char text[QUESTION], label[QUESTION];
     bool any = false;
     for (const script *s = scripts; s->name; s++) {
         const char *const *answer = s->answer;
         if (!answer)
             continue;
-        fprintf(to, "%s%-10s  ", any ? "\n" : "", s->name);
+        fputs(any ? "\n" : "", to);
         any = true;
-        help_wrapped(to, s->title, 12, 12);
+        snprintf(label, sizeof label, "%-10s  ", s->name);
+        help_wrapped(to, label, s->title, 12);
         for (const char *const *line = s->line; *line && *answer; line++)
             if (!strncmp(*line, "ask \"", 5)) {
                 snprintf(text, sizeof text, "%.*s", (int)strcspn(*line + 5, "\""), *line + 5);
-                fputs("    ", to);
-                help_wrapped(to, text, 4, 8);
-                fputs("        ", to);
-                help_wrapped(to, *answer++, 8, 12);
+                help_wrapped(to, "    ", text, 8);
+                help_wrapped(to, "        ", *answer++, 12);
             }
         paper_line(to, s);
     }

@@ -120,7 +120,7 @@ void answer_words(answer *a, const char *format, ...) {
 
 void answer_line(answer *a, const char *text) {
     if (a->layout >= a->form->words)
-        help_wrapped(a->to, text, 0, 8);
+        help_wrapped(a->to, "", text, 8);
 }
 
 /* ---- tables ------------------------------------------------------------------------------------ */

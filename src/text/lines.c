@@ -32,11 +32,13 @@ bool begins_with_prompt(const char *line, size_t len) {
     return strip_prompt(line, &len) != line;
 }
 
-void help_wrapped(FILE *to, const char *text, size_t at, size_t indent) {
+void help_wrapped(FILE *to, const char *label, const char *text, size_t indent) {
     enum { WIDTH = 79 };
-    for (size_t left = strlen(text); left > 0; at = indent) {
+    size_t before = strlen(label);
+    fputs(label, to);
+    for (size_t left = strlen(text); left > 0; before = indent) {
         const char *row = text;
-        const size_t n = text_break(&text, &left, WIDTH - at);
+        const size_t n = text_break(&text, &left, WIDTH - before);
         fwrite(row, 1, n, to);
         if (left)
             fprintf(to, "\n%*s", (int)indent, "");

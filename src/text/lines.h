@@ -26,8 +26,8 @@ size_t shell_mark(const char *line, size_t len);
 /* The end of the statement that begins at i: a `;`, a comment or the end of the text. */
 size_t shell_statement_end(const char *text, size_t i, size_t len);
 
-/* Writes a text and a newline, wrapped at blanks to 79 columns. at: the column of its first character;
- * further lines are indented by `indent`. */
-void help_wrapped(FILE *to, const char *text, size_t at, size_t indent);
+/* Writes a label, a text and a newline, wrapped at blanks to 79 columns; lines after the first are indented.
+ */
+void help_wrapped(FILE *to, const char *label, const char *text, size_t indent);
 
 #endif
