@@ -96,7 +96,7 @@ static void next_shape(live *l) {
 /* ---- the cycle --------------------------------------------------------------------------------- */
 
 static void play_key(live *l) {
-    if (l->script.count && l->script.at < l->script.count) {
+    if (!script_ends(l)) {
         script_on(l);
     } else if (!l->playing) {
         live_play(l);

@@ -20,6 +20,10 @@ void script_close(live *l) {
     free(l->script.before);
 }
 
+bool script_ends(const live *l) {
+    return l->script.at == l->script.count;
+}
+
 /* Shows the comments before the next statement, which is not run yet. */
 static void take_note(live *l) {
     live_script *s = &l->script;
@@ -31,19 +35,14 @@ static void take_note(live *l) {
         if (*text)
             list_word(l->note, sizeof l->note, " ", shown);
     }
-    if (s->at == s->count && !*l->note)
+    if (script_ends(l) && !*l->note)
         snprintf(l->note, sizeof l->note, "the end of the script");
 }
 
 void script_on(live *l) {
     live_script *s = &l->script;
     const calc *c = l->host->calc;
-    if (s->at == s->count) {
-        live_tell(l, false, "the end of the script");
-        take_note(l);
-        return;
-    }
-    if (line_is_remark(s->line[s->at])) {
+    if (script_ends(l) || line_is_remark(s->line[s->at])) {
         take_note(l);
         return;
     }
@@ -53,10 +52,6 @@ void script_on(live *l) {
     take_note(l);
     if (live_statement_line(l, line) && c->scene.end.steps > 1 && c->scene.end.steps > steps)
         live_play_item(l);
-}
-
-bool script_ends(const live *l) {
-    return l->script.at == l->script.count;
 }
 
 void script_back(live *l) {
