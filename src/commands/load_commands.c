@@ -15,8 +15,8 @@ enum { REPORTED = 8 }; /* the most quantities of a report */
 
 /* Are load commands reported? `set report auto`: at the prompt, and to programs. */
 static bool reports(const shell *sh) {
-    return sh->set.report == REPORT_ON ||
-           (sh->set.report == REPORT_AUTO && (sh->interactive || sh->replaying || answer_is_data(&sh->set)));
+    return sh->set.report == REPORT_ON || (sh->set.report == REPORT_AUTO && !sh->on_screen &&
+                                           (sh->interactive || sh->replaying || answer_is_data(&sh->set)));
 }
 
 /* Computes all quantities before it writes, since that may take long and show its progress. */

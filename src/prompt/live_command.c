@@ -66,6 +66,7 @@ static bool show_screen(shell *sh, const char *screen, calc_error *error) {
 
 static bool run_live(shell *sh, const char *const *script, calc_error *error) {
     const settings before = sh->set;
+    const bool nested = sh->on_screen;
     const live_host host = {.self = sh,
                             .calc = &sh->calc,
                             .digits = &sh->set.digits,
@@ -79,15 +80,13 @@ static bool run_live(shell *sh, const char *const *script, calc_error *error) {
     fflush(sh->out);
     sh->set.color = sh->set.color_out = false;
     sh->set.pages = false; /* a pager would take the terminal */
-    if (sh->set.report == REPORT_AUTO)
-        sh->set.report = REPORT_OFF; /* the screen shows the results */
+    sh->on_screen = true;
     progress_hide();
     bool ok = live_run(&host, script, &work, &screen, error);
     sh->set.color = before.color;
     sh->set.color_out = before.color_out;
     sh->set.pages = before.pages;
-    if (sh->set.report == REPORT_OFF)
-        sh->set.report = before.report;
+    sh->on_screen = nested;
     ok = (!screen || show_screen(sh, screen, error)) && ok;
     free(screen);
     if (ok && sh->set.timing && work.frames)

@@ -41,6 +41,7 @@ typedef struct shell {
     FILE *out, *err;
     run_share share; /* --part */
     bool interactive, quit;
+    bool on_screen;          /* the full-screen mode shows results: `set report auto` reports nothing */
     bool waits;              /* a lesson is played step by step: `ask` waits for the user's guess */
     bool lost;               /* a recording could not be written */
     bool stopped, refused;   /* an error of that kind (calc_error) has occurred */

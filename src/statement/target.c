@@ -80,7 +80,7 @@ bool target_share(shell *sh, target *t, size_t rows, size_t *from, size_t *to, c
 
 void target_report(shell *sh, const char *name, const file_report *r) {
     char size[16];
-    if (r->direct || sh->set.report == REPORT_OFF)
+    if (r->direct || sh->set.report == REPORT_OFF || (sh->set.report == REPORT_AUTO && sh->on_screen))
         return;
     file_size_text(r->size, size);
     shell_say(sh, "%s %s (%s)", r->overwrote ? "overwrote" : "wrote", name, size);

@@ -883,7 +883,7 @@ def unseen(tests):
                 rows[-1] == "dW = 9.01533 uJ" and re.search(r"(?m)^ Fx +30 N", done[0].stdout) and "loop: Fx over dx" in done[0].stdout and
                 "The end" in done[0].stdout and re.search("[\u2801-\u28ff]", done[0].stdout), tests.report(done[0]))
     tests.check("the same again", done[0].stdout == done[1].stdout)
-    with tests.file(SCENE + "\nstep Fx=2 N\n") as path:
+    with tests.file(SCENE + "\nstep Fx=2 N; cycle FA=20 N; save json.fret\n") as path:
         told = tests.run("--format=json", "--live", path)
     tests.check("an object for programs", "loop: Fx over dx" in json.loads(told.stdout)["text"], tests.report(told))
     with tests.file(SCENE + "\nstep Fx=50 N\n") as path:
@@ -1162,13 +1162,17 @@ def completed(tests):
     tests.check("Tab beyond it", live.key("\x7f", lambda s: live.status().endswith("  geometr")), live.screen.text())
     tests.check("Tab before much else", live.key("\x15geomet " + 300 * "x" + "y\x01" + 6 * "\x1b[C" + "\t\x05", lambda s: live.status().endswith("xy")) and
                 live.key("\x01", lambda s: live.status().startswith(":geometry  x")), live.screen.text())
-    live.key("\x15set report on\r", "set report on")
-    live.child.send("q")
-    live.wait(lambda s: not s.modes.get(1049))
-    live.child.send("show settings\r")
-    tests.check("what is set there stays set", live.wait("set report on"), live.screen.text())
-    live.child.send("\x04")
-    live.gone()
+    live.end("\x15q")
+    for word in ("on", "off"):
+        live = at_prompt(tests, SCENE)
+        live.key(":set report %s\r" % word, "set report " + word)
+        live.child.send("q")
+        live.wait(lambda s: not s.modes.get(1049))
+        live.child.send("show settings\r")
+        tests.check("what is set there stays set: " + word, live.wait(r"set timing \w+") and
+                    "set report %s\n" % word in live.screen.text(), live.screen.text())
+        live.child.send("\x04")
+        live.gone()
 
 
 def dragged(tests):
