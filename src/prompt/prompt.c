@@ -22,9 +22,8 @@ static void read_startup(shell *sh) {
 }
 
 /* The callback by which text/file_in gets a typed line. */
-static char *ask(void *self, bool continued) {
+static char *ask(bool continued) {
     char *text = prompt_line(continued ? "....> " : "fret> ", continued);
-    (void)self;
     if (text && shell_stop) {
         free(text);
         text = NULL;
@@ -82,7 +81,7 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc) {
     sh->set.pages = isatty(STDOUT_FILENO);
     if (read_rc)
         read_startup(sh);
-    if (!file_text_open(&sh->typed) || !file_in_typed(&in, ask, sh, &shell_stop, &error)) {
+    if (!file_text_open(&sh->typed) || !file_in_typed(&in, ask, &shell_stop, &error)) {
         shell_error(sh, "out of memory");
         return EXIT_ERROR;
     }

@@ -108,13 +108,12 @@ typedef enum file_got { FILE_GOT_LINE, FILE_GOT_END, FILE_GOT_ERROR, FILE_GOT_ST
 
 /* Callback: the next lines that the user types, without the last newline; the reader frees them. NULL: no
  * more, or interrupted if the stop flag is set. continued: they continue an unfinished line. */
-typedef char *file_ask(void *self, bool continued);
+typedef char *file_ask(bool continued);
 
 /* An input read by lines: UTF-8 with or without a byte order mark, or UTF-16, which is converted to UTF-8. */
 typedef struct file_in {
     int fd;              /* -1: not open */
     file_ask *ask;       /* the source of lines in place of a file, or NULL */
-    void *self;          /* the argument of `ask` */
     bool owned;          /* file_in_close closes fd */
     bool ended;          /* it has been read to its end */
     bool waits;          /* reading may block: poll first */
@@ -140,7 +139,7 @@ bool file_in_take(file_in *in, int fd, const char *name, file_stop stop, calc_er
 bool file_in_script(file_in *in, const char *name, file_stop stop, calc_error *error);
 /* Reads lines from a copy of a text in memory, or from the callback. */
 bool file_in_text(file_in *in, const char *text, const char *name, file_stop stop, calc_error *error);
-bool file_in_typed(file_in *in, file_ask *ask, void *self, file_stop stop, calc_error *error);
+bool file_in_typed(file_in *in, file_ask *ask, file_stop stop, calc_error *error);
 
 /* Reads the next physical line into in->line. FILE_GOT_END: there is none; FILE_GOT_ERROR: reading failed,
  * memory is out or the line exceeds FILE_LINE_LIMIT; FILE_GOT_STOP: the stop flag is set. */

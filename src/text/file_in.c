@@ -83,11 +83,10 @@ bool file_in_text(file_in *in, const char *text, const char *name, file_stop sto
     return true;
 }
 
-bool file_in_typed(file_in *in, file_ask *ask, void *self, file_stop stop, calc_error *error) {
+bool file_in_typed(file_in *in, file_ask *ask, file_stop stop, calc_error *error) {
     const bool ok = file_in_text(in, "", "stdin", stop, error);
     in->ended = false;
     in->ask = ask;
-    in->self = self;
     return ok;
 }
 
@@ -191,7 +190,7 @@ static file_got read_beginning(file_in *in, calc_error *error) {
 /* Fills the block from the callback and adds the last newline. */
 static file_got ask_more(file_in *in) {
     free(in->block);
-    in->block = in->ask(in->self, in->number <= in->read);
+    in->block = in->ask(in->number <= in->read);
     if (!in->block)
         return input_stopped(in) ? FILE_GOT_STOP : FILE_GOT_END;
     in->have = strlen(in->block);
