@@ -107,10 +107,10 @@ static void begin_lesson(lesson *l) {
 }
 
 /* Runs the lesson again, without output, from its beginning to before line `to`. */
-static bool rewind_to(lesson *l, size_t to) {
+static void rewind_to(lesson *l, size_t to) {
     FILE *out = l->sh->out, *err = l->sh->err, *nowhere = shell_nowhere(l->error);
     if (!nowhere)
-        return false;
+        return;
     l->sh->out = l->sh->err = nowhere;
     l->sh->waits = false;
     begin_lesson(l);
@@ -120,7 +120,6 @@ static bool rewind_to(lesson *l, size_t to) {
     l->sh->out = out;
     l->sh->err = err;
     l->sh->waits = l->ask == ask_key;
-    return true;
 }
 
 static size_t step_before(const script *s, size_t to) {

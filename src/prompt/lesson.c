@@ -181,22 +181,19 @@ bool lesson_lines(const char *path, lesson_text *out, calc_error *error) {
 bool lesson_read(shell *sh, const char *path, lesson_text *out, calc_error *error) {
     enum { NESTING = 4 };
     static int nesting; /* a lesson may `demo` another */
-    reading r = {.sh = sh, .out = out, .from = {path, true}, .error = error};
+    shell trial;
+    reading r = {.sh = sh, .trial = &trial, .out = out, .from = {path, true}, .error = error};
     FILE *nowhere = shell_nowhere(error);
     *out = (lesson_text){.title = NULL};
     if (!nowhere)
         return false;
     if (nesting == NESTING)
         return calc_fail(error, 0, 0, "lessons are nested more than %d deep", NESTING);
-    r.trial = calloc(1, sizeof *r.trial);
-    if (!r.trial)
-        return calc_no_memory(error);
-    shell_init(r.trial, nowhere, nowhere);
-    r.trial->replaying = true; /* so that nothing is drawn, asked or recorded */
+    shell_init(&trial, nowhere, nowhere);
+    trial.replaying = true; /* so that nothing is drawn, asked or recorded */
     nesting++;
     const bool ok = read_file(&r, path);
     nesting--;
-    shell_free(r.trial);
-    free(r.trial);
+    shell_free(&trial);
     return ok;
 }
