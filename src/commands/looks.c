@@ -24,11 +24,10 @@ static void *member(const reading *r) {
 }
 
 static bool read_text(const reading *r) {
-    const span *quoted = &r->given->hole[0];
     char **text = member(r);
     free(*text);
-    *text = strndup(r->lx->text + quoted->at + 1, quoted->len - 2);
-    return *text || calc_no_memory(r->lx->error);
+    *text = hole_text(r->lx, &r->given->hole[0]);
+    return *text;
 }
 
 static bool read_flag(const reading *r) {

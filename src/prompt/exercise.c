@@ -20,8 +20,8 @@ typedef struct exercise {
     unsigned choices;   /* 0: the answer is a value */
     unsigned right;     /* number of the right choice, from 1 */
     column column;      /* how the value is printed */
-    value value;        /* the answer */
-    long double within; /* the largest difference to the value that counts as right */
+    value value;        /* the answer; of choices its number */
+    long double within; /* the largest difference to the value that counts as right; of choices 0 */
 } exercise;
 
 /* ---- reading ----------------------------------------------------------------------------------- */
@@ -34,13 +34,6 @@ static void exercise_free(exercise *x) {
     columns_free(&x->column, 1);
 }
 
-static char *unquoted(const lexer *lx, size_t at, size_t len) {
-    char *text = strndup(lx->text + at + 1, len - 2);
-    if (!text)
-        calc_no_memory(lx->error);
-    return text;
-}
-
 static bool read_choices(exercise *x, const lexer *lx, const given_clause *of) {
     lexer own = hole_lexer(lx, &of->hole[0]);
     do {
@@ -50,12 +43,12 @@ static bool read_choices(exercise *x, const lexer *lx, const given_clause *of) {
             return lex_fail(&own, "expected a choice in quotation marks");
         if (x->choices == CHOICES)
             return lex_fail(&own, "more than %d choices", CHOICES);
-        if (!(x->choice[x->choices] = unquoted(&own, own.at, own.len)))
+        if (!(x->choice[x->choices] = hole_text(&own, &(span){own.at, own.len})))
             return false;
         x->choices++;
         lex_next(&own);
     } while (own.kind == T_COMMA);
-    x->right = of->count;
+    x->value.v = x->right = of->count;
     if (!at_end(&own))
         return false;
     if (x->choices < 2)
@@ -105,9 +98,8 @@ static bool read_value(exercise *x, const lexer *lx, parsed *all, const given_cl
 static bool read_exercise(exercise *x, lexer *lx, parsed *all) {
     const given_clause *equals = parsed_clause(all, "=", 0), *of = parsed_clause(all, "of", 0),
                        *hint = parsed_clause(all, "hint", 0);
-    const span *text = &all->list[0].hole[0];
-    if (!(x->text = unquoted(lx, text->at, text->len)) ||
-        (hint && !(x->hint = unquoted(lx, hint->hole[0].at, hint->hole[0].len))))
+    if (!(x->text = hole_text(lx, &all->list[0].hole[0])) ||
+        (hint && !(x->hint = hole_text(lx, &hint->hole[0]))))
         return false;
     if (of)
         return read_choices(x, lx, of);
@@ -161,13 +153,6 @@ static bool read_guess(exercise *x, const char *line, long double *guess) {
     return ok;
 }
 
-static bool is_right(const exercise *x, long double guess) {
-    if (x->choices)
-        return guess == x->right;
-    return fabsl(guess - x->value.v) <=
-           x->within * (1 + 1e-12L); /* rounding must not exclude the end of the range */
-}
-
 /* Replies to a line; false: no further guess is wanted. */
 static bool take_guess(exercise *x, const char *line) {
     long double guess;
@@ -179,7 +164,7 @@ static bool take_guess(exercise *x, const char *line) {
     }
     if (!read_guess(x, line, &guess))
         return true;
-    if (is_right(x, guess)) {
+    if (fabsl(guess - x->value.v) <= x->within * (1 + 1e-12L)) { /* so that rounding excludes no end */
         reply("right");
         return false;
     }

@@ -112,6 +112,13 @@ void hole_word(const lexer *lx, const given_clause *h, char word[LEX_NAME]) {
     snprintf(word, LEX_NAME, "%.*s", part->len < LEX_NAME ? (int)part->len : 0, lx->text + part->at);
 }
 
+char *hole_text(const lexer *lx, const span *part) {
+    char *text = strndup(lx->text + part->at + 1, part->len - 2);
+    if (!text)
+        calc_no_memory(lx->error);
+    return text;
+}
+
 void hole_file(const lexer *lx, const span *part, char name[FILE_NAME]) {
     lexer own = *lx;
     own.at = part->at;

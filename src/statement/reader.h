@@ -100,6 +100,8 @@ given_clause *parsed_clause(parsed *s, const char *name, size_t i);
 lexer hole_lexer(const lexer *lx, const span *part);
 /* The text of the first hole; empty if it is longer than any name. */
 void hole_word(const lexer *lx, const given_clause *h, char word[LEX_NAME]);
+/* The text of a HOLE_TEXT without its quotation marks, to be freed. NULL with the error: out of memory. */
+char *hole_text(const lexer *lx, const span *part);
 /* The file name in a HOLE_FILE, without quotation marks. */
 void hole_file(const lexer *lx, const span *part, char name[FILE_NAME]);
 /* Points an error that has no place yet at the first hole; false. */
