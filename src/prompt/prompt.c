@@ -45,32 +45,30 @@ static void run_system(shell *sh, const char *line) {
         shell_say(sh, "the command ended with status %d", status > 255 ? status / 256 : status);
 }
 
-bool shell_special(shell *sh, const source *from, const char *text) {
+void shell_typed(shell *sh, const char *text, size_t len, size_t line) {
+    static const source from = {NULL, true};
+    const char *typed = text + strspn(text, " \t\n");
     char help[256];
-    text += strspn(text, " \t\n");
-    record_line(sh, text, strlen(text));
-    if (*text != '!' && *text != '?')
-        return false;
-    if (*text == '!' && sh->replaying) { /* not run again; its output may stand in the transcript */
+    record_line(sh, typed, strlen(typed));
+    if (*typed == '!' && sh->replaying) { /* not run again; its output may stand in the transcript */
         fprintf(sh->out, "%c\n", MARK_DRAWING);
-    } else if (*text == '!') {
-        run_system(sh, text + 1);
+    } else if (*typed == '!') {
+        run_system(sh, typed + 1);
+    } else if (*typed == '?') {
+        snprintf(help, sizeof help, "help %.240s", typed + 1);
+        shell_line(sh, &from, help, strlen(help), 1);
     } else {
-        snprintf(help, sizeof help, "help %.240s", text + 1);
-        shell_line(sh, from, help, strlen(help), 1);
+        shell_line(sh, &from, text, len, line);
     }
-    return true;
 }
 
 static void run_line(shell *sh, const char *line) {
-    static const source from = {NULL, true};
     const char *text = line + strspn(line, " \t\n");
     if (!*text)
         return;
     prompt_keep(text); /* before it runs: a crash must not lose it */
     typed_keep(sh, text);
-    if (!shell_special(sh, &from, text))
-        shell_line(sh, &from, text, strlen(text), 1);
+    shell_typed(sh, text, strlen(text), 1);
 }
 
 int shell_prompt(shell *sh, bool quiet, bool read_rc) {

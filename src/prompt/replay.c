@@ -245,11 +245,9 @@ static bool run_statement(replay *r) {
     r->seen = 0;
     if (!file_text_open(&r->run))
         return false;
-    const source from = {NULL, true};
     r->sh.out = r->sh.err = r->run.to;
     r->sh.quit = false;
-    if (!shell_special(&r->sh, &from, r->statement))
-        shell_line(&r->sh, &from, r->statement, r->length, r->at);
+    shell_typed(&r->sh, r->statement, r->length, r->at);
     if (!file_text_close(&r->run))
         return false;
     r->got = r->run.text;

@@ -127,7 +127,7 @@ int shell_prompt(shell *sh, bool quiet, bool read_rc);
 /* Runs a transcript in a session of its own, compares the answers, and reports on the output of `sh`.
  * Returns an exit status; error: set if the transcript could not be run. */
 int shell_replay(const shell *sh, const char *path, double tolerance, calc_error *error);
-/* Runs a line `?WORD` (help) or `!COMMAND` (system); false if the line is neither. */
-bool shell_special(shell *sh, const source *from, const char *text);
+/* Runs a line as typed at the prompt: of statements, `?WORD` (help) or `!COMMAND` (system). */
+void shell_typed(shell *sh, const char *text, size_t len, size_t line);
 
 #endif
