@@ -16,10 +16,6 @@ bool script_open(live *l, const char *const *line, calc_error *error) {
     return s->before || calc_no_memory(error);
 }
 
-void script_close(live *l) {
-    free(l->script.before);
-}
-
 bool script_ends(const live *l) {
     return l->script.at == l->script.count;
 }

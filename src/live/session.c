@@ -9,12 +9,6 @@
 #include "live/terminal.h"
 #include "text/clock.h"
 
-static void count_work(live_work *work, bool frame, double spent) {
-    work->frames += frame;
-    work->total += spent;
-    work->worst = fmax(work->worst, spent);
-}
-
 static double slice_began; /* [s] */
 
 /* Is the time over that a frame may spend on running loads, or on keys? */
@@ -37,7 +31,9 @@ static void session(live *l, live_work *work) {
             live_draw(l);
         }
         const double now = clock_worked();
-        count_work(work, draws, now - last);
+        work->frames += draws;
+        work->total += now - last;
+        work->worst = fmax(work->worst, now - last);
         last = now;
         const int pause = !there ? 0 : l->playing ? FRAME : l->changed ? busy : IDLE;
         int key = terminal_key(pause, l->host->stop);
@@ -74,7 +70,7 @@ static void free_live(live *l) {
     for (size_t i = 0; i < l->kept_count; i++)
         free(l->kept[i]);
     free(l->page);
-    script_close(l);
+    free(l->script.before);
     free(l);
 }
 

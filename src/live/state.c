@@ -35,7 +35,3 @@ size_t live_sides(const live *l) {
 const side *side_first(const live *l) {
     return &l->side[l->compared.on && *l->side[0].trouble];
 }
-
-const shot *side_shown(const live *l, const side *s) {
-    return l->playing ? &s->played : &s->now;
-}

@@ -79,8 +79,6 @@ void live_tell(live *l, bool bad, const char *format, ...);
 size_t live_sides(const live *l);
 /* The side that keys and the mouse go by: the first that is not in trouble. */
 const side *side_first(const live *l);
-/* The state to draw: while a cycle plays the one at play_at, else the present one. */
-const shot *side_shown(const live *l, const side *s);
 
 /* ---- scenes.c ---- */
 
@@ -107,7 +105,6 @@ bool live_walk(live *l, bool (*late)(void));
 
 /* ---- script.c ---- */
 bool script_open(live *l, const char *const *line, calc_error *error);
-void script_close(live *l);
 /* Shows the comments that come next, or runs the next statement and plays its load. */
 void script_on(live *l);
 /* Undoes the last statement of the script. */

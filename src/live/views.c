@@ -304,7 +304,7 @@ static void put_title(const char *of, const char *title, rect at) {
 }
 
 static void draw_view(live *l, const view *v, const side *s, const scales *sc, rect at) {
-    pane p = {.side = s, .shot = side_shown(l, s), .most = sc, .digits = *l->host->digits};
+    pane p = {.side = s, .shot = l->playing ? &s->played : &s->now, .most = sc, .digits = *l->host->digits};
     if (p.shot->digits && p.shot->digits < p.digits)
         p.digits = p.shot->digits;
     if (!canvas_make(&p.cells, at))
