@@ -9,7 +9,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <wchar.h>
+#include <string.h>
 
 #include "text/characters.h"
 #include "text/file.h"
@@ -59,14 +59,8 @@ void put_text(rect at, int row, ink of, const char *format, ...) {
     if (row >= at.rows || at.cols <= 0)
         return;
     characters_shown(text, shown, sizeof shown);
-    wchar_t wide[ROOM];
-    const size_t n = mbstowcs(wide, shown, ROOM - 1);
     attrset(ink_attributes(of));
-    move(at.top + row, at.left);
-    if (n == (size_t)-1)
-        addnstr(shown, at.cols);
-    else
-        addnwstr(wide, at.cols < (int)n ? at.cols : (int)n);
+    mvaddnstr(at.top + row, at.left, shown, (int)text_fit(shown, strlen(shown), (size_t)at.cols));
     attrset(A_NORMAL);
 }
 
