@@ -22,7 +22,7 @@ static const shot *now(const live *l) {
 /* The value of a number in the table, if positive; else `otherwise`. */
 static double number(const live *l, const char *name, double otherwise) {
     for (size_t i = 0; i < SHOT_VALUES; i++)
-        if (!strcmp(shot_name(i), name) && now(l)->known[i] && now(l)->value[i] > 0)
+        if (!strcmp(shot_names[i], name) && now(l)->known[i] && now(l)->value[i] > 0)
             return (double)now(l)->value[i];
     return otherwise;
 }

@@ -4,17 +4,13 @@
 
 #include <string.h>
 
-static const char *const names[SHOT_VALUES] = {"FN", "Fx", "dx", "dz", "a", "c", "c/a", "W", "U", "dW", "kt"};
-
-const char *shot_name(size_t i) {
-    return names[i];
-}
+const char *const shot_names[SHOT_VALUES] = {"FN", "Fx", "dx", "dz", "a", "c", "c/a", "W", "U", "dW", "kt"};
 
 /* ---- a state ----------------------------------------------------------------------------------- */
 
 static void take_values(calc *c, shot *out) {
     for (size_t i = 0; i < SHOT_VALUES; i++) {
-        const quantity *q = quantity_find(names[i], strlen(names[i]));
+        const quantity *q = quantity_find(shot_names[i], strlen(shot_names[i]));
         out->known[i] = q && quantity_get(q, c->now, &out->value[i], error_quiet());
         out->d[i] = q ? q->d : DIM_NONE;
         if (!q) { /* c/a is no quantity: from the two values before it */

@@ -19,13 +19,13 @@ typedef struct shot {
     double u[SHOT_SAMPLES + 1], B[SHOT_SAMPLES + 1]; /* springs and bound [m] at x = a i/SHOT_SAMPLES */
     shot_ring ring[SHOT_RINGS];                      /* from the innermost */
     size_t rings;
-    bool known[SHOT_VALUES]; /* the table of numbers, named by shot_name: is there a value? */
+    bool known[SHOT_VALUES]; /* the table of numbers, named by shot_names: is there a value? */
     long double value[SHOT_VALUES];
     dim d[SHOT_VALUES];
     int digits; /* correct digits of the values; 0: all */
 } shot;
 
-const char *shot_name(size_t i);
+extern const char *const shot_names[SHOT_VALUES];
 /* Takes a shot of the scene that expressions see, at its instant. False with the error. */
 bool shot_take(calc *c, shot *out, calc_error *error);
 

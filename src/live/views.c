@@ -262,7 +262,7 @@ static void draw_numbers(const pane *p) {
                 wide - 4)
                 break;
         }
-        put_label(p, column, i % rows, INK_CURVE, shot_name((size_t)i));
+        put_label(p, column, i % rows, INK_CURVE, shot_names[i]);
         put_label(p, column + 4, i % rows, INK_NONE, number);
     }
 }
