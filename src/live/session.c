@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "live/state.h"
 #include "live/terminal.h"
@@ -82,7 +83,7 @@ bool live_run(const live_host *host, const char *const *script, live_work *work,
     l->host = host;
     l->speed = 0.5;
     l->phase = 90;
-    l->unseen = script && !terminal_there();
+    l->unseen = script && !(isatty(STDIN_FILENO) && isatty(STDOUT_FILENO));
     bool ok = (!script || script_open(l, script, error)) && terminal_open(l->unseen, error);
     if (ok) {
         live_update(l);

@@ -129,10 +129,6 @@ static const struct {
     int key;
 } arrows[] = {{"\033[A", KEY_UP}, {"\033[B", KEY_DOWN}, {"\033[C", KEY_RIGHT}, {"\033[D", KEY_LEFT}};
 
-bool terminal_there(void) {
-    return isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
-}
-
 static bool open_seen(calc_error *error) {
     struct termios modes;
     if (!isatty(STDOUT_FILENO) || tcgetattr(STDIN_FILENO, &modes))

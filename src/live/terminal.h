@@ -11,7 +11,6 @@
 /* Keys besides those of curses. KEY_STOP: Ctrl-C, or the terminal is gone; KEY_AGAIN: redraw the screen. */
 enum { KEY_NONE = -1, KEY_STOP = 0x10000, KEY_AGAIN };
 
-bool terminal_there(void);
 /* unseen: draws on /dev/null, for a script played without a terminal. False with the error. */
 bool terminal_open(bool unseen, calc_error *error);
 void terminal_close(void);
