@@ -504,33 +504,20 @@ static bool is_given(const page *p, const quantity *q) {
 
 /* ---- pages of an expression --------------------------------------------------------------------- */
 
-static bool explain_part(const page *p, const part *of) {
+static void explain_part(const page *p, const part *of) {
     expr e = {0};
     influence_study study = {.count = 0};
     value v = {0};
     const bool has = part_value(p, of, &e, &v);
-    const bool ok = !has || influences(&p->sh->calc, &e, v.v, &study, p->error);
-    if (ok)
+    if (!has || influences(&p->sh->calc, &e, v.v, &study, p->error))
         explain_quantity(p, of, has ? &e : NULL, v, &study, of->whole && p->conditioning);
     expr_free(&e);
-    return ok;
 }
 
-static bool explain_parts(const page *p, const parts *all) {
-    for (size_t i = 0; i < all->count; i++) {
-        const part *one = &all->of[i];
-        if (!one->call && is_given(p, one->q))
-            explain_input(p, one->q);
-        else if (!explain_part(p, one))
-            return false;
-    }
-    return true;
-}
-
-static bool explain_whole(const page *p, const expr *e, value v) {
+static void explain_whole(const page *p, const expr *e, value v) {
     influence_study study;
     if (p->conditioning && !influences(&p->sh->calc, e, v.v, &study, p->error))
-        return false;
+        return;
     answer_page(p->out, "explain");
     explain_value(p, e->text + e->at, e->len, v, expr_unit(e));
     if (p->sh->calc.over_error > 0)
@@ -538,18 +525,24 @@ static bool explain_whole(const page *p, const expr *e, value v) {
     if (p->conditioning)
         conditioning_tell(p->out, "it", &study);
     answer_done(p->out);
-    return true;
 }
 
 /* Writes the parts of e, and at the end the value of all of it, unless a part was that. */
-static bool explain_expression(const page *p, const expr *e, const expr *asked, value v) {
+static void explain_expression(const page *p, const expr *e, const expr *asked, value v) {
     parts all = {.count = 0};
-    bool ok = add_parts(p, e, NULL, asked, &all) && explain_parts(p, &all), told = false;
-    for (size_t i = 0; i < all.count; i++)
-        told = told || all.of[i].whole;
-    ok = ok && (told || explain_whole(p, asked, v));
+    bool told = false;
+    add_parts(p, e, NULL, asked, &all);
+    for (size_t i = 0; i < all.count && !p->error->raised; i++) {
+        const part *one = &all.of[i];
+        told = told || one->whole;
+        if (!one->call && is_given(p, one->q))
+            explain_input(p, one->q);
+        else
+            explain_part(p, one);
+    }
+    if (!told && !p->error->raised)
+        explain_whole(p, asked, v);
     free(all.of);
-    return ok;
 }
 
 /* ---- the statement ----------------------------------------------------------------------------- */
@@ -579,37 +572,30 @@ static bool read_explained(shell *sh, lexer *lx, const expr **e, const expr **as
     return expr_eval(&sh->calc, *e, v, lx->error) || calc_place(lx->error, at, whole->len);
 }
 
-static bool explain(shell *sh, const quantity *bare, const expr *e, const expr *asked, value v,
-                    bool conditioning, lexer *lx) {
-    text_out text;
-    answer out;
-    if (!text_begin(&text, sh, TEXT_ANSWERS, lx->error))
-        return false;
-    answer_begin(&out, &sh->set, text.to);
-    const page p = {sh, &out, conditioning, lx->error};
-    bool ok = true;
-    if (bare && bare->of == OF_INPUT)
-        explain_input(&p, bare);
-    else if (bare)
-        explain_function(&p, bare);
-    else
-        ok = explain_expression(&p, e, asked, v);
-    ok = ok && !lx->error->raised;
-    return text_end(&text, ok) && ok;
-}
-
 bool do_explain(shell *sh, lexer *lx, parsed *all) {
     const expr *e = NULL, *asked = NULL;
     trial *changed = NULL;
     value v = {0};
-    const bool conditioning = parsed_clause(all, "conditioning", 0);
+    text_out text;
+    answer out;
+    const page p = {sh, &out, parsed_clause(all, "conditioning", 0), lx->error};
     lexer own = hole_lexer(lx, &all->list[0].hole[0]);
-    const bool alone = own.at + own.len == own.end && !conditioning;
+    const bool alone = own.at + own.len == own.end && !p.conditioning;
     if (own.kind == T_END)
         return lex_fail(&own, "explain which quantity? try: explain dW");
     const quantity *bare = alone ? bare_name(&own) : NULL;
-    const bool ok = (bare || read_explained(sh, &own, &e, &asked, &changed, &v)) &&
-                    explain(sh, bare, e, asked, v, conditioning, lx);
+    bool ok = (bare || read_explained(sh, &own, &e, &asked, &changed, &v)) &&
+              text_begin(&text, sh, TEXT_ANSWERS, lx->error);
+    if (ok) {
+        answer_begin(&out, &sh->set, text.to);
+        if (bare && bare->of == OF_INPUT)
+            explain_input(&p, bare);
+        else if (bare)
+            explain_function(&p, bare);
+        else
+            explain_expression(&p, e, asked, v);
+        ok = text_end(&text, !lx->error->raised) && !lx->error->raised;
+    }
     trial_close(changed);
     return ok;
 }
