@@ -242,9 +242,8 @@ static bool draw_plot(shell *sh, lexer *lx, plot_figure *f, const char *file) {
 bool do_plot(shell *sh, lexer *lx, parsed *all) {
     static const char wants[] = "EXPR, ... for NAME = LO .. HI, such as for FN = 1 N .. 9 N";
     char file[FILE_NAME];
-    plot_figure f;
+    plot_figure f = {.count = 0};
     panels p = {.count = 0};
-    plot_figure_init(&f);
     bool ok = read_figures(sh, lx, all->by, wants, &p, file);
     if (ok && sh->share.of && p.count == 1 && panel_is_map(lx, &p.list[0]))
         ok = share_map(sh, lx, &p);
@@ -320,11 +319,10 @@ static bool take_frames(movie *m) {
 
 /* Draws the figures once as a whole, see `motion`, then all frames, and plays or writes these. */
 static bool run_movie(movie *m, lexer *lx, const char *file) {
-    plot_figure whole;
+    plot_figure whole = {.count = 0};
     const size_t frames = m->frames;
     if (file && !file_ends(file, ".gif"))
         return calc_fail(lx->error, 0, 0, "an animation goes to a .gif file or to the terminal");
-    plot_figure_init(&whole);
     bool ok = draw_panels(m->sh, lx, &m->figures, &whole, &m->motion);
     plot_figure_free(&whole);
     m->frame = ok ? calloc(frames, sizeof *m->frame) : NULL;

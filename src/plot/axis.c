@@ -168,18 +168,12 @@ size_t plot_levels(const plot_map *m, double *level, size_t room) {
     if (!(hi - lo > same * fmax(fabs(lo), fabs(hi))))
         return 0;
     if (lo > 0 && hi / lo > 300) { /* at powers of ten, and at 2 and 5 times these if there is room */
-        static const double steps[] = {1, 2, 5};
-        double decades = log10(hi / lo);
-        int each = 3 * decades < (double)room - 1 ? 3 : 1,
-            skip = (int)ceil(decades * each / ((double)room - 1));
-        int e = (int)floor(log10(lo));
-        for (int k = 0; n < room; k += skip) {
-            double v = steps[each == 3 ? k % 3 : 0] * pow(10, e + k / each);
-            if (v >= hi)
-                break;
+        const double decades = log10(hi / lo), skip = ceil(decades / ((double)room - 1));
+        const bool fine = 3 * decades < (double)room - 1;
+        for (double v = pow(10, floor(log10(lo))); v < hi && n < room;
+             v = fine ? plot_step(1.5 * v) : v * pow(10, skip))
             if (v > lo)
                 level[n++] = v;
-        }
         return n;
     }
     double step = plot_step((hi - lo) / (double)room);

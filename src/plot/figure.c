@@ -6,10 +6,6 @@
 
 #include "plot/plot.h"
 
-void plot_figure_init(plot_figure *f) {
-    *f = (plot_figure){.count = 0};
-}
-
 static void series_free(plot_series *s) {
     free(s->title);
     free(s->x);

@@ -2,8 +2,7 @@
 /* Figures: from numbers and texts to a picture in a file or text in the terminal. gnuplot draws them, except
  * for braille dots in a terminal. Depends on text; knows no scene and no quantity.
  *
- *     plot_figure f;
- *     plot_figure_init(&f);
+ *     plot_figure f = {.count = 0};
  *     plot_panel *p = plot_panel_add(&f, error);
  *     p->xlabel = plot_label("dx", "um"), p->ylabel = plot_label("Fx/(mu*FN)", NULL);
  *     plot_series *s = plot_series_add(p, PLOT_CURVE, PLOT_EXPR "k = 0.5" PLOT_END, error);
@@ -105,7 +104,6 @@ typedef struct plot_figure {
     plot_panel *panel[PLOT_PANELS];
 } plot_figure;
 
-void plot_figure_init(plot_figure *f);
 void plot_figure_free(plot_figure *f);
 
 /* Adds a panel; NULL with the error: too many, or out of memory. */

@@ -389,15 +389,13 @@ char *plot_text(const char *text, plot_form form) {
 }
 
 char *plot_label(const char *expression, const char *of) {
-    bool has = of && *of;
-    size_t room = strlen(expression) + (has ? strlen(of) : 0) + 16;
-    char *label = malloc(room), *end = label;
-    if (!label)
+    const bool has = of && *of;
+    file_text made;
+    if (!file_text_open(&made))
         return NULL;
     if (*expression)
-        end += sprintf(end, PLOT_EXPR "%s" PLOT_END "%s", expression, has ? " " : "");
-    *end = 0;
+        fprintf(made.to, PLOT_EXPR "%s" PLOT_END "%s", expression, has ? " " : "");
     if (has)
-        snprintf(end, room - (size_t)(end - label), "[" PLOT_UNIT "%s" PLOT_END "]", of);
-    return label;
+        fprintf(made.to, "[" PLOT_UNIT "%s" PLOT_END "]", of);
+    return file_text_close(&made) ? made.text : NULL;
 }

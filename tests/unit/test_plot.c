@@ -154,8 +154,7 @@ static void quoting(void) {
 /* ---- figures ------------------------------------------------------------------------------------ */
 
 static plot_figure figure(plot_role role, const char *title) {
-    plot_figure f;
-    plot_figure_init(&f);
+    plot_figure f = {.count = 0};
     plot_panel *p = plot_panel_add(&f, fresh());
     CHECK(p && plot_series_add(p, role, title, fresh()));
     return f;
@@ -393,8 +392,7 @@ static double plane(double x, double y) {
 }
 
 static void maps(void) {
-    plot_figure f;
-    plot_figure_init(&f);
+    plot_figure f = {.count = 0};
     plot_panel *p = plot_panel_add(&f, fresh());
     CHECK(plot_map_make(p, 20, 20, fresh()));
     p->map.label = strdup("z");
@@ -627,8 +625,7 @@ static void axes(void) {
 }
 
 static void levels(void) {
-    plot_figure f;
-    plot_figure_init(&f);
+    plot_figure f = {.count = 0};
     plot_panel *p = plot_panel_add(&f, fresh());
     CHECK(!plot_map_make(p, 1, 5, fresh()) && !plot_map_make(p, 5, 501, fresh()));
     CHECK(plot_map_make(p, 10, 10, fresh()));
@@ -863,8 +860,7 @@ static void odd_pages(void) {
 }
 
 static void map_pages(void) {
-    plot_figure f;
-    plot_figure_init(&f);
+    plot_figure f = {.count = 0};
     plot_panel *p = plot_panel_add(&f, fresh());
     CHECK(plot_map_make(p, 20, 20, fresh()));
     for (int i = 0; i < 400; i++) {
@@ -894,8 +890,7 @@ static void refused(const char *tmp) {
                                         {.file = "x.png", .height = -1}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         CHECK(!plot_draw(&f, 1, &sizes[i], NULL, fresh()) && has(error.text, "at most 8000 pixels"));
-    plot_figure none;
-    plot_figure_init(&none);
+    plot_figure none = {.count = 0};
     CHECK(!plot_draw(&none, 1, &(plot_target){.file = "x.png"}, NULL, fresh()) &&
           has(error.text, "there is nothing to plot"));
     CHECK(!write_script(&none, ".png", 0, 0, stdout) && !write_script(&f, ".jpg", 0, 0, stdout));
@@ -1016,15 +1011,13 @@ static void stopped(void) {
     enum { FRAMES = 30, POINTS = 900 };
     const plot_pages pages = {.columns = 60, .rows = 20};
     plot_extents extent[PLOT_PANELS];
-    plot_figure map, frame[FRAMES];
-    plot_figure_init(&map);
+    plot_figure map = {.count = 0}, frame[FRAMES] = {{.count = 0}};
     plot_panel *p = plot_panel_add(&map, fresh());
     CHECK(plot_map_make(p, 200, 200, fresh()));
     fill_map(&p->map, steep);
     extent[0] = plot_settle(p);
     CHECK(written_after(&(plot_reel){&map, 1, extent, 0}, NULL) < 20000); /* all of it: 1 MB */
     for (size_t i = 0; i < FRAMES; i++) {
-        plot_figure_init(&frame[i]);
         p = plot_panel_add(&frame[i], fresh());
         plot_series *s = plot_series_add(p, PLOT_CURVE, NULL, fresh());
         for (size_t j = 0; j < POINTS; j++)
