@@ -140,7 +140,7 @@ void answer_row(answer *a, const long double *si) {
 }
 
 bool answer_shows_next(const answer *a) {
-    return a->form != &answer_as_text || a->headed || a->rows + 1 == TEXT_HELD;
+    return !a->held || a->rows + 1 == TEXT_HELD;
 }
 
 void answer_gap(answer *a) {

@@ -31,8 +31,7 @@ typedef struct answer {
     size_t count; /* of columns */
     const column *columns;
     /* text: the first rows are held until units that suit them are chosen */
-    bool headed;       /* the header has been written */
-    long double *held; /* rows of count values and a flag: a blank line comes before */
+    long double *held; /* rows of count values and a flag, a blank line comes before; then NULL */
     size_t rows;       /* in held */
     bool gap;          /* a blank line comes before the next row */
     int width[COLUMNS];

@@ -98,7 +98,6 @@ static void text_row(const answer *a, const long double *si) {
 }
 
 static void put_held(answer *a) {
-    a->headed = true;
     text_head(a);
     for (size_t row = 0; row < a->rows; row++)
         text_row(a, a->held + row * (a->count + 1));
@@ -113,17 +112,17 @@ static void put_or_hold(answer *a, const long double *si) {
     memcpy(row, si, a->count * sizeof *row);
     row[a->count] = a->gap;
     a->gap = false;
-    if (!a->headed)
+    if (a->held)
         memcpy(a->held + a->rows++ * (a->count + 1), row, (a->count + 1) * sizeof *row);
-    if (a->headed)
+    else
         text_row(a, row);
-    else if (a->rows == TEXT_HELD)
+    if (a->rows == TEXT_HELD)
         put_held(a);
 }
 
 static bool put_text_columns(answer *a, const char *event) {
     (void)event;
-    a->headed = a->gap = false;
+    a->gap = false;
     a->rows = 0;
     a->held = malloc(TEXT_HELD * (a->count + 1) * sizeof *a->held);
     return a->held != NULL;
