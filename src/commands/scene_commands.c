@@ -374,9 +374,7 @@ static void report_misfit(shell *sh, const smooth_answer *a) {
     enum { MISFITS = 4 };
     const double v[MISFITS] = {a->rms, a->worst, a->at, a->offset};
     char text[MISFITS][CALC_VALUE_TEXT];
-    settings brief = sh->set;
     answer event;
-    brief.digits = 3;
     answer_begin(&event, &sh->set, sh->out);
     answer_event(&event, "smooth");
     answer_number(&event, "pieces", (double)a->pieces);
@@ -386,7 +384,7 @@ static void report_misfit(shell *sh, const smooth_answer *a) {
     answer_number(&event, "offset", a->offset);
     answer_done(&event);
     for (int i = 0; i < MISFITS; i++)
-        format_value(&brief, (value){v[i], DIM_LENGTH}, text[i], sizeof text[i]);
+        format_column(&(column){.d = DIM_LENGTH}, 3, v[i], text[i], sizeof text[i]);
     shell_note(sh, "smoothed, %zu piece%s: misfit %s rms, %s at worst (r = %s); f(0) = %s is taken off",
                a->pieces, a->pieces == 1 ? "" : "s", text[0], text[1], text[2], text[3]);
 }
