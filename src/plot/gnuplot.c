@@ -113,7 +113,7 @@ static end wait_for(pid_t pid, int guard, const plot_target *target, double time
     }
 }
 
-/* The last message of gnuplot without its place, and without control characters. */
+/* The last message of gnuplot without its place. */
 static void last_message(const plot_run *r, char *text, size_t size) {
     char line[300];
     *text = 0;
@@ -127,9 +127,8 @@ static void last_message(const plot_run *r, char *text, size_t size) {
         if (*said)
             snprintf(text, size, "%s", said);
     }
-    char *clean = plot_text(text, PLOT_UNICODE);
-    snprintf(text, size, "%s", clean && *clean ? clean : "no message");
-    free(clean);
+    if (!*text)
+        snprintf(text, size, "no message");
 }
 
 static const char missing[] =

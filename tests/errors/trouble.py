@@ -210,7 +210,7 @@ def gnuplot(tests):
     expect(tests, "no gnuplot is needed for a script", tests.run("-c", plot + " to x.gp", env={"PATH": empty}), 0)
     path = tests.env["PATH"]
     for name, script, err in (("fails", "echo 'something is wrong' >&2; exit 1", "something is wrong"),
-                              ("fails in silence", "exit 3", "gnuplot failed"),
+                              ("fails in silence", "exit 3", "gnuplot failed: no message"),
                               ("is killed", "kill -9 $$", "gnuplot failed"), ("draws nothing", "exit 0", "gnuplot drew nothing"),
                               ("fails with a place", "echo 'some line 7: something is wrong' >&2; exit 1", "something is wrong"),
                               ("fails at the beginning of a line", "echo 'line 7: \t^ it is wrong' >&2; echo >&2; exit 1", "it is wrong"),
@@ -218,7 +218,7 @@ def gnuplot(tests):
                               ("fails with words and a colon", "echo 'an outline of: it' >&2; exit 1", "an outline of: it"),
                               ("fails with words of a place", "echo 'a line without place' >&2; exit 1", "gnuplot failed: a line without place"),
                               ("is found too late", "exit 127", "plots need gnuplot, which is not installed"),
-                              ("fails with bytes", "printf '\\033[31m\\377' >&2; exit 1", "?[31m?")):
+                              ("fails with bytes", "printf '\\033[31m\\377' >&2; exit 1", "\\x1b[31m\\xff")):
         with fake_gnuplot(tests, script) as fake:
             env = {"PATH": fake + ":" + path}
             expect(tests, "gnuplot %s, to a file" % name, tests.run("-c", plot + " to " + png, env=env), 1, "", err)

@@ -263,7 +263,7 @@ def messages(tests):
         f.write("#!/bin/sh\nprintf 'line 3: \\033[31mred\\007 \\342\\200\\256back\\n' >&2; exit 1\n")
     os.chmod(os.path.join(fake, "gnuplot"), 0o755)
     done = tests.run("-c", SCENE + "plot loop", env={"PATH": fake + ":" + tests.env["PATH"]})
-    tests.check("gnuplot's message", done.returncode == 1 and "gnuplot failed: ?[31mred? ?back" in done.stderr and
+    tests.check("gnuplot's message", done.returncode == 1 and "gnuplot failed: \\x1b[31mred\\x07 \\u202eback" in done.stderr and
                 not re.search("[\033\007\u202e]", done.stderr), tests.report(done))
 
 
