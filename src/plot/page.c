@@ -84,7 +84,9 @@ static void make_ruler(page_ruler *r, const plot_axis *axis, int cells, int gap)
         return;
     }
     double best = -1, width = a->hi - a->lo;
-    for (double step = plot_step(width / cells); step <= 1.0001 * width; step = plot_step(1.5 * step)) {
+    /* steps wider than the range only where all others would put the tics too close */
+    for (double step = plot_step(width / cells); step <= (best < 0 ? 10 : 1.0001) * width;
+         step = plot_step(1.5 * step)) {
         double lo = floor(axis->lo / step + 1e-6), hi = ceil(axis->hi / step - 1e-6);
         int n = (int)(hi - lo), each = cells / n;
         if (each < gap || n > PAGE_TICS - 1)

@@ -149,6 +149,9 @@ def points(tests):
     rows = tests.run("-c", "set plot 60x12\nplot x^2 for x = 1 .. 1e6 log log xy").stdout.splitlines()
     tests.check("decades along the axes in the terminal", [rows[i].split()[0] for i in (1, 4, 6, 9)] == ["1e+12", "1e+08", "10000", "1"]
                 and rows[10].split() == ["1", "100", "10000", "1e+06"], "\n".join(rows))
+    for kind in ("dumb", "block"):
+        rows = tests.run("-c", SCENE + "set plot terminal %s; set plot 30x20; plot springs" % kind).stdout.splitlines()
+        tests.check("numbers below a narrow page, " + kind, ["-500", "0", "500"] in [row.split() for row in rows], "\n".join(rows))
     for lo in (1, 10, 100, 10000):
         rows = tests.run("-c", "set plot 60x12; plot x for x = %d .. %d log; plot x^2 for x = %d .. %d log to l.svg" % (2 * (lo, 10 * lo)),
                          cwd=where).stdout.splitlines()
