@@ -123,7 +123,7 @@ static bool scan(search *s) {
         return false;
     for (unsigned i = 0; i <= s->places; i++) {
         const place *p = &s->at[i];
-        if (p->f == 0)
+        if (p->f == 0 && !(i && i < s->places && opposite(p[-1].f, -p[1].f))) /* else search_dips does it */
             add_bracket(s, *p, *p);
         else if (i && opposite(p->f, p[-1].f))
             add_bracket(s, p[-1], *p);
@@ -182,7 +182,7 @@ static fret_real side_distance(fret_real x, fret_real *slope, void *context) {
     search *s = context;
     place p = {.x = (double)x};
     (void)slope;
-    if (s->dip.f * s->side <= 0)
+    if (s->dip.f * s->side < 0)
         return 0;
     p.f = difference(s, p.x);
     if (p.f * s->side < s->dip.f * s->side)
@@ -190,9 +190,9 @@ static fret_real side_distance(fret_real x, fret_real *slope, void *context) {
     return p.f * s->side;
 }
 
-/* Same sign and |f| at a larger than at b, by more than rounding. */
+/* No change of sign and |f| at a larger than at b, by more than rounding. */
 static bool further(place a, place b) {
-    return a.f * b.f > 0 && fabs(a.f) - fabs(b.f) > 1e-9 * fabs(b.f);
+    return !opposite(a.f, b.f) && fabs(a.f) - fabs(b.f) > 1e-9 * fabs(b.f);
 }
 
 static bool as_far(place a, place b) {
@@ -203,6 +203,8 @@ static bool as_far(place a, place b) {
 static bool go_nearer(search *s, place a, place b, place c) {
     static const double touching = 1e-13; /* |f| relative to that at a and c: what rounding leaves */
     const bool first = as_far(a, b);
+    if (b.f == 0 && !opposite(a.f, -c.f)) /* the scan has it: they cross at b, or are equal at c too */
+        return true;
     if (first || as_far(c, b)) { /* two equal places: the minimum lies between them, or f is constant */
         const place other = first ? a : c;
         place mid = {.x = middle(s, b.x, other.x)};
@@ -220,7 +222,7 @@ static bool go_nearer(search *s, place a, place b, place c) {
             c = other;
         }
     }
-    s->side = b.f > 0 ? 1 : -1;
+    s->side = a.f > 0 ? 1 : -1;
     s->dip = b;
     const double lo = fmin(a.x, c.x), hi = fmax(a.x, c.x), part = 1e-5, apart = part * (hi - lo),
                  far = fmin(fabs(a.f), fabs(c.f));
@@ -253,8 +255,9 @@ static bool search_end(search *s, place end, place next) {
     p.f = difference(s, p.x);
     if (s->p.error->raised)
         return false;
-    if (opposite(p.f, end.f)) {
-        add_bracket(s, end, p);
+    if (opposite(p.f, next.f)) {
+        if (end.f != 0)
+            add_bracket(s, end, p);
         add_bracket(s, p, next);
         return true;
     }
