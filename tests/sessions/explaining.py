@@ -22,7 +22,7 @@ TOLD = (
     (PRESSED + "x = 5 N; half(y) := dW(x)/y\n", "half(2)", ("dW: energy dissipated per cycle", r"    dW\(x\) = 21\.36\d+ nJ"), ()),
     (PRESSED + "set model springs 50; cycle FA=9 N FNA=10 N times 1000\n", "W", ("    model: 50 springs, by 640 chords a period of the sine and fewer, extrapolated",), ("    cycle: ",)),
     (PRESSED + "cycle dxA=3 um\n", "dW", (r"        gross slip adds 4 mu F_N \(dxA-dxmax\)  \(27\)",), ()),
-    (PRESSED + "step dx=3 um\n", "dx", (r"    delta_x = .*; gross slip goes on from there",), ()),
+    (PRESSED + "step dx=3 um\n", "dx", (r"    \|delta_x\| = .*; gross slip goes on from there",), ()),
     (PRESSED + "second aluminium\n", "dW(20 N)", (r"    dW = .*/\(n \(2n\+k\+1\) 2 c_T0 a\^\(k\+1\)\)\]",), ()),
     (PRESSED + "c0 = 1 mm\n", "(dW(5 N) at k=0.2)/dW(20 N)", (r"    dW\(20 N\) = 1\.90646 uJ",), (r"    dW\(5 N\) = ",)),
     (PRESSED + "y := 1 + dW((dW(2 N)/dW(2 N))*20 N)/(1 J)\n", "y", (r"    dW\(2 N\) = .*",), ()),
