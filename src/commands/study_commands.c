@@ -69,6 +69,11 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
     answer_done(&event);
     if (a->touches)
         shell_note(sh, "the two sides touch there without crossing: at most 8 digits are certain");
+    if (a->level) {
+        calc_value_text(q->name.d, a->from, lo);
+        calc_value_text(q->name.d, a->to, hi);
+        shell_note(sh, "the two sides are equal for every %s from %s to %s", q->name.text, lo, hi);
+    }
     if (a->jumps)
         shell_note(sh, "elsewhere the difference of the two sides jumps through 0; a root close to the jump "
                        "may be missed");

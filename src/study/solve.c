@@ -36,14 +36,19 @@ typedef struct search {
     place dip;      /* smallest |f| found in the present search */
     double side;    /* sign of f in the present search */
     bool touches;
-    bool pole;   /* a place without a value lies between two that have one */
-    bool swings; /* f has several extrema over the scan */
-    double jump; /* a place where f jumps through 0 */
+    bool pole;       /* a place without a value lies between two that have one */
+    bool swings;     /* f has several extrema over the scan */
+    double jump;     /* a place where f jumps through 0 */
+    bool level;      /* f is 0 all the way between two places, as c is in gross slip */
+    double from, to; /* the last two such places */
 } search;
 
-/* f = left - right; NaN: p.error is raised. */
+/* f = left - right, 0 if both are the same double: mu FN at 0.3 and 100 N is short of 30 N by rounding.
+ * NaN: p.error is raised. */
 static double apart(search *s, const value v[2]) {
-    return points_keep_sides(&s->p, v, &s->d, &s->known) ? (double)(v[0].v - v[1].v) : (double)NAN;
+    if (!points_keep_sides(&s->p, v, &s->d, &s->known))
+        return (double)NAN;
+    return (double)v[0].v == (double)v[1].v ? 0 : (double)(v[0].v - v[1].v);
 }
 
 /* f at a place; NaN: no value, or p.error is raised. */
@@ -114,27 +119,53 @@ static bool take_place(void *context, size_t i, const value v[], const calc_erro
     return true;
 }
 
+/* Is f 0 at both, and not only there? */
+static bool are_level(search *s, place a, place b) {
+    return a.f == 0 && b.f == 0 && difference(s, middle(s, a.x, b.x)) == 0;
+}
+
+/* Where a stretch with f 0 ends, between one of its places and a place beyond: that is a root, too. */
+static double end_of_level(search *s, double level, double beyond) {
+    for (unsigned i = 0; i < EDGE && !s->p.error->raised; i++) {
+        const double mid = middle(s, level, beyond);
+        *(difference(s, mid) == 0 ? &level : &beyond) = mid;
+    }
+    add_bracket(s, (place){level, 0}, (place){level, 0});
+    return level;
+}
+
+/* Adds the brackets at place i, of which those inside a stretch with f 0 are none. */
+static void look_at(search *s, unsigned i) {
+    const place *p = &s->at[i];
+    const bool first = i == 0, last = i == s->places, before = !first && are_level(s, p[-1], *p),
+               after = !last && are_level(s, *p, p[1]);
+    s->level = s->level || after;
+    if (after && !before)
+        s->from = first ? p->x : end_of_level(s, p->x, p[-1].x);
+    if (before && !after)
+        s->to = last ? p->x : end_of_level(s, p->x, p[1].x);
+    if (before || after)
+        return;
+    if (p->f == 0 && (first || last || !opposite(p[-1].f, -p[1].f))) /* else search_dips does it */
+        add_bracket(s, *p, *p);
+    else if (!first && opposite(p->f, p[-1].f))
+        add_bracket(s, p[-1], *p);
+}
+
 static bool scan(search *s) {
     enum { TURNS = 3 }; /* a cubic has 2 extrema */
-    bool equal = true;
     unsigned turns = 0;
     if (!points_go(&s->p, &(points_run){
                               .count = s->places + 1, .give = give_place, .take = take_place, .context = s}))
         return false;
     for (unsigned i = 0; i <= s->places; i++) {
         const place *p = &s->at[i];
-        if (p->f == 0 && !(i && i < s->places && opposite(p[-1].f, -p[1].f))) /* else search_dips does it */
-            add_bracket(s, *p, *p);
-        else if (i && opposite(p->f, p[-1].f))
-            add_bracket(s, p[-1], *p);
-        equal = equal && p->f == 0;
+        look_at(s, i);
         turns += i > 1 && opposite(p->f - p[-1].f, p[-1].f - p[-2].f);
         s->pole = s->pole || (i > 1 && isnan(p[-1].f) && !isnan(p[-2].f) && !isnan(p->f));
     }
     s->swings = turns >= TURNS;
-    if (equal)
-        s->roots = 0; /* equal everywhere: the sides do not depend on the name */
-    return true;
+    return !s->p.error->raised;
 }
 
 /* Halves the interval between a place without a value and one with: a root may hide there. */
@@ -255,6 +286,15 @@ static bool search_end(search *s, place end, place next) {
     p.f = difference(s, p.x);
     if (s->p.error->raised)
         return false;
+    if (are_level(s, end, p)) { /* so that the end is no root of its own, as the scan took it */
+        for (unsigned i = 0; i < s->roots; i++)
+            if (s->root[i].x == end.x)
+                s->root[i] = s->other[i] = s->root[--s->roots];
+        s->level = true;
+        s->from = end.x;
+        s->to = end_of_level(s, p.x, next.x);
+        return true;
+    }
     if (opposite(p.f, next.f)) {
         if (end.f != 0)
             add_bracket(s, end, p);
@@ -283,6 +323,7 @@ static bool search_dips(search *s) {
 static bool look_for_roots(search *s, unsigned places) {
     s->places = places;
     s->roots = 0;
+    s->level = false;
     return scan(s) && search_edges(s) && search_dips(s);
 }
 
@@ -301,8 +342,8 @@ static bool no_root(search *s, calc_error *error) {
         below = below || s->at[i].f < 0;
         above = above || s->at[i].f > 0;
     }
-    calc_value_text(k->d, s->lo, from);
-    calc_value_text(k->d, s->hi, to);
+    calc_value_text(k->d, fmin(s->lo, s->hi), from);
+    calc_value_text(k->d, fmax(s->lo, s->hi), to);
     if (isnan(best.f)) {
         const calc_error last = s->p.none;
         value v[2];
@@ -417,6 +458,9 @@ static bool answer_root(search *s, solve_answer *out, calc_error *error) {
         return several(s, error);
     out->evaluations = s->p.evaluations;
     out->touches = s->touches;
+    out->level = s->level;
+    out->from = fmin(s->from, s->to);
+    out->to = fmax(s->from, s->to);
     return true;
 }
 

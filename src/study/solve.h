@@ -17,7 +17,9 @@ typedef struct solve_answer {
     double x;
     double lo, hi; /* the bracket that the method began with */
     unsigned evaluations;
-    bool jumps;   /* the difference jumps through 0 elsewhere: a root near the jump may be missed */
+    bool jumps; /* the difference jumps through 0 elsewhere: a root near the jump may be missed */
+    bool level; /* the sides are equal all the way between two places, of which x is one */
+    double from, to;
     bool touches; /* the sides touch without crossing: half of the digits are lost */
 } solve_answer;
 
@@ -25,7 +27,7 @@ typedef struct solve_answer {
  * it searches that of an input with two ends, else three decades on either side of the present value. Minima
  * of the distance of the sides are searched by golden section: two roots or a tangency may hide there. If the
  * difference jumps, swings, touches 0 or has no root, a finer scan follows. Errors: no root, with the nearest
- * place and the limit of the scene; several roots; a jump instead of a root. */
+ * place and the limit of the scene; several roots; a jump instead. */
 bool solve(const solve_question *question, solve_answer *out, calc_error *error);
 
 #endif
