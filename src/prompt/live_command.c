@@ -66,7 +66,6 @@ static bool show_screen(shell *sh, const char *screen, calc_error *error) {
 
 static bool run_live(shell *sh, const char *const *script, calc_error *error) {
     const settings before = sh->set;
-    const bool nested = sh->on_screen;
     const live_host host = {.self = sh,
                             .calc = &sh->calc,
                             .digits = &sh->set.digits,
@@ -86,7 +85,7 @@ static bool run_live(shell *sh, const char *const *script, calc_error *error) {
     sh->set.color = before.color;
     sh->set.color_out = before.color_out;
     sh->set.pages = before.pages;
-    sh->on_screen = nested;
+    sh->on_screen = false;
     ok = (!screen || show_screen(sh, screen, error)) && ok;
     free(screen);
     if (ok && sh->set.timing && work.frames)
@@ -97,6 +96,8 @@ static bool run_live(shell *sh, const char *const *script, calc_error *error) {
 
 bool shell_live(shell *sh, const char *path, calc_error *error) {
     lesson_text script = {.title = NULL};
+    if (sh->on_screen)
+        return calc_fail(error, 0, 0, "the full-screen mode is on already");
     bool ok = !path || lesson_lines(path, &script, error);
     if (!sh->replaying) /* a transcript holds the statements that were run on the screen after `live` */
         ok = ok && run_live(sh, path ? (const char *const *)script.line : NULL, error);

@@ -1162,17 +1162,19 @@ def completed(tests):
     tests.check("Tab beyond it", live.key("\x7f", lambda s: live.status().endswith("  geometr")), live.screen.text())
     tests.check("Tab before much else", live.key("\x15geomet " + 300 * "x" + "y\x01" + 6 * "\x1b[C" + "\t\x05", lambda s: live.status().endswith("xy")) and
                 live.key("\x01", lambda s: live.status().startswith(":geometry  x")), live.screen.text())
-    live.end("\x15q")
+    live.key("\x15live\r", lambda s: "full-screen mode is on already" in live.status())
+    tests.check("no screen within the screen", live.key("u", lambda s: "undo" in live.status()), live.screen.text())
     for word in ("on", "off"):
-        live = at_prompt(tests, SCENE)
         live.key(":set report %s\r" % word, "set report " + word)
         live.child.send("q")
         live.wait(lambda s: not s.modes.get(1049))
         live.child.send("show settings\r")
         tests.check("what is set there stays set: " + word, live.wait(r"set timing \w+") and
                     "set report %s\n" % word in live.screen.text(), live.screen.text())
-        live.child.send("\x04")
-        live.gone()
+        live.child.send("live\r")
+        live.wait(lambda s: s.modes.get(1049))
+    live.key("q", lambda s: not s.modes.get(1049))
+    live.end("\x04")
 
 
 def dragged(tests):
