@@ -62,6 +62,12 @@ static void report_solve(shell *sh, const solve_question *q, const solve_answer 
     answer_number(&event, NULL, a->lo);
     answer_number(&event, NULL, a->hi);
     answer_up(&event);
+    if (a->level) {
+        answer_items(&event, "level");
+        answer_number(&event, NULL, a->from);
+        answer_number(&event, NULL, a->to);
+        answer_up(&event);
+    }
     if (a->touches)
         answer_flag(&event, "touches", true);
     if (a->jumps)
